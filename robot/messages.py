@@ -1,0 +1,329 @@
+"""Every message that crosses from one process to another: frozen, stamped, SI.
+
+Frames (docs/frames.md): W world; N odometry (the controller's own: smooth, drifting); B base
+(pelvis); C camera; L, R soles; G grasp point of a hand; O object.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from robot.errors import Failure
+from robot.se3 import SE3, Vector3
+
+Side = Literal["left", "right"]
+Mode = Literal["damping", "stand", "walk", "fallen"]
+Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
+Source = Literal["oracle", "emulated", "sensor", "estimate"]
+
+
+class Message(msgspec.Struct, frozen=True, kw_only=True):
+    """A message; `stamp_s` is the sender's clock when the content was true."""
+
+    stamp_s: float
+
+
+# --- executive -> controller -------------------------------------------------------------------
+
+
+class Command(Message, frozen=True, kw_only=True, tag=True):
+    """A request to the body. `id` grows; `Activity.id` in the state answers it."""
+
+    id: int
+
+
+class Damp(Command, frozen=True, kw_only=True):
+    """Let every motor damp (kp = 0, velocity target 0)."""
+
+
+class Stand(Command, frozen=True, kw_only=True):
+    """Stand on both feet where they are; finish the step first if walking.
+
+    `height_m` is the base height wanted above the soles (None: nominal), `pitch_rad` a lean of the
+    trunk by the waist, `yaw_rad` a turn of it.
+    """
+
+    height_m: float | None = None
+    pitch_rad: float = 0.0
+    yaw_rad: float = 0.0
+
+
+class OneLeg(Command, frozen=True, kw_only=True):
+    """Shift onto `side` and lift the other foot for `duration_s`, then stand again."""
+
+    side: Side
+    duration_s: float
+
+
+class Walk(Command, frozen=True, kw_only=True):
+    """Walk at a twist in the base's heading frame [m/s, rad/s]; dies out after `hold_s`."""
+
+    forward_m_s: float = 0.0
+    left_m_s: float = 0.0
+    turn_rad_s: float = 0.0
+    hold_s: float = 0.5
+
+
+class WalkTo(Command, frozen=True, kw_only=True):
+    """Step to a stance: the midpoint of the soles at X_NS (x, y, yaw), then stand."""
+
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    position_tolerance_m: float = 0.015
+    yaw_tolerance_rad: float = 0.03
+
+
+class MoveArm(Command, frozen=True, kw_only=True):
+    """Follow a joint trajectory.
+
+    `times_s` from now, shape (k,); `positions_rad` shape (k, joints of the arm), in the order of
+    the description's group; interpolated by a C2 (cubic) spline, at rest at both ends.
+    """
+
+    side: Side
+    times_s: tuple[float, ...]
+    positions_rad: tuple[tuple[float, ...], ...]
+
+
+class MoveHand(Command, frozen=True, kw_only=True):
+    """Move the grasp frame on a straight line to X_NG, corrected for the body's motion, and hold.
+
+    With `stop_load_n`, a downward line also ends when the wrist's vertical load has changed by
+    that much (contact).
+    """
+
+    side: Side
+    X_NG: SE3
+    speed_m_s: float = 0.15
+    stop_load_n: float | None = None
+
+
+class Grip(Command, frozen=True, kw_only=True):
+    """Open or close the fingers to `opening_m` with at most `force_n` a finger."""
+
+    side: Side
+    opening_m: float
+    force_n: float = 15.0
+
+
+class Look(Command, frozen=True, kw_only=True):
+    """Turn the head's camera towards a point of N [m]."""
+
+    p_N: Vector3
+
+
+class Payload(Command, frozen=True, kw_only=True):
+    """Tell the body what a hand carries, centre of mass at the grasp point (0 kg: nothing)."""
+
+    side: Side
+    mass_kg: float
+
+
+BodyCommand = (
+    Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | Grip | Look | Payload
+)
+
+
+# --- controller -> everybody -------------------------------------------------------------------
+
+
+class Activity(msgspec.Struct, frozen=True, kw_only=True):
+    """What a channel does about the last command sent to it."""
+
+    id: int
+    status: Literal["running", "done", "failed"]
+    detail: str = ""
+
+
+class HandState(msgspec.Struct, frozen=True, kw_only=True):
+    """One hand: grasp pose, measured opening [m] and opening speed [m/s], force at the wrist.
+
+    `load_n` is the vertical force the hand bears beyond its own weight [N], low-pass filtered.
+    """
+
+    X_NG: SE3
+    opening_m: float
+    opening_m_s: float
+    load_n: float
+
+
+class BodyState(Message, frozen=True, kw_only=True):
+    """The body as the controller believes it to be; estimated, not true.
+
+    `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
+    `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m].
+    """
+
+    mode: Mode
+    X_NB: SE3
+    v_NB: Vector3
+    w_NB: Vector3
+    X_NL: SE3
+    X_NR: SE3
+    X_NS: SE3
+    left_contact: bool
+    right_contact: bool
+    q_rad: tuple[float, ...]
+    qd_rad_s: tuple[float, ...]
+    tau_nm: tuple[float, ...]
+    com_N: Vector3
+    dcm_N: tuple[float, float]
+    zmp_N: tuple[float, float]
+    hands: dict[Side, HandState]
+    activities: dict[Channel, Activity]
+    clamped: int = 0
+    refused: int = 0
+    temperature_c: tuple[float, ...] = ()
+    failure: Failure | None = None
+
+
+# --- sensors and oracle ------------------------------------------------------------------------
+
+
+class DepthImage(Message, frozen=True, kw_only=True):
+    """Depth along the optical axis [m], float32 row-major bytes, 0 where nothing was hit."""
+
+    width: int
+    height: int
+    fovy_rad: float
+    depth_m: bytes
+    source: Source = "emulated"
+
+
+class LidarScan(Message, frozen=True, kw_only=True):
+    """Ranges [m] of a planar scan in the lidar's frame, counter-clockwise from -pi; inf: no hit."""
+
+    angle_min_rad: float
+    angle_step_rad: float
+    ranges_m: tuple[float, ...]
+    source: Source = "emulated"
+
+
+class PoseFix(Message, frozen=True, kw_only=True):
+    """Where the base is in the world, absolutely, at the stamp."""
+
+    X_WB: SE3
+    source: Source
+
+
+class Sighting(msgspec.Struct, frozen=True, kw_only=True):
+    """One object seen by the head camera."""
+
+    id: str
+    X_CO: SE3
+
+
+class Sightings(Message, frozen=True, kw_only=True):
+    """What the head camera sees in one frame; `in_view` names known objects whose last known
+    place was in clear view without being seen is left to the world model.
+    """
+
+    objects: tuple[Sighting, ...]
+    people: tuple[Sighting, ...] = ()
+    source: Source = "oracle"
+
+
+# --- the world ---------------------------------------------------------------------------------
+
+
+class Shape(msgspec.Struct, frozen=True, kw_only=True):
+    """A primitive: `size_m` is (x, y, z) of a box, (diameter, diameter, height) of a cylinder."""
+
+    kind: Literal["box", "cylinder"]
+    size_m: Vector3
+    X_BodyShape: SE3 = SE3()
+
+
+class Obstacle(msgspec.Struct, frozen=True, kw_only=True):
+    """A rigid body that does not move by itself: furniture, walls, people's outlines."""
+
+    id: str
+    name: str
+    X_WO: SE3
+    shapes: tuple[Shape, ...]
+    movable: bool = False
+
+
+class Place(msgspec.Struct, frozen=True, kw_only=True):
+    """A surface that things are put on: a rectangle with its centre and axes X_WP, z up.
+
+    `size_m` its extent along x and y; `clearance_m` the free height above it; `of` the furniture.
+    `floor` places (rooms, spots) are walked to and have no surface.
+    """
+
+    id: str
+    name: str
+    X_WP: SE3
+    size_m: tuple[float, float]
+    clearance_m: float = 2.0
+    of: str = ""
+    room: str = ""
+    floor: bool = False
+    synonyms: tuple[str, ...] = ()
+
+
+class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
+    """What is known of an object before it is seen (from the world file: an oracle's knowledge)."""
+
+    id: str
+    name: str
+    category: str
+    color: str
+    shape: Shape
+    mass_kg: float
+    synonyms: tuple[str, ...] = ()
+
+
+class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):
+    """A person as the world file gives them."""
+
+    id: str
+    name: str
+    X_WO: SE3
+    radius_m: float = 0.25
+
+
+class WorldMap(Message, frozen=True, kw_only=True):
+    """The prior map: what does not change by itself. Until there is SLAM it is the world file's."""
+
+    name: str
+    obstacles: tuple[Obstacle, ...]
+    places: tuple[Place, ...]
+    objects: tuple[ObjectInfo, ...]
+    people: tuple[PersonInfo, ...]
+    categories: dict[str, str]
+    bounds_m: tuple[float, float, float, float]
+    start_X_WS: SE3 = SE3()
+    source: Source = "oracle"
+
+
+class Track(msgspec.Struct, frozen=True, kw_only=True):
+    """Where an object is believed to be.
+
+    `seen_s` is when it was last seen (-inf: never, then X_WO is None); `missing` is set when its
+    place was in clear view and it was not there; `held_by` while a hand has it.
+    """
+
+    id: str
+    X_WO: SE3 | None
+    seen_s: float
+    missing: bool = False
+    held_by: Side | None = None
+
+
+class WorldState(Message, frozen=True, kw_only=True):
+    """The world model: localisation and everything tracked.
+
+    `X_WN` takes the controller's odometry frame to the world: `X_WB = X_WN @ X_NB`.
+    `blocked_m` is the free distance [m] ahead of the robot seen by the lidar, inf if unknown.
+    """
+
+    X_WN: SE3
+    X_WB: SE3
+    fix_age_s: float
+    tracks: tuple[Track, ...]
+    unmapped: tuple[Obstacle, ...] = ()
+    source: Source = "oracle"
