@@ -1,0 +1,46 @@
+# `make` alone lists what there is. PYTHON=... picks the interpreter of a new environment,
+# ARGS="..." goes to the program that the target runs.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.PHONY: help demo test check format bench lock clean env env-dev
+
+PYTHON ?=
+ARGS ?=
+BIN := .venv/bin
+PACKAGES := executive intents robot sim
+MISSION := pick up the red cup and put it on the shelf
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-7s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+demo: env ## set up, then watch a humanoid put the red cup on the shelf
+	@$(BIN)/humanoid do "$(MISSION)" $(ARGS)
+
+test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
+	@$(BIN)/python -m pytest $(ARGS)
+
+check: env-dev ## format, lint, types (pyright strict), who imports whom
+	@$(BIN)/ruff format --check .
+	@$(BIN)/ruff check .
+	@$(BIN)/basedpyright
+	@$(BIN)/lint-imports
+
+format: env-dev ## let ruff format and repair what it can
+	@$(BIN)/ruff format .
+	@$(BIN)/ruff check --fix .
+
+bench: env-dev ## measure; figures go to docs/benchmarks.md
+	@$(BIN)/python -m benchmarks $(ARGS)
+
+lock: ## resolve pyproject.toml into hashed lock files (ARGS=--upgrade for newer pins)
+	@scripts/lock $(or $(PYTHON),python3) $(ARGS)
+
+clean: ## remove the environment and everything generated
+	rm -rf .venv .venv.lock build dist runs .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	find $(PACKAGES) tests -name __pycache__ -prune -exec rm -rf {} +
+
+env:
+	@scripts/environment run $(PYTHON)
+
+env-dev:
+	@scripts/environment dev $(PYTHON)
