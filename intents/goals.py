@@ -23,7 +23,16 @@ Superlative = Literal[
     "leftmost", "rightmost", "nearest", "farthest", "highest", "lowest", "oldest", "youngest",
 ]  # fmt: skip
 How = Literal[
-    "on", "under", "above", "in", "behind", "in_front", "left", "right", "near", "between"
+    "on",
+    "under",
+    "above",
+    "in",
+    "behind",
+    "in_front",
+    "left",
+    "right",
+    "near",
+    "between",
 ]
 Side = Literal["left", "right", "forward", "backward"]
 BalanceMode = Literal["stand", "squat", "one_leg", "lean", "sit"]

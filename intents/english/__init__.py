@@ -1,0 +1,1 @@
+"""English: the words, and how noun phrases and clauses are made of them."""

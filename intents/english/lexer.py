@@ -1,0 +1,110 @@
+"""Text to tokens: lower case, contractions undone, punctuation reduced to three signs."""
+
+import re
+import unicodedata
+from typing import NamedTuple
+
+COMMA = ","
+FULL_STOP = "."
+QUOTE = '"'
+"""The text of a quoted token; what was quoted is in ``raw``."""
+
+
+class Token(NamedTuple):
+    """A word, a number, a quotation or a sign.
+
+    Attributes:
+        text: Lower case; punctuation is ``COMMA`` or ``FULL_STOP``, a quotation ``QUOTE``.
+        raw: As it was written.
+    """
+
+    text: str
+    raw: str
+
+
+_UNITS = r"(?:m|cm|mm|km|s|sec|secs|min|mins|h|ms|deg|degs|rad|ft|x)\b"
+_TOKEN = re.compile(
+    rf"""  "(?P<quote>[^"]+)"
+    | (?<!\w)'(?P<single>[^']*\ [^']*)'(?!\w)
+    | (?P<number>\d+(?:[.,]\d+)?)(?=\s|[^\w]|{_UNITS}|$)
+    | (?P<word>[^\W_]+(?:'[^\W_]+)*)
+    | (?P<degree>°)
+    | (?P<stop>[.!?]+)
+    | (?P<comma>[,;:()]|--+|\s-\s)""",
+    re.VERBOSE,
+)
+_QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"', "”": '"', "„": '"',
+                         "«": '"', "»": '"', "\t": " ", "\n": " ", "\r": " "})  # fmt: skip
+_IS = {"what", "where", "who", "how", "which", "there", "here", "that", "it", "he", "she", "this",
+       "when", "why"}  # fmt: skip  # "what's" holds a verb, "Julia's" does not
+_WHOLE = {
+    "let's": ("let", "us"), "won't": ("will", "not"), "can't": ("can", "not"),
+    "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
+    "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
+    "thats": ("that", "is"), "dont": ("do", "not"), "gimme": ("give", "me"),
+    "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
+    "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
+    "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "till": ("until",),
+}  # fmt: skip
+_ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
+            ("'m", "am"))  # fmt: skip
+
+
+def tokenize(text: str) -> list[Token]:
+    """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
+    text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
+    tokens: list[Token] = []
+    for match in _TOKEN.finditer(text):
+        kind, raw = match.lastgroup, match.group()
+        if kind in ("quote", "single"):
+            tokens.append(Token(QUOTE, raw[1:-1].strip()))
+        elif kind == "number":
+            tokens.append(Token(raw.replace(",", "."), raw))
+        elif kind == "degree":
+            tokens.append(Token("degrees", raw))
+        elif kind == "stop":
+            tokens.append(Token(FULL_STOP, raw))
+        elif kind == "comma":
+            tokens.append(Token(COMMA, raw))
+        else:
+            tokens.extend(_words(raw))
+    return tokens
+
+
+def _words(raw: str) -> list[Token]:
+    """One written word as tokens: contractions come apart, possessives become "'s"."""
+    word = raw.lower()
+    if word in _WHOLE:
+        return [Token(w, w) for w in _WHOLE[word]]
+    for ending, meaning in _ENDINGS:
+        if word.endswith(ending) and len(word) > len(ending):
+            return [
+                Token(word[: -len(ending)], raw[: -len(ending)]),
+                Token(meaning, meaning),
+            ]
+    if word.endswith("'s") and len(word) > 2:
+        stem = Token(word[:-2], raw[:-2])
+        return [stem, Token("is", "is") if stem.text in _IS else Token("'s", "'s")]
+    return [Token(word.replace("'", ""), raw)]
+
+
+_IRREGULAR = {
+    "knives": "knife", "shelves": "shelf", "loaves": "loaf", "leaves": "leaf", "halves": "half",
+    "people": "person", "persons": "person", "men": "man", "women": "woman", "mice": "mouse",
+    "children": "child", "feet": "foot", "cookies": "cookie", "teeth": "tooth", "lens": "lens",
+    "veggies": "veggie", "ladies": "lady", "movies": "movie", "brownies": "brownie",
+    "smoothies": "smoothie", "scarves": "scarf", "grey": "gray", "pies": "pie", "ties": "tie",
+}  # fmt: skip
+
+
+def singular(word: str) -> str:
+    """The singular of a noun; a singular noun is left alone."""
+    if word in _IRREGULAR:
+        return _IRREGULAR[word]
+    if len(word) <= 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
+        return word
+    if word.endswith("ies"):
+        return word[:-3] + "y"
+    if word.endswith(("ches", "shes", "xes", "sses", "zes", "toes")):
+        return word[:-2]
+    return word[:-1]

@@ -1,0 +1,253 @@
+"""The closed classes of English words that the grammar knows. Data only."""
+
+from typing import Literal, TypeVar
+
+from intents.goals import How, Superlative
+
+Phrase = tuple[str, ...]
+T = TypeVar("T")
+
+
+def words(text: str) -> frozenset[str]:
+    """The words of a text."""
+    return frozenset(text.split())
+
+
+def phrases(text: str) -> frozenset[Phrase]:
+    """The phrases of a text, which stand between commas."""
+    return frozenset(tuple(phrase.split()) for phrase in text.split(","))
+
+
+def _meanings(table: dict[T, str]) -> dict[Phrase, T]:
+    """From meaning to its spellings, turned round."""
+    return {phrase: meaning for meaning, text in table.items() for phrase in phrases(text)}
+
+
+DETERMINERS = words("the a an my your our his her their its this that these those some any another")
+POSSESSIVES = words("my your our his her their its")
+ALL = words("all every each both")
+
+COLORS = {
+    w: w
+    for w in words(
+        "red green blue yellow orange black white gray brown pink purple violet turquoise silver "
+        "golden beige cyan magenta transparent"
+    )
+} | {
+    "grey": "gray",
+    "gold": "golden",
+    "crimson": "red",
+    "scarlet": "red",
+    "navy": "blue",
+}
+
+SIZES = {
+    "big": "big", "large": "big", "huge": "big", "bigger": "big", "larger": "big",
+    "small": "small", "little": "small", "tiny": "small", "smaller": "small", "mini": "small",
+    "tall": "tall", "short": "short", "heavy": "heavy", "light": "light", "medium": "medium",
+    "thin": "thin", "thick": "thick", "long": "long", "wide": "wide",
+}  # fmt: skip
+
+SUPERLATIVES: dict[tuple[str, ...], Superlative] = _meanings(
+    {
+        "largest": "largest,biggest,most large,most big,greatest",
+        "smallest": "smallest,tiniest,littlest,least big",
+        "heaviest": "heaviest,most heavy,weightiest",
+        "lightest": "lightest,least heavy,most light",
+        "thinnest": "thinnest,slimmest,narrowest,skinniest,finest",
+        "thickest": "thickest,widest,fattest,broadest",
+        "tallest": "tallest,longest",
+        "shortest": "shortest",
+        "leftmost": "leftmost,left most,most left,furthest left,farthest left,far left",
+        "rightmost": "rightmost,right most,most right,furthest right,farthest right,far right",
+        "nearest": "nearest,closest",
+        "farthest": "farthest,furthest,most distant",
+        "highest": "highest,topmost,uppermost",
+        "lowest": "lowest,bottommost",
+        "oldest": "oldest,eldest",
+        "youngest": "youngest",
+    }
+)
+
+GENDERS: dict[str, Literal["male", "female"]] = {
+    "man": "male", "boy": "male", "guy": "male", "gentleman": "male", "male": "male",
+    "men": "male", "boys": "male", "guys": "male", "gentlemen": "male", "males": "male",
+    "lad": "male", "dude": "male", "woman": "female", "girl": "female", "lady": "female",
+    "female": "female", "women": "female", "girls": "female", "ladies": "female",
+    "females": "female",
+}  # fmt: skip
+PERSON_NOUNS = words(
+    "person people persons someone somebody anyone anybody everyone everybody individual "
+    "individuals human humans guest guests visitor visitors child children kid kids elder elders "
+    "adult adults customer customers friend friends"
+)
+EVERYONE = words("everyone everybody")
+OPERATOR_WORDS = words("me us myself operator i ourselves")
+OBJECT_NOUNS = words(
+    "object objects thing things item items something anything stuff everything product products"
+)
+ONES = words("one ones")
+CONTAINERS = words(
+    "can bottle box pack packet bag carton jar tin glass cup bowl plate piece slice bar tube "
+    "package container pile bunch stack pair bit roll pot set"
+)
+"""Nouns that measure out something else: "a bottle of water", "a coke can"."""
+PLACE_NOUNS = words("place spot location position area room")
+PERSON_PRONOUNS = words("him her he she")
+PRONOUNS = words("it them they he she him her this that these those")
+BODY_NOUNS = words(
+    "leg legs foot feet arm arms hand hands head knee knees body gripper grippers finger "
+    "fingers mouth eyes"
+)
+EMPTY_ADJECTIVES = words(
+    "nice good fresh clean dirty empty full new old same other certain single whole entire "
+    "favorite favourite plastic wooden metal glass paper beautiful lovely cold hot warm cool "
+    "delicious particular exact desired specific required corresponding main respective "
+    "nearby available remaining"
+)
+POSTURES: dict[tuple[str, ...], Literal["sitting", "standing", "lying"]] = _meanings(
+    {
+        "sitting": "sitting down,sitting,seated,sits,sit",
+        "standing": "standing up,standing,stands,stood,upright",
+        "lying": "lying down,laying down,lying,laying,lies,sleeping,asleep,reclining",
+    }
+)
+CLOTHES = words(
+    "shirt tshirt blouse sweater pullover jacket coat hoodie hat cap dress skirt pants trousers "
+    "jeans shorts shoe boot scarf vest suit tie glove sock cardigan jumper top polo uniform "
+    "glasses"
+)
+
+LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
+    {
+        "on": "on,on top of,upon,atop,atop of",
+        "in": "in,inside,inside of,within",
+        None: "at,around,up at,over at,over in,over on,over by,up on,down in,in at",
+        "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
+        "in the vicinity of,against",
+        "under": "under,underneath,below,beneath,at the bottom of",
+        "above": "above,over",
+        "behind": "behind,at the back of,in back of",
+        "in_front": "in front of,before,opposite,opposite of,across from",
+        "left": "left of,left to,to the left of,at the left of,on the left of,at the left side of,"
+        "on the left side of,to the left side of,left from",
+        "right": "right of,right to,to the right of,at the right of,on the right of,"
+        "at the right side of,on the right side of,to the right side of,right from",
+        "between": "between,in between",
+    }
+)
+"""Prepositions that say where something is; None says no more than "at"."""
+GOALWARDS = phrases(
+    "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,"
+    "until,back into,back onto,back in,back on,over into"
+)
+SOURCEWARDS = phrases(
+    "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,"
+    "from within,from the top of,from on top of,away from,from under,from behind"
+)
+OTHER_PREPOSITIONS = phrases("for,with,of,about,through,along,past,after,regarding,via,without")
+
+CONNECTORS = phrases(
+    "and then,and after that,and afterwards,and also,and finally,and next,then,and,after that,"
+    "afterwards,after which,finally,also,next,plus,but,so,lastly,secondly,thirdly,firstly,"
+    "first,first of all,second,third,once you are done,when you are done,when done,"
+    "once you have done that,when you have it,once you have it,as well as,subsequently,"
+    "after this,in the end,thereafter,later,once done,when finished,once there,when there,"
+    "when you get there,once you get there,once you are there,when you arrive,while,"
+    "when you are there,in order to,so that you can,or"
+)
+FILLERS = phrases(
+    "please,kindly,thank you very much,thank you,thanks,many thanks,um,uh,uhm,er,erm,hmm,hm,"
+    "carefully,gently,quickly,slowly,immediately,right now,right away,at once,straight away,"
+    "as soon as possible,asap,if you can,if possible,if you please,if you could,if you do not "
+    "mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,kind sir,"
+    "would you be so kind,would you kindly,for a moment please,safely,my friend,when you can,"
+    "whenever you can,when you get a chance,when you have time,my dear,basically,actually,"
+    "kinda,sort of"
+)
+"""Words that can be dropped wherever they stand."""
+OPENERS = phrases(
+    "can you,could you,would you,will you,can you please,would you mind,do you mind,"
+    "would you be able to,are you able to,is it possible for you to,is it possible to,"
+    "would it be possible to,would it be possible for you to,i want you to,i would like you to,"
+    "i need you to,i would love you to,i would love for you to,i would like for you to,"
+    "i would appreciate it if you could,i would appreciate it if you,i want to,you should,"
+    "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
+    "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
+    "your task is to,your job is to,your mission is to,your goal is to,go ahead and,be so kind "
+    "as to,be so kind and,do me a favor and,do me a favour and,would you like to,do you think "
+    "you can,do you think you could,how would you,how do you,let us,hey,hi,hello,okay,alright,"
+    "all right,well,now,just,try to,start to,begin to,make sure to,make sure you,be sure to,"
+    "remember to,do not forget to,you,to,listen,look here,excuse me,sorry,oh,yes,no,yeah,so,"
+    "ready,help me to,help me and,may you,might you,shall you,attempt to,i wish you to,"
+    "i wish for you to,your next task is to,the task is to,it is time to,time to,i said,"
+    "it would be nice if you could,it would be great if you could,could i ask you to,"
+    "may i ask you to,can i ask you to,please,proceed to,directly,there"
+)
+"""Words that can be dropped at the beginning of a clause."""
+
+AUXILIARIES = words(
+    "is are was were be been am do does did has have had can could will would should shall may "
+    "might must not"
+)
+WH = words("what where who how which when why whose whom whether if unless")
+CONJUNCTIONS = words("and or then but so because else otherwise than as while until")
+DIRECTIONS = words(
+    "left right forward forwards backward backwards back ahead straight around up down away "
+    "clockwise counterclockwise anticlockwise here there off together again sideways out"
+)
+_PREPOSITIONS = frozenset(
+    p[0] for table in (LOCATIVES, GOALWARDS, SOURCEWARDS, OTHER_PREPOSITIONS) for p in table
+)
+FUNCTION_WORDS = (
+    DETERMINERS | ALL | PRONOUNS | AUXILIARIES | WH | CONJUNCTIONS | DIRECTIONS | _PREPOSITIONS
+    | words("me us i you we they myself yourself 's let there here please")
+) - words("nearby against before opposite")  # fmt: skip
+"""Words that never begin or continue the nouns of a noun phrase."""
+
+LEVELS = {
+    "upper": ("upper", "top", "highest", "uppermost"), "top": ("top", "upper", "highest"),
+    "lower": ("lower", "bottom", "lowest"), "bottom": ("bottom", "lower", "lowest"),
+    "middle": ("middle", "center", "centre"), "center": ("center", "middle", "centre"),
+    "highest": ("upper", "top"), "lowest": ("lower", "bottom"), "topmost": ("upper", "top"),
+    "uppermost": ("upper", "top"), "left": ("left",), "right": ("right",),
+    "first": ("first",), "second": ("second",), "third": ("third",), "far": ("far",),
+    "close": ("close", "near"), "front": ("front",), "rear": ("rear", "back"),
+}  # fmt: skip
+"""Adjectives that tell parts of furniture apart, with what a world may call them."""
+
+SYNONYMS = tuple(
+    group.split(",")
+    for group in (
+        "couch,sofa,settee",
+        "fridge,refrigerator,icebox",
+        "trash can,trashcan,trash bin,garbage can,garbage bin,rubbish bin,waste bin,dustbin,"
+        "wastebasket,waste basket,trash,bin,garbage",
+        "hallway,corridor,hall",
+        "bathroom,washroom,restroom",
+        "television,tv,telly",
+        "bookshelf,bookcase",
+        "cupboard,cabinet",
+        "wardrobe,closet",
+        "dinner table,dining table",
+        "living room,lounge,sitting room",
+        "nightstand,bedside table,night stand",
+        "office,study",
+        "coke,coca cola,cola,coca",
+        "crisps,chips,potato chips",
+        "mug,coffee mug",
+        "desk,writing desk",
+        "oven,stove,cooker",
+        "tap,faucet",
+        "cell phone,mobile phone,mobile,phone,cellphone,smartphone",
+        "entrance,front door,main door,entrance door",
+        "exit,exit door",
+        "bath tub,bathtub,tub",
+        "counter,kitchen counter,countertop,worktop",
+        "rag,cloth,washcloth",
+        "toilet,loo,lavatory",
+        "mayonnaise,mayo,mayonaise",
+        "kitchen table,breakfast table",
+    )
+)
+"""Groups of names that mean the same where a world has just one of them."""

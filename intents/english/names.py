@@ -1,0 +1,135 @@
+"""The names of a vocabulary, found in text whatever the spelling, plural or synonym said."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import Literal, NamedTuple
+
+from intents.english.lexer import singular, tokenize
+from intents.english.lexicon import SYNONYMS
+from intents.vocabulary import Someone, Spot, Thing, Vocabulary
+
+Kind = Literal["object", "category", "place", "room", "person"]
+
+
+class Name(NamedTuple):
+    """A name of the vocabulary, spelled as the vocabulary spells it."""
+
+    kind: Kind
+    name: str
+
+
+class Match(NamedTuple):
+    """Names that stand in the text and end before word ``end``; several if it is ambiguous."""
+
+    end: int
+    names: tuple[Name, ...]
+
+    def of(self, *kinds: Kind) -> str | None:
+        """The name, as one of these kinds."""
+        return next((n.name for kind in kinds for n in self.names if n.kind == kind), None)
+
+
+def _split(name: str) -> list[str]:
+    return [t.text for t in tokenize(name.replace("'", " ")) if t.text[0].isalnum()]
+
+
+def _key(words: list[str]) -> str:
+    """Spelling without blanks, singular: "side tables" and "sidetable" are one."""
+    return "".join(words[:-1]) + singular(words[-1])
+
+
+class NameIndex:
+    """A vocabulary compiled for looking names up.
+
+    Attributes:
+        words: Every word of every name, singular and as spelled.
+    """
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        """Compile; takes a few hundred microseconds for a household."""
+        self._names: dict[str, tuple[Name, ...]] = {}
+        self._parts: dict[str, tuple[Name, ...]] = {}
+        self._longest = 1
+        self.words: frozenset[str] = frozenset()
+        spellings = _spellings(vocabulary)
+        taken = {_key(_split(s)) for _, s in spellings if _split(s)}
+        aliases = [(n, s) for n, s in _aliases(vocabulary) if _key(_split(s)) not in taken]
+        for name, spelling in spellings + aliases:
+            self._add(name, spelling)
+
+    def _add(self, name: Name, spelling: str) -> None:
+        words = _split(spelling)
+        if not words:
+            return
+        key = _key(words)
+        known = self._names.get(key, ())
+        if name not in known:
+            self._names[key] = (*known, name)
+        self._longest = max(self._longest, len(words) + 1)
+        self.words |= {*words, singular(words[-1])}
+        for part in {singular(words[0]), singular(words[-1])} if len(words) > 1 else ():
+            if name not in self._parts.get(part, ()):
+                self._parts[part] = (*self._parts.get(part, ()), name)
+
+    def match(self, words: list[str], start: int) -> Match | None:
+        """The longest name that begins at a word."""
+        stop = min(len(words), start + self._longest)
+        for end in range(start + 1, stop + 1):
+            if not words[end - 1][0].isalnum():
+                stop = end - 1
+                break
+        for end in range(stop, start, -1):
+            names = self._names.get(_key(words[start:end]))
+            if names:
+                return Match(end, names)
+        return None
+
+    def exact(self, spelling: str) -> tuple[Name, ...]:
+        """The names that a spelling stands for."""
+        words = _split(spelling)
+        return self._names.get(_key(words), ()) if words else ()
+
+    def partial(self, word: str) -> tuple[Name, ...]:
+        """The longer names that a word begins or ends: "table" in "dining table"."""
+        return self._parts.get(singular(word), ())
+
+
+def _spellings(vocabulary: Vocabulary) -> list[tuple[Name, str]]:
+    """Every name with every word given for it; categories before objects."""
+    pairs: list[tuple[Name, str]] = []
+    for category in vocabulary.categories:
+        name = Name("category", category.singular)
+        pairs += [(name, category.singular), (name, category.plural)]
+    listed = {c.singular for c in vocabulary.categories}
+    kinds: tuple[tuple[Kind, Iterable[Thing | Spot | Someone]], ...] = (
+        ("object", vocabulary.objects),
+        ("place", vocabulary.places),
+        ("room", vocabulary.rooms),
+        ("person", vocabulary.people),
+    )
+    for kind, entries in kinds:
+        for entry in entries:
+            name = Name(kind, entry.name)
+            pairs += [(name, spelling) for spelling in (entry.name, *entry.synonyms)]
+    for thing in vocabulary.objects:
+        if thing.category and thing.category not in listed:
+            pairs.append((Name("category", thing.category), thing.category))
+    return pairs
+
+
+def _aliases(vocabulary: Vocabulary) -> list[tuple[Name, str]]:
+    """Common synonyms of names, where only one name of their group is in the vocabulary."""
+    names = {_key(_split(n.name)): n for n, _ in _spellings(vocabulary) if _split(n.name)}
+    pairs: list[tuple[Name, str]] = []
+    for members in SYNONYMS:
+        present = {names[_key(_split(m))] for m in members if _key(_split(m)) in names}
+        if len(present) == 1:
+            name = present.pop()
+            pairs += [(name, member) for member in members]
+    return pairs
+
+
+@lru_cache(maxsize=8)
+def index_of(vocabulary: Vocabulary) -> NameIndex:
+    """The compiled vocabulary, kept from one sentence to the next."""
+    return NameIndex(vocabulary)

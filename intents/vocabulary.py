@@ -1,0 +1,108 @@
+"""The names that mean something in one world: objects, places, rooms, people, categories."""
+
+from collections.abc import Iterable, Mapping
+from typing import cast
+
+import msgspec
+
+
+class _Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True,
+             forbid_unknown_fields=True):  # fmt: skip
+    """A name and other words for it."""
+
+    name: str
+    synonyms: tuple[str, ...] = ()
+
+
+class Thing(_Entry, frozen=True, kw_only=True):
+    """An object that can be handled, with what tells it from others of the same name.
+
+    Attributes:
+        category: Singular name of its category, or empty.
+        color: Colour word, or empty.
+        size: Size word ("big", "small"), or empty.
+    """
+
+    category: str = ""
+    color: str = ""
+    size: str = ""
+
+
+class Spot(_Entry, frozen=True, kw_only=True):
+    """A place or a room."""
+
+
+class Someone(_Entry, frozen=True, kw_only=True):
+    """A person known by name."""
+
+
+class Category(msgspec.Struct, frozen=True):
+    """A kind of object, as one and as many."""
+
+    singular: str
+    plural: str
+
+
+class Vocabulary(msgspec.Struct, frozen=True, kw_only=True):
+    """All names of a world. Hashable, so that what is built from it can be kept."""
+
+    objects: tuple[Thing, ...] = ()
+    places: tuple[Spot, ...] = ()
+    rooms: tuple[Spot, ...] = ()
+    people: tuple[Someone, ...] = ()
+    categories: tuple[Category, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        objects: Iterable[str | Thing] = (),
+        places: Iterable[str | Spot] = (),
+        rooms: Iterable[str | Spot] = (),
+        people: Iterable[str | Someone] = (),
+        categories: Mapping[str, str] | None = None,
+    ) -> "Vocabulary":
+        """A vocabulary from names, or from entries where there is more to say."""
+        return cls(
+            objects=tuple(Thing(name=o) if isinstance(o, str) else o for o in objects),
+            places=tuple(Spot(name=p) if isinstance(p, str) else p for p in places),
+            rooms=tuple(Spot(name=r) if isinstance(r, str) else r for r in rooms),
+            people=tuple(Someone(name=p) if isinstance(p, str) else p for p in people),
+            categories=tuple(Category(s, p) for s, p in (categories or {}).items()),
+        )
+
+    @classmethod
+    def from_json(cls, data: str | bytes) -> "Vocabulary":
+        """A vocabulary from JSON.
+
+        The form is ``{"objects": [{"name", "category"?, "color"?, "size"?, "synonyms"?}],
+        "places": [...], "rooms": [...], "people": [...], "categories": {singular: plural}}``;
+        an entry may be a plain name.
+
+        Raises:
+            msgspec.DecodeError: Not JSON, or (ValidationError) not of this form.
+        """
+        raw = msgspec.json.decode(data, type=dict[str, object])
+        known = ("objects", "places", "rooms", "people", "categories")
+        unknown = sorted(set(raw) - set(known))
+        if unknown:
+            message = f"unknown key {unknown[0]!r} in the vocabulary, known are {', '.join(known)}"
+            raise msgspec.ValidationError(message)
+        named = {key: _entries(raw.get(key, [])) for key in known[:-1]}
+        return cls(
+            objects=msgspec.convert(named["objects"], tuple[Thing, ...]),
+            places=msgspec.convert(named["places"], tuple[Spot, ...]),
+            rooms=msgspec.convert(named["rooms"], tuple[Spot, ...]),
+            people=msgspec.convert(named["people"], tuple[Someone, ...]),
+            categories=tuple(
+                Category(s, p)
+                for s, p in msgspec.convert(raw.get("categories", {}), dict[str, str]).items()
+            ),
+        )
+
+
+def _entries(data: object) -> object:
+    """Plain names become entries; what is malformed is left to the validator."""
+    if not isinstance(data, list):
+        return data
+    return [{"name": x} if isinstance(x, str) else x for x in cast("list[object]", data)]
