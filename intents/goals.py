@@ -425,7 +425,9 @@ def _inward(data: object) -> object:
     if goal.get("goal") == "tell" and "of" in goal:
         rest = {k: v for k, v in goal.items() if k != "of"}
         of = goal["of"]
-        keys = set(cast("_Plain", of)) if isinstance(of, dict) else set[str]()
+        keys: set[str] = set(cast("_Plain", of)) if isinstance(of, dict) else set()
         is_person = bool(keys & _PERSON_ONLY) or goal.get("property") in _PERSON_PROPERTIES
-        return {**rest, "person" if is_person else "object": of}
-    return {k: _inward(v) if k in _NESTED else v for k, v in goal.items()}
+        rest["person" if is_person else "object"] = cast("object", of)
+        return rest
+    plain: _Plain = {k: _inward(v) if k in _NESTED else v for k, v in goal.items()}
+    return plain

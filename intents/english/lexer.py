@@ -41,10 +41,11 @@ _WHOLE = {
     "let's": ("let", "us"), "won't": ("will", "not"), "can't": ("can", "not"),
     "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
     "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
-    "thats": ("that", "is"), "dont": ("do", "not"), "gimme": ("give", "me"),
+    "dont": ("do", "not"), "gimme": ("give", "me"),
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
-    "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "till": ("until",),
+    "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",), "hte": ("the",), "adn": ("and",), "nad": ("and",),
+    "thats": ("that", "is"), "till": ("until",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
             ("'m", "am"))  # fmt: skip

@@ -56,6 +56,8 @@ class NameIndex:
         aliases = [(n, s) for n, s in _aliases(vocabulary) if _key(_split(s)) not in taken]
         for name, spelling in spellings + aliases:
             self._add(name, spelling)
+        for name, spelling in spellings:
+            self._add_parts(name, _split(spelling))
 
     def _add(self, name: Name, spelling: str) -> None:
         words = _split(spelling)
@@ -67,6 +69,8 @@ class NameIndex:
             self._names[key] = (*known, name)
         self._longest = max(self._longest, len(words) + 1)
         self.words |= {*words, singular(words[-1])}
+
+    def _add_parts(self, name: Name, words: list[str]) -> None:
         for part in {singular(words[0]), singular(words[-1])} if len(words) > 1 else ():
             if name not in self._parts.get(part, ()):
                 self._parts[part] = (*self._parts.get(part, ()), name)

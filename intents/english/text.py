@@ -1,0 +1,104 @@
+"""A sentence ready for the grammar: tokens, corrected, without fillers."""
+
+from collections.abc import Collection, Mapping
+from typing import TypeVar
+
+from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.lexicon import DETERMINERS, FILLERS, Phrase
+from intents.english.names import Match, NameIndex, index_of
+from intents.english.spelling import speller_of
+from intents.vocabulary import Vocabulary
+
+T = TypeVar("T")
+_LONGEST_PHRASE = 7
+_FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
+
+
+class Text:
+    """The tokens of what was said, with the names that stand in it.
+
+    Attributes:
+        tokens: Without fillers, spelling corrected.
+        words: Their lower-case texts.
+        index: The names of the vocabulary.
+    """
+
+    def __init__(self, text: str, vocabulary: Vocabulary) -> None:
+        """Tokenize, correct and drop fillers."""
+        self.index: NameIndex = index_of(vocabulary)
+        speller = speller_of(vocabulary)
+        corrected: list[Token] = []
+        for token in tokenize(text):
+            meant = speller.correct(token.text)
+            if meant == [token.text]:
+                corrected.append(token)
+            else:
+                corrected += [Token(w, w) for w in meant]
+        self.tokens: list[Token] = _without_fillers(corrected, self.index)
+        self.words: list[str] = [t.text for t in self.tokens]
+        self._matches: dict[int, Match | None] = {}
+
+    def __len__(self) -> int:
+        return len(self.words)
+
+    def word(self, at: int) -> str:
+        """The word at a position, or a full stop beyond the ends."""
+        return self.words[at] if 0 <= at < len(self.words) else FULL_STOP
+
+    def name_at(self, at: int) -> Match | None:
+        """The longest name of the vocabulary that begins at a word."""
+        if at not in self._matches:
+            known = 0 <= at < len(self.words)
+            self._matches[at] = self.index.match(self.words, at) if known else None
+        return self._matches[at]
+
+    def lookup(self, table: Mapping[Phrase, T], at: int) -> tuple[T, int] | None:
+        """What the longest phrase of a table at a word means, and where it ends."""
+        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+            phrase = tuple(self.words[at:end])
+            if phrase in table:
+                return table[phrase], end
+        return None
+
+    def phrase_end(self, table: Collection[Phrase], at: int) -> int | None:
+        """Where the longest phrase of a set at a word ends."""
+        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+            if tuple(self.words[at:end]) in table:
+                return end
+        return None
+
+    def raw(self, start: int, end: int) -> str:
+        """What was written from one word to another."""
+        said = ""
+        for token in self.tokens[start:end]:
+            glued = token.text in (COMMA, FULL_STOP) or token.text.startswith("'")
+            said += token.raw if glued or not said else " " + token.raw
+        return said.rstrip(" ,;.")
+
+
+def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
+    words = [t.text for t in tokens]
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = _filler_end(words, at) if words[at] in _FILLER_STARTS else None
+        if end is None or index.match(words, at):
+            kept.append(tokens[at])
+            at += 1
+            continue
+        if words[at] == "robot" and kept and kept[-1].text in DETERMINERS:
+            kept.append(tokens[at])
+        elif end < len(words) and words[end] == COMMA and (not kept or kept[-1].text == COMMA):
+            end += 1
+        at = end
+    return kept
+
+
+def _filler_end(words: list[str], at: int) -> int | None:
+    for end in range(min(len(words), at + _LONGEST_PHRASE), at, -1):
+        if tuple(words[at:end]) in FILLERS:
+            return end
+    return None
+
+
+__all__ = ["COMMA", "FULL_STOP", "QUOTE", "Text"]
