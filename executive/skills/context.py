@@ -1,0 +1,36 @@
+"""What every skill is given: the body, the planner, the robot's description, what the hands hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from executive.skills.holding import Holdings
+from robot.link import BodyLink
+from robot.model.description import RobotDescription
+from robot.planning.worker import Planner
+
+
+def _silent(_text: str) -> None:
+    """Say nothing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SkillContext:
+    """One per mission, shared by its skills.
+
+    Attributes:
+        link: commands down, newest messages up.
+        planner: where paths, stances and grasps are asked for.
+        description: the robot, for its limits.
+        seed: of every planning request; a retry adds to it.
+        say: where spoken words go.
+        holdings: what the hands hold; outlives a skill, so that place knows what pick took.
+    """
+
+    link: BodyLink
+    planner: Planner
+    description: RobotDescription
+    seed: int = 0
+    say: Callable[[str], None] = _silent
+    holdings: Holdings = field(default_factory=Holdings)

@@ -1,0 +1,59 @@
+"""What the hands hold, as far as the skills know: written by pick and place, read by all."""
+
+from __future__ import annotations
+
+import msgspec
+
+from robot.messages import Side
+from robot.se3 import SE3
+
+
+class Held(msgspec.Struct, frozen=True, kw_only=True):
+    """An object in a hand.
+
+    Attributes:
+        object_id: which one.
+        side: in which hand.
+        X_GO: the object in the grasp frame, as it sits between the fingers.
+        gap_m: opening of the fingers around it.
+        mass_kg: what the body was told it weighs.
+    """
+
+    object_id: str
+    side: Side
+    X_GO: SE3
+    gap_m: float
+    mass_kg: float
+
+
+class Holdings:
+    """What each hand holds. One per mission, handed to every skill in its context."""
+
+    def __init__(self) -> None:
+        """Start with empty hands."""
+        self._held: dict[Side, Held] = {}
+
+    def take(self, held: Held) -> None:
+        """A hand has closed on an object."""
+        self._held[held.side] = held
+
+    def release(self, side: Side) -> None:
+        """A hand has opened, or lost what it held. May be repeated."""
+        self._held.pop(side, None)
+
+    def at(self, side: Side) -> Held | None:
+        """What a hand holds."""
+        return self._held.get(side)
+
+    def find(self, object_id: str) -> Held | None:
+        """The hold on an object, None if no hand has it."""
+        return next((held for held in self._held.values() if held.object_id == object_id), None)
+
+    def all(self) -> tuple[Held, ...]:
+        """Every hold, left hand first."""
+        return tuple(self._held[side] for side in ("left", "right") if side in self._held)
+
+    def free_sides(self) -> tuple[Side, ...]:
+        """The empty hands, right first: it is the one that things are usually taken with."""
+        sides: tuple[Side, ...] = ("right", "left")
+        return tuple(side for side in sides if side not in self._held)
