@@ -1,0 +1,112 @@
+"""The sensors inside the body: encoders, currents, IMU, forces at ankles and wrists."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from robot.drivers.motors import MotorState
+from robot.errors import DescriptionError, Problem
+from robot.model.description import RobotDescription
+from robot.se3 import Array
+from sim.motors import Motors
+
+# 1 sigma, where the description has no figure. Velocity: encoder difference over 20 ms, averaged.
+VELOCITY_PER_ENCODER_S = 50.0
+PINION_RADIUS_M = 0.01
+TORQUE_SHARE = 0.005
+FORCE_N = 0.3
+TORQUE_NM = 0.01
+
+
+class BodySensors:
+    """Reads one robot out of one simulation; all noise from one generator (None: no noise)."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        description: RobotDescription,
+        *,
+        motors: Motors,
+        rng: np.random.Generator | None,
+    ) -> None:
+        """Find every sensor that the description names.
+
+        Raises:
+            DescriptionError: naming the sensors that the MJCF has not.
+        """
+        self._motors = motors
+        self._rng = rng
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._force, self._sensordata = data.actuator_force, data.sensordata
+        self._addresses = _addresses(model, description)
+        self._signs: Array = np.repeat([1.0, -1.0], [6, 24])  # MuJoCo's wrench: parent on child
+        self._sigma = _sigma(model, description, motors)
+        self._truth: Array = np.empty(len(self._sigma))
+
+    def measure(self, stamp_s: float) -> MotorState:
+        """Measure everything; forces and accelerations are those of the last physics step."""
+        n, truth, motors = self._motors.count, self._truth, self._motors
+        truth[:n] = self._qpos[motors.q_index]
+        truth[n : 2 * n] = self._qvel[motors.qd_index]
+        truth[2 * n : 3 * n] = self._force
+        np.multiply(self._sensordata[self._addresses], self._signs, out=truth[3 * n :])
+        if self._rng is None:
+            values = truth.copy()
+        else:
+            values = self._rng.standard_normal(len(truth))
+            values *= self._sigma
+            values += truth
+        rest = values[3 * n :]
+        return MotorState(
+            stamp_s=stamp_s,
+            q=values[:n],
+            qd=values[n : 2 * n],
+            tau=values[2 * n : 3 * n],
+            temperature_c=motors.temperature_c.copy(),
+            gyro_rad_s=rest[:3],
+            accel_m_s2=rest[3:6],
+            ankle_wrench=rest[6:18].reshape(2, 6),
+            wrist_wrench=rest[18:30].reshape(2, 6),
+            watchdog=motors.watchdog,
+            command_stamp_s=motors.command_stamp_s,
+        )
+
+
+def _addresses(model: mujoco.MjModel, description: RobotDescription) -> Array:
+    """Indices into sensordata of gyro, accelerometer, then wrenches left, right; 30 of them."""
+    imu = description.sensors.imu
+    names = [imu.gyro, imu.accelerometer]
+    for limbs in (description.feet, description.hands):
+        for side in ("left", "right"):
+            names += [limbs[side].force_sensor, limbs[side].torque_sensor]
+    known = [model.sensor(index).name for index in range(model.nsensor)]
+    problems = [
+        Problem(f"sensor {name!r} is not in the MJCF", str(description.mjcf_path()))
+        for name in names
+        if name not in known
+    ]
+    if problems:
+        raise DescriptionError(problems)
+    starts = [int(model.sensor(name).adr[0]) for name in names]
+    return np.concatenate([np.arange(start, start + 3) for start in starts])
+
+
+def _sigma(model: mujoco.MjModel, description: RobotDescription, motors: Motors) -> Array:
+    """Standard deviation of every measured value, in the order of `measure`."""
+    sensors = description.sensors
+    joints = [model.joint(motor.joint) for motor in description.motors.values()]
+    slide = np.array([joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE for joint in joints])
+    encoder = np.where(slide, PINION_RADIUS_M, 1.0) * sensors.encoder_noise_rad
+    wrench = [FORCE_N] * 3 + [TORQUE_NM] * 3
+    return np.concatenate(
+        [
+            encoder,
+            encoder * VELOCITY_PER_ENCODER_S,
+            motors.limit_nm * TORQUE_SHARE,
+            [sensors.imu.gyro_noise_rad_s] * 3,
+            [sensors.imu.accel_noise_m_s2] * 3,
+            wrench * 4,
+        ]
+    )

@@ -1,0 +1,154 @@
+"""Motors as they are bought: a PD loop in their own firmware, a torque limit, a watchdog, heat.
+
+The firmware law of `robot.drivers.motors` is written into MuJoCo's actuators: gain 1 and affine
+bias (0, -kp, -kd) make ``force = ctrl - kp q - kd qd``, so that with
+``ctrl = kp q_des + kd qd_des + tau_ff`` the loop runs at the physics rate and is integrated
+implicitly (no instability from a stiff gain), and `forcerange` is the torque limit.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from robot.config import nearest
+from robot.drivers.motors import MotorCommand
+from robot.errors import DescriptionError, DriverError, Problem
+from robot.model.description import RobotDescription
+from robot.se3 import Array
+
+WATCHDOG_S = 0.020
+AMBIENT_C = 25.0
+# Winding temperature, first order. Design values of this plant, not of a datasheet: a motor that
+# gives CONTINUOUS of its peak torque for ever ends up RISE_K above the ambient air.
+RISE_K = 75.0
+CONTINUOUS = 0.4
+TIME_CONSTANT_S = 240.0
+HEAT_PERIOD_S = 0.05
+# What fits into a command packet; what is past it is sent as the nearest value that fits.
+MAX_Q_RAD = 12.5
+MAX_QD_RAD_S = 65.0
+MAX_KP = 5000.0
+MAX_KD = 100.0
+
+
+def install(spec: mujoco.MjSpec, description: RobotDescription) -> None:
+    """Replace every actuator of a robot's MJCF by one torque motor a joint, in motor order.
+
+    Position servos, velocity servos and plain motors all become the same thing; so any MJCF
+    humanoid runs with the firmware of this module.
+
+    Raises:
+        DescriptionError: naming every joint that the description has and the MJCF has not.
+    """
+    joints = [joint.name for joint in spec.joints]
+    problems = [
+        Problem(
+            f"motor {name!r} wants joint {motor.joint!r}, which the MJCF has not",
+            file=str(description.mjcf_path()),
+            suggestion=nearest(motor.joint, joints),
+        )
+        for name, motor in description.motors.items()
+        if motor.joint not in joints
+    ]
+    if problems:
+        raise DescriptionError(problems)
+    for actuator in list(spec.actuators):
+        spec.delete(actuator)
+    for name, motor in description.motors.items():
+        limit = motor.torque_limit_nm
+        actuator = spec.add_actuator(
+            name=name,
+            target=motor.joint,
+            trntype=mujoco.mjtTrn.mjTRN_JOINT,
+            gaintype=mujoco.mjtGain.mjGAIN_FIXED,
+            biastype=mujoco.mjtBias.mjBIAS_AFFINE,
+            dyntype=mujoco.mjtDyn.mjDYN_NONE,
+            forcelimited=mujoco.mjtLimited.mjLIMITED_TRUE,
+            forcerange=[-limit, limit],
+            ctrllimited=mujoco.mjtLimited.mjLIMITED_FALSE,
+        )
+        actuator.gainprm[0] = 1.0
+        actuator.biasprm[2] = -motor.kd
+
+
+class Motors:
+    """The firmware of all motors of one robot in one simulation."""
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, description: RobotDescription
+    ) -> None:
+        """Take over the actuators of `model`, damped until a first command comes."""
+        motors = description.motors.values()
+        self.count = len(description.motors)
+        joints = [model.joint(motor.joint).id for motor in motors]
+        self.q_index = model.jnt_qposadr[joints].copy()
+        self.qd_index = model.jnt_dofadr[joints].copy()
+        self.limit_nm: Array = np.array([motor.torque_limit_nm for motor in motors])
+        self.temperature_c: Array = np.full(self.count, AMBIENT_C)
+        self.command_stamp_s = -np.inf
+        self.watchdog = True
+        self._damping: Array = np.array([motor.kd for motor in motors])
+        self._ctrl = data.ctrl
+        self._force = data.actuator_force
+        self._bias = model.actuator_biasprm
+        self._command: Array = np.empty((5, self.count))
+        bounds = np.empty((5, self.count))
+        bounds[0], bounds[1], bounds[2] = MAX_Q_RAD, MAX_QD_RAD_S, self.limit_nm
+        bounds[3], bounds[4] = MAX_KP, MAX_KD
+        self._upper = bounds
+        self._lower = -bounds
+        self._lower[3:] = 0.0
+        self.damp()
+
+    def write(self, command: MotorCommand) -> MotorCommand:
+        """Take a command from the bus; returns it as the packets could carry it.
+
+        Raises:
+            DriverError: if a value is not finite or a shape is wrong; then nothing changes.
+        """
+        rows = self._command
+        fields = (command.q_des, command.qd_des, command.tau_ff, command.kp, command.kd)
+        sent = np.empty_like(rows)
+        for row, field in zip(sent, fields, strict=True):
+            if field.shape != row.shape:
+                raise DriverError(f"a command has shape {field.shape}, motors want {row.shape}")
+            row[:] = field
+        if not np.isfinite(sent).all():
+            raise DriverError(f"a command is not finite: {_not_finite(sent)}")
+        np.minimum(sent, self._upper, out=sent)
+        np.maximum(sent, self._lower, out=sent)
+        rows[:] = sent
+        self.command_stamp_s = command.stamp_s
+        self.watchdog = False
+        self._apply()
+        return MotorCommand(command.stamp_s, *sent)
+
+    def damp(self) -> None:
+        """What the watchdog does: no stiffness, velocity target zero."""
+        self.watchdog = True
+        self._command[:4] = 0.0
+        self._command[4] = self._damping
+        self._apply()
+
+    def heat(self, duration_s: float) -> None:
+        """Let the windings take the losses of the last torques for `duration_s`."""
+        load = self._force / (CONTINUOUS * self.limit_nm)
+        target_c = AMBIENT_C + RISE_K * load * load
+        share = 1.0 - np.exp(-duration_s / TIME_CONSTANT_S)
+        self.temperature_c += share * (target_c - self.temperature_c)
+
+    def _apply(self) -> None:
+        q_des, qd_des, tau_ff, kp, kd = self._command
+        ctrl = self._ctrl
+        np.multiply(kp, q_des, out=ctrl)
+        ctrl += kd * qd_des
+        ctrl += tau_ff
+        np.negative(kp, out=self._bias[:, 1])
+        np.negative(kd, out=self._bias[:, 2])
+
+
+def _not_finite(rows: Array) -> str:
+    """Name the first value that is not a number, `kp[3]` for example."""
+    row, column = (int(index) for index in np.argwhere(~np.isfinite(rows))[0])
+    return f"{('q_des', 'qd_des', 'tau_ff', 'kp', 'kd')[row]}[{column}]"

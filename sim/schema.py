@@ -1,0 +1,128 @@
+"""What a world file may say: the YAML's types, one struct an entry (docs/worlds.md).
+
+Metres and kilograms; angles in degrees, because people write these files. Everything that has a
+front looks along its +x: `size_m` is depth (front to back), width, height.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from robot.se3 import Vector3
+
+Side = Literal["north", "east", "south", "west"]
+
+
+class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Anything with an `id`; people call it `name` (the id with spaces) or one of `synonyms`."""
+
+    id: str
+    name: str = ""
+    synonyms: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """What people call it."""
+        return self.name or self.id.replace("_", " ")
+
+
+class Door(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A gap in a wall; `at_m` is its middle along the wall, from the room's centre."""
+
+    wall: Side
+    at_m: float = 0.0
+    width_m: float = 1.0
+
+
+class Room(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A rectangle of floor around `at_m`, x by y; north is +y, east is +x."""
+
+    at_m: tuple[float, float]
+    size_m: tuple[float, float]
+    walls: tuple[Side, ...] = ()
+    doors: tuple[Door, ...] = ()
+    wall_height_m: float = 2.2
+    floor: str = "tiles"
+
+
+class Spot(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A named point of the floor to walk to."""
+
+    at_m: tuple[float, float]
+    yaw_deg: float = 0.0
+
+
+class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A piece of furniture; `kind` chooses its form (sim/furniture.py) and its places.
+
+    `boards_m` are the heights of a shelf's boards. A `movable` piece is a free body of `mass_kg`;
+    left out, the kind decides.
+    """
+
+    kind: str
+    at_m: tuple[float, float]
+    yaw_deg: float = 0.0
+    size_m: Vector3 | None = None
+    boards_m: tuple[float, ...] = ()
+    color: str = ""
+    movable: bool | None = None
+    mass_kg: float = 5.0
+
+
+class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Something to handle, on a place.
+
+    `at_m` is measured in the place, from its middle; left out, a free spot is drawn from the seed.
+    """
+
+    category: str
+    color: str
+    shape: str
+    size_m: Vector3
+    mass_kg: float
+    on: str
+    at_m: tuple[float, float] | None = None
+    yaw_deg: float = 0.0
+
+
+class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Somebody who stands there."""
+
+    at_m: tuple[float, float]
+    yaw_deg: float = 0.0
+    height_m: float = 1.70
+    color: str = "blue"
+
+
+class Start(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Where the robot stands when the world begins."""
+
+    at_m: tuple[float, float] = (0.0, 0.0)
+    yaw_deg: float = 0.0
+
+
+class World(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A world file. `categories` maps the singular of a kind of object to its plural."""
+
+    name: str
+    rooms: tuple[Room, ...]
+    spots: tuple[Spot, ...] = ()
+    furniture: tuple[Furniture, ...] = ()
+    objects: tuple[Object, ...] = ()
+    people: tuple[Person, ...] = ()
+    categories: dict[str, str] = {}
+    start: Start = Start()
+
+    @property
+    def bounds_m(self) -> tuple[float, float, float, float]:
+        """Smallest rectangle around all rooms: x_min, y_min, x_max, y_max."""
+        lows = [[at - size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms]
+        highs = [[at + size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms]
+        return (
+            min(low[0] for low in lows),
+            min(low[1] for low in lows),
+            max(high[0] for high in highs),
+            max(high[1] for high in highs),
+        )
