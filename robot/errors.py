@@ -136,6 +136,7 @@ CATALOGUE: dict[str, FailureKind] = {
     "fallen": FailureKind("the robot lies on the floor", "stand it up, then reset"),
     "localisation_lost": FailureKind("the robot does not know where it is", "wait, or re-localise"),
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
+    "overheated": FailureKind("a motor is too hot", "let it cool down"),
     "controller_lost": FailureKind("the controller process died", "restart"),
     "plant_lost": FailureKind("the simulation died", "restart"),
     "timeout": FailureKind("it took longer than it may", "try again"),

@@ -1,0 +1,53 @@
+"""How well the robot is: the ladder of severities, and the report that climbs it."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import msgspec
+
+from robot.errors import Failure
+
+
+class Level(IntEnum):
+    """What has to be done; the most severe finding wins."""
+
+    OK = 0
+    WARN = 1
+    """tell people"""
+    DERATE = 2
+    """go on, slower"""
+    HOLD = 3
+    """stop the task, stand, and wait for it to pass"""
+    SIT = 4
+    """end the task and come to rest"""
+    DAMP = 5
+    """the motors damp: the body can no longer be held up"""
+
+
+class Finding(msgspec.Struct, frozen=True, kw_only=True):
+    """One thing that is not as it should be, how bad it is, and the failure it would be."""
+
+    name: str
+    level: Level
+    failure: Failure
+
+
+class Health(msgspec.Struct, frozen=True, kw_only=True):
+    """All findings of one look at the robot, worst first; none: it is well.
+
+    `ages_s` says how old the newest message of each watched topic is.
+    """
+
+    findings: tuple[Finding, ...] = ()
+    ages_s: dict[str, float] = {}
+
+    @property
+    def level(self) -> Level:
+        """The level of the worst finding."""
+        return self.findings[0].level if self.findings else Level.OK
+
+    @property
+    def failure(self) -> Failure | None:
+        """The failure of the worst finding."""
+        return self.findings[0].failure if self.findings else None
