@@ -1,0 +1,93 @@
+"""One hand: opening and force of its two coupled fingers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robot.drivers.motors import MotorState
+from robot.messages import Activity, Grip, HandState, Side
+from robot.model.body import BodyModel
+from robot.se3 import SE3, Array
+
+OPENING_DONE_M = 0.004
+STILL_M_S = 0.004
+CLOSE_RATE_M_S = 0.12
+SETTLE_S = 0.3
+GIVE_UP_S = 2.0
+LOAD_TIME_S = 0.15
+
+
+class HandControl:
+    """Reference of one hand's motor, and what its sensors say."""
+
+    def __init__(self, body: BodyModel, side: Side, q_start: Array) -> None:
+        """Hold the opening it starts with."""
+        self.hand = body.description.hands[side]
+        self.side: Side = side
+        self.motor = body.description.motor_names.index(self.hand.motor)
+        self.row = 0 if side == "left" else 1
+        model = body.model
+        self._weight_n = 9.81 * float(model.body_subtreemass[body.body_id(self.hand.body)])
+        self._kp = float(body.kp[self.motor])
+        self.target: float = float(q_start[self.motor])
+        self._reference = self.target
+        self._force_n = self.hand.max_force_n
+        self._time_s = 0.0
+        self._still_s = 0.0
+        self.load_n = 0.0
+        self.activity = Activity(id=0, status="done")
+
+    def grip(self, command: Grip) -> None:
+        """Take a new opening and force."""
+        opening = min(self.hand.max_opening_m, max(0.0, command.opening_m))
+        self.target = opening / self.hand.opening_per_motor
+        self._force_n = min(self.hand.max_force_n, max(1.0, command.force_n))
+        self._time_s, self._still_s = 0.0, 0.0
+        self.activity = Activity(id=command.id, status="running")
+
+    def update(self, dt_s: float, state: MotorState, rotation_NW: Array) -> float:
+        """Advance; returns the motor's position target, limited so that kp x error is the force.
+
+        `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
+        """
+        self._time_s += dt_s
+        force = state.wrist_wrench[self.row, :3]
+        load = -float(rotation_NW[2] @ force) - self._weight_n
+        self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
+        q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
+        step = CLOSE_RATE_M_S * dt_s
+        self._reference += max(-step, min(step, self.target - self._reference))
+        reach = self._force_n / self._kp
+        self._reference = max(q - reach, min(q + reach, self._reference))
+        self._report(dt_s, q, qd)
+        return self._reference
+
+    def _report(self, dt_s: float, q: float, qd: float) -> None:
+        if self.activity.status != "running":
+            return
+        still = abs(qd) < STILL_M_S
+        self._still_s = self._still_s + dt_s if still else 0.0
+        arrived = abs(q - self.target) * self.hand.opening_per_motor < OPENING_DONE_M
+        if arrived or (self._still_s > SETTLE_S and self._time_s > SETTLE_S):
+            detail = "" if arrived else "stopped by something"
+            self.activity = Activity(id=self.activity.id, status="done", detail=detail)
+        elif self._time_s > GIVE_UP_S:
+            self.activity = Activity(id=self.activity.id, status="failed", detail="still moving")
+
+    def state(self, motors: MotorState, X_NG: SE3) -> HandState:
+        """What is known of the hand."""
+        gain = self.hand.opening_per_motor
+        return HandState(
+            X_NG=X_NG,
+            opening_m=gain * float(motors.q[self.motor]),
+            opening_m_s=gain * float(motors.qd[self.motor]),
+            load_n=self.load_n,
+        )
+
+
+def wrist_rotation(body: BodyModel, side: Side, data: object) -> Array:
+    """Rotation of the wrist sensor's site in N, shape (3, 3)."""
+    model = body.model
+    sensor = body.description.hands[side].force_sensor
+    site = int(model.sensor(sensor).objid[0])
+    return np.asarray(data.site_xmat[site]).reshape(3, 3)  # type: ignore[attr-defined]

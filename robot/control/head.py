@@ -1,0 +1,49 @@
+"""The head: keep the camera on a point."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robot.kinematics.dynamics import Dynamics
+from robot.messages import Activity, Look
+from robot.model.body import BodyModel
+from robot.se3 import Array
+
+RATE_RAD_S = 2.5
+DONE_RAD = 0.05
+
+
+class Head:
+    """Reference of the head's yaw and pitch."""
+
+    def __init__(self, body: BodyModel, q_start: Array) -> None:
+        """Hold the posture it starts in."""
+        self.body = body
+        self.motors = np.array(body.description.indices("head"))
+        self.lower, self.upper = body.lower_rad[self.motors], body.upper_rad[self.motors]
+        self.q: Array = q_start[self.motors].copy()
+        self._point: Array | None = None
+        self._camera = body.site_id(body.description.sensors.camera.site)
+        self.activity = Activity(id=0, status="done")
+
+    def look(self, command: Look) -> None:
+        """Take a new point of N to look at."""
+        self._point = np.array(command.p_N)
+        self.activity = Activity(id=command.id, status="running")
+
+    def update(self, dt_s: float, dynamics: Dynamics, measured: Array) -> None:
+        """Turn towards the point, however the body moves; `measured` yaw and pitch [rad]."""
+        if self._point is None:
+            return
+        data = dynamics.data
+        rotation = data.xmat[self.body.torso_body].reshape(3, 3)
+        x, y, z = rotation.T @ (self._point - data.site_xpos[self._camera])
+        wanted = np.array([math.atan2(y, x), -math.atan2(z, math.hypot(x, y))])
+        wanted = np.minimum(np.maximum(wanted, self.lower), self.upper)
+        step = RATE_RAD_S * dt_s
+        self.q = self.q + np.minimum(np.maximum(wanted - self.q, -step), step)
+        arrived = float(np.abs(wanted - measured).max()) < DONE_RAD
+        if arrived and self.activity.status == "running":
+            self.activity = Activity(id=self.activity.id, status="done")

@@ -1,0 +1,254 @@
+"""Legs and trunk: from commands and the gait to the whole-body task of this tick."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+
+from robot.control.walking.footsteps import Sole, Target, Twist, stance_of
+from robot.control.walking.gait import Gait, Reference
+from robot.control.whole_body import Task, WholeBody
+from robot.kinematics.dynamics import Dynamics
+from robot.messages import Activity, OneLeg, Side, Stand, Walk, WalkTo
+from robot.model.body import SIDES, BodyModel
+from robot.se3 import SE3, Array, wrap_angle
+
+GRAVITY_M_S2 = 9.81
+LOWEST_SHARE = 0.68
+HEIGHT_RATE_M_S = 0.12
+WAIST_RATE_RAD_S = 0.5
+WALK_HEIGHT_TOLERANCE_M = 0.02
+ACCELERATION_M_S2 = 0.35
+TURN_ACCELERATION_RAD_S2 = 0.8
+HEIGHT_GAINS = (80.0, 18.0)
+PELVIS_GAINS = (100.0, 20.0)
+WAIST_GAINS = (100.0, 20.0)
+POSTURE_GAINS = (50.0, 10.0)
+SWING_GAINS = (400.0, 40.0)
+SWING_TURN_GAINS = (300.0, 35.0)
+STANCE_DAMPING = 30.0
+MAX_COM_ACC_M_S2 = 6.0
+
+
+class Legs:
+    """Turns Stand, Walk, WalkTo and OneLeg into tasks for the whole body.
+
+    Attributes:
+        gait: the state machine of the feet.
+        activity: about the last command.
+        height_m: base height reference above the soles.
+    """
+
+    def __init__(
+        self, body: BodyModel, whole: WholeBody, left: Sole, right: Sole, height_m: float
+    ) -> None:
+        """Stand on the soles where they are, at the height it is at."""
+        self.body = body
+        self.description = body.description
+        self.gait = Gait(self.description, {"left": left, "right": right})
+        self.activity = Activity(id=0, status="done")
+        self.height_m = height_m
+        self._height_goal_m = self.description.walking.base_height_m
+        self._waist = np.zeros(len(self.description.groups["waist"]))
+        self._waist_goal = self._waist.copy()
+        self._whole = whole
+        self._nominal = np.array(self.description.posture("nominal"))[whole.active_motors]
+        self._expires_s = math.inf
+        self._now_s = 0.0
+        self._twist_goal = Twist()
+        self._one_leg = False
+
+    # --- commands ------------------------------------------------------------------------------
+
+    def stand(self, command: Stand) -> None:
+        """Finish stepping, then hold this height and trunk."""
+        nominal = self.description.walking.base_height_m
+        height = nominal if command.height_m is None else command.height_m
+        self._height_goal_m = max(LOWEST_SHARE * nominal, min(nominal + 0.02, height))
+        self._waist_goal = self._waist_posture(command.yaw_rad, command.pitch_rad)
+        self._end_walk()
+        self.gait.wish = None if self.gait.phase == "stand" else Twist()
+        self._start(command.id)
+
+    def walk(self, command: Walk) -> None:
+        """Follow a twist until it expires."""
+        limits = self.description.walking
+        self._stand_tall()
+        forward = max(-limits.max_backward_m_s, min(limits.max_forward_m_s, command.forward_m_s))
+        left = max(-limits.max_sideways_m_s, min(limits.max_sideways_m_s, command.left_m_s))
+        turn = max(-limits.max_turn_rad_s, min(limits.max_turn_rad_s, command.turn_rad_s))
+        self._twist_goal = Twist(forward, left, turn)
+        self._expires_s = self._now_s + command.hold_s
+        if not isinstance(self.gait.wish, Twist):
+            self.gait.wish = Twist()
+        self._start(command.id)
+
+    def walk_to(self, command: WalkTo) -> None:
+        """Step to a stance."""
+        self._stand_tall()
+        self._end_walk()
+        goal = Sole(command.x_m, command.y_m, command.yaw_rad)
+        self.gait.wish = Target(goal, command.position_tolerance_m, command.yaw_tolerance_rad)
+        self._start(command.id)
+
+    def one_leg(self, command: OneLeg) -> None:
+        """Stand on one foot for a while."""
+        if not self.gait.settled():
+            detail = "the robot must stand still first"
+            self.activity = Activity(id=command.id, status="failed", detail=detail)
+            return
+        self._stand_tall()
+        self.gait.wish = None
+        self.gait.lift(command.side, command.duration_s)
+        self._one_leg = True
+        self._start(command.id)
+
+    def _start(self, command_id: int) -> None:
+        self.activity = Activity(id=command_id, status="running")
+
+    def _stand_tall(self) -> None:
+        self._height_goal_m = self.description.walking.base_height_m
+        self._waist_goal = np.zeros_like(self._waist)
+
+    def _end_walk(self) -> None:
+        self._expires_s = math.inf
+        self._twist_goal = Twist()
+
+    def _waist_posture(self, yaw_rad: float, pitch_rad: float) -> Array:
+        goal = np.zeros_like(self._waist)
+        for k, name in enumerate(self.description.groups["waist"]):
+            if name.endswith("yaw"):
+                goal[k] = yaw_rad
+            elif name.endswith("pitch"):
+                goal[k] = pitch_rad
+        motors = self._whole.active_motors[self._whole.waist]
+        lower, upper = self.body.lower_rad[motors], self.body.upper_rad[motors]
+        return np.minimum(np.maximum(goal, lower), upper)
+
+    # --- every tick ----------------------------------------------------------------------------
+
+    def update(self, dt_s: float, dynamics: Dynamics, load: list[float], rest_acc: Array) -> tuple[Task, Reference]:
+        """The task of this tick and the gait's reference behind it."""
+        self._now_s += dt_s
+        self._ramp(dt_s)
+        com, velocity = dynamics.com, dynamics.com_velocity
+        height = max(0.2, float(com[2]))
+        omega = math.sqrt(GRAVITY_M_S2 / height)
+        self.gait.omega_1_s = omega
+        xi = (float(com[0] + velocity[0] / omega), float(com[1] + velocity[1] / omega))
+        measured = {side: self._sole(dynamics, side) for side in SIDES}
+        reference = self.gait.update(dt_s, xi, measured, load)
+        self._report()
+        return self._task(dynamics, reference, omega, rest_acc), reference
+
+    def _ramp(self, dt_s: float) -> None:
+        """Move height, waist and twist towards their goals at bounded rates."""
+        step = HEIGHT_RATE_M_S * dt_s
+        self.height_m += max(-step, min(step, self._height_goal_m - self.height_m))
+        turn = WAIST_RATE_RAD_S * dt_s
+        self._waist += np.minimum(np.maximum(self._waist_goal - self._waist, -turn), turn)
+        if self._now_s > self._expires_s:
+            self._twist_goal = Twist()
+        wish = self.gait.wish
+        if isinstance(wish, Twist):
+            goal = self._twist_goal
+            tall = self.height_m > self.description.walking.base_height_m - WALK_HEIGHT_TOLERANCE_M
+            if not tall:
+                goal = Twist()
+            dv, dw = ACCELERATION_M_S2 * dt_s, TURN_ACCELERATION_RAD_S2 * dt_s
+            self.gait.wish = Twist(
+                _towards(wish.forward_m_s, goal.forward_m_s, dv),
+                _towards(wish.left_m_s, goal.left_m_s, dv),
+                _towards(wish.turn_rad_s, goal.turn_rad_s, dw),
+            )
+
+    def _report(self) -> None:
+        """A command is done when the feet rest and height and waist are there."""
+        if self.activity.status != "running" or not self.gait.settled():
+            return
+        if math.isfinite(self._expires_s) and self._now_s <= self._expires_s:
+            return
+        there = abs(self.height_m - self._height_goal_m) < 1e-3
+        turned = float(np.abs(self._waist - self._waist_goal).max()) < 1e-3
+        if there and turned:
+            self.activity = Activity(id=self.activity.id, status="done")
+            self._one_leg = False
+            if isinstance(self.gait.wish, Twist):
+                self.gait.wish = None
+                self._end_walk()
+
+    def _sole(self, dynamics: Dynamics, side: Side) -> Sole:
+        site = self.body.sole_site[side]
+        data = dynamics.data
+        p, m = data.site_xpos[site], data.site_xmat[site]
+        return Sole(float(p[0]), float(p[1]), math.atan2(float(m[3]), float(m[0])))
+
+    def _task(self, dynamics: Dynamics, ref: Reference, omega: float, rest_acc: Array) -> Task:
+        data, whole = dynamics.data, self._whole
+        acc = np.empty(3)
+        for k in (0, 1):
+            value = omega * omega * (float(dynamics.com[k]) - ref.zmp_command[k])
+            acc[k] = max(-MAX_COM_ACC_M_S2, min(MAX_COM_ACC_M_S2, value))
+        kp, kd = HEIGHT_GAINS
+        acc[2] = kp * (self.height_m - float(data.qpos[2])) - kd * float(data.qvel[2])
+        posture_kp, posture_kd = POSTURE_GAINS
+        q = data.qpos[self.body.qpos_of[whole.active_motors]]
+        qd = data.qvel[self.body.dof_of[whole.active_motors]]
+        posture = posture_kp * (self._nominal - q) - posture_kd * qd
+        waist_kp, waist_kd = WAIST_GAINS
+        rows = whole.waist
+        posture[rows] = waist_kp * (self._waist - q[rows]) - waist_kd * qd[rows]
+        soles = [self._sole_acc(dynamics, ref, i) for i in range(2)]
+        weight_n = self.body.mass_kg * GRAVITY_M_S2
+        return Task(
+            com_acc=acc,
+            pelvis_acc_B=self._pelvis_acc(dynamics, ref.heading_rad),
+            posture_acc=posture,
+            sole_acc=soles,
+            contact=ref.contact,
+            max_force_n=[share * weight_n for share in ref.max_force_share],
+            rest_acc=rest_acc,
+        )
+
+    def _pelvis_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
+        """Upright, facing the heading of the feet."""
+        data = dynamics.data
+        half = 0.5 * heading_rad
+        wanted = np.array([math.cos(half), 0.0, 0.0, math.sin(half)])
+        error = np.zeros(3)
+        mujoco.mju_subQuat(error, wanted, data.qpos[3:7])
+        kp, kd = PELVIS_GAINS
+        return kp * error - kd * data.qvel[3:6]
+
+    def _sole_acc(self, dynamics: Dynamics, ref: Reference, i: int) -> Array:
+        """Still on the floor, or along the swing."""
+        velocity = dynamics.jac_sole[i] @ dynamics.data.qvel
+        if ref.contact[i] or ref.swing is None:
+            return -STANCE_DAMPING * velocity
+        swing, data = ref.swing, dynamics.data
+        site = self.body.sole_site[SIDES[i]]
+        kp, kd = SWING_GAINS
+        x, y, yaw = swing.position
+        wanted = np.array([x, y, swing.z])
+        rate = np.array([swing.velocity[0], swing.velocity[1], swing.vz])
+        acc = np.empty(6)
+        feed = (swing.acceleration[0], swing.acceleration[1], swing.az)
+        acc[:3] = feed + kp * (wanted - data.site_xpos[site]) + kd * (rate - velocity[:3])
+        turn_kp, turn_kd = SWING_TURN_GAINS
+        m = data.site_xmat[site].reshape(3, 3)
+        yaw_error = wrap_angle(float(yaw) - math.atan2(float(m[1, 0]), float(m[0, 0])))
+        tilt = np.array([m[1, 2], -m[0, 2], yaw_error])  # z x (sole's z) levels the sole
+        acc[3:] = turn_kp * tilt - turn_kd * velocity[3:]
+        acc[5] += turn_kd * float(swing.velocity[2]) + float(swing.acceleration[2])
+        return acc
+
+    def X_NS(self) -> SE3:
+        """The stance."""
+        stance = stance_of(self.gait.planted["left"], self.gait.planted["right"])
+        return SE3.from_xy_yaw(stance.x, stance.y, stance.yaw)
+
+
+def _towards(value: float, goal: float, step: float) -> float:
+    return value + max(-step, min(step, goal - value))

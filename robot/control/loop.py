@@ -1,0 +1,363 @@
+"""The controller: motor states in, motor commands out, at the bus rate.
+
+Every second tick the whole body is computed anew; the tick between repeats the last command with
+fresh measurements. Nothing here reads a clock: time comes with the state.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robot.control.arm import Arm
+from robot.control.hand import HandControl
+from robot.control.head import Head
+from robot.control.legs import Legs
+from robot.control.limits import Limits
+from robot.control.walking.footsteps import Sole
+from robot.control.walking.gait import Reference
+from robot.control.whole_body import WholeBody
+from robot.drivers.motors import MotorCommand, MotorState
+from robot.errors import Failure, failure
+from robot.fusion.base_state import BaseStateEstimator
+from robot.kinematics.dynamics import Dynamics
+from robot.messages import (
+    Activity,
+    BodyCommand,
+    BodyState,
+    Channel,
+    Damp,
+    Grip,
+    HandState,
+    Look,
+    Mode,
+    MoveArm,
+    MoveHand,
+    OneLeg,
+    Payload,
+    Side,
+    Stand,
+    Walk,
+    WalkTo,
+)
+from robot.model.body import SIDES, BodyModel
+from robot.model.description import RobotDescription
+from robot.se3 import SE3, Array, Quaternion
+
+BUS_PERIOD_S = 0.002
+FALLEN_TILT_RAD = 0.9
+FALLEN_HEIGHT_SHARE = 0.5
+UPRIGHT_TILT_RAD = 0.35
+
+
+class ControlLoop:
+    """One robot's controller."""
+
+    def __init__(self, description: RobotDescription, *, ticks_per_solve: int = 2) -> None:
+        """Compile the model; nothing is commanded before the first `tick`.
+
+        Raises:
+            DescriptionError: if description and MJCF disagree.
+        """
+        self.description = description
+        self.body = BodyModel(description)
+        self.dynamics = Dynamics(self.body)
+        self.whole = WholeBody(self.body)
+        self.limits = Limits(self.body)
+        self.mode: Mode = "damping"
+        self._ticks_per_solve = ticks_per_solve
+        self._ticks = 0
+        self._started = False
+        self._failure: Failure | None = None
+        self._nominal_mass: Array = np.array(self.body.model.body_mass)
+        self._nominal_ipos: Array = np.array(self.body.model.body_ipos)
+        self._payload: dict[Side, float] = {}
+        self._damp_activity = Activity(id=0, status="done")
+
+    # --- start ---------------------------------------------------------------------------------
+
+    def _start(self, state: MotorState) -> None:
+        """Find the odometry frame: the stance is its origin, the floor its z = 0."""
+        body, data = self.body, self.dynamics.data
+        X_NB = SE3((0.0, 0.0, 0.0), self._upright(state))
+        body.write_base(data, X_NB)
+        body.write_joints(data, state.q)
+        self.dynamics.kinematics()
+        soles = [body.site_pose(data, body.sole_site[side]) for side in SIDES]
+        yaw = math.atan2(
+            sum(math.sin(sole.yaw_rad) for sole in soles), sum(math.cos(sole.yaw_rad) for sole in soles)
+        )
+        lowest = min(sole.p[2] for sole in soles)
+        middle = [0.5 * (soles[0].p[k] + soles[1].p[k]) for k in (0, 1)]
+        X_SN = SE3.from_xy_yaw(middle[0], middle[1], yaw).inverse()
+        X_NB = X_SN @ SE3((0.0, 0.0, -lowest), X_NB.quat_wxyz)
+        self.estimator = BaseStateEstimator(body, X_NB)
+        planted = {side: _planar(X_SN @ soles[i]) for i, side in enumerate(SIDES)}
+        self.legs = Legs(body, self.whole, planted["left"], planted["right"], X_NB.p[2])
+        self.arms = {side: Arm(body, side, state.q) for side in self.description.hands}
+        self.hands = {side: HandControl(body, side, state.q) for side in self.description.hands}
+        self._wrist_site = {
+            side: int(body.model.sensor(hand.force_sensor).objid[0])
+            for side, hand in self.description.hands.items()
+        }
+        self.head = Head(body, state.q)
+        self._reference: Reference | None = None
+        self._gyro, self._accel = state.gyro_rad_s.copy(), state.accel_m_s2.copy()
+        self._samples = 0
+        self._state = state
+        self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
+        self._started = True
+        tilt, height = self._tilt(), X_NB.p[2]
+        if tilt < UPRIGHT_TILT_RAD and height > FALLEN_HEIGHT_SHARE * self._height():
+            self.mode = "stand"
+
+    def _upright(self, state: MotorState) -> Quaternion:
+        """Orientation with heading zero: from gravity at rest, else from the soles lying flat."""
+        accel = state.accel_m_s2
+        norm = float(np.linalg.norm(accel))
+        if abs(norm - 9.81) < 1.5:
+            up_B = accel / norm
+        else:
+            body, data = self.body, self.dynamics.data
+            body.write_base(data, SE3())
+            body.write_joints(data, state.q)
+            self.dynamics.kinematics()
+            up_B = sum(data.site_xmat[body.sole_site[side]].reshape(3, 3)[:, 2] for side in SIDES)
+        x, y, z = (float(value) for value in up_B)
+        return SE3.from_rpy(math.atan2(y, z), math.atan2(-x, math.hypot(y, z)), 0.0, (0, 0, 0)).quat_wxyz
+
+    def _height(self) -> float:
+        return self.description.walking.base_height_m
+
+    # --- commands ------------------------------------------------------------------------------
+
+    def handle(self, command: BodyCommand) -> None:
+        """Take one command; `state().activities` answers with its id."""
+        if not self._started:
+            return
+        if isinstance(command, Damp):
+            self.mode = "damping"
+            self._damp_activity = Activity(id=command.id, status="done")
+        elif isinstance(command, Payload):
+            self._carry(command.side, command.mass_kg)
+        elif isinstance(command, Grip):
+            self.hands[command.side].grip(command)
+        elif isinstance(command, Look):
+            self.head.look(command)
+        elif isinstance(command, MoveArm):
+            self.arms[command.side].follow(command)
+        elif isinstance(command, MoveHand):
+            X_NG = self.body.site_pose(self.dynamics.data, self.body.grasp_site[command.side])
+            self.arms[command.side].reach(command, X_NG, self.hands[command.side].load_n)
+        else:
+            self._move(command)
+
+    def _move(self, command: Stand | OneLeg | Walk | WalkTo) -> None:
+        """A command to the legs: refused while down."""
+        if self.mode in ("damping", "fallen") and not self._may_rise(command):
+            detail = f"the motors are in {self.mode}"
+            self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
+            return
+        if isinstance(command, Stand):
+            self.legs.stand(command)
+        elif isinstance(command, Walk):
+            self.legs.walk(command)
+        elif isinstance(command, WalkTo):
+            self.legs.walk_to(command)
+        else:
+            self.legs.one_leg(command)
+
+    def _may_rise(self, command: BodyCommand) -> bool:
+        """Stand arms the motors again if the robot is upright on its feet."""
+        if not isinstance(command, Stand) or self._tilt() > UPRIGHT_TILT_RAD:
+            return False
+        if self.estimator.p[2] < 0.8 * self._height() * 0.7:
+            return False
+        self._failure = None
+        self.limits.reset()
+        self._start(self._state)
+        return self.mode == "stand"
+
+    def _carry(self, side: Side, mass_kg: float) -> None:
+        """Put a payload at the grasp point of a hand into the model."""
+        import mujoco
+
+        self._payload[side] = max(0.0, mass_kg)
+        model = self.body.model
+        model.body_mass[:] = self._nominal_mass
+        model.body_ipos[:] = self._nominal_ipos
+        for one, mass in self._payload.items():
+            site = self.body.grasp_site[one]
+            hand = int(model.site_bodyid[site])
+            own = float(self._nominal_mass[hand])
+            total = own + mass
+            grasp = model.site_pos[site]
+            model.body_ipos[hand] = (own * self._nominal_ipos[hand] + mass * grasp) / total
+            model.body_mass[hand] = total
+        scratch = self.body.data()
+        mujoco.mj_setConst(model, scratch)
+        self.body.mass_kg = float(model.body_subtreemass[self.body.base_body])
+
+    # --- every tick ----------------------------------------------------------------------------
+
+    def tick(self, state: MotorState) -> MotorCommand:
+        """One bus period: read the state, return what to send."""
+        if not self._started:
+            self._start(state)
+        self._state = state
+        self._gyro += state.gyro_rad_s
+        self._accel += state.accel_m_s2
+        self._samples += 1
+        self._ticks += 1
+        if (self._ticks - 1) % self._ticks_per_solve == 0:
+            self._solve(state)
+        else:
+            self._command.stamp_s = state.stamp_s
+        self._command = self.limits.apply(self._command, state)
+        if self.limits.tripped and self.mode not in ("damping", "fallen"):
+            self.mode = "damping"
+            self._failure = failure("lost_balance", self.limits.tripped)
+        return self._command
+
+    def _solve(self, state: MotorState) -> None:
+        dt_s = BUS_PERIOD_S * self._samples
+        dynamics, body, data = self.dynamics, self.body, self.dynamics.data
+        estimator = self.estimator
+        estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
+        self._gyro[:] = 0.0
+        self._accel[:] = 0.0
+        self._samples = 0
+        data.qpos[:3] = estimator.p
+        data.qpos[3:7] = estimator.quat_wxyz
+        data.qvel[:3] = estimator.v
+        data.qvel[3:6] = estimator.w_B
+        body.write_joints(data, state.q, state.qd)
+        dynamics.kinematics()
+        estimator.correct(dt_s, data, [jac[:3] for jac in dynamics.jac_sole], state.ankle_wrench[:, 2])
+        data.qvel[:3] = estimator.v
+        dynamics.dynamics()
+        self._update_mode()
+        if self.mode in ("damping", "fallen"):
+            self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
+            return
+        self._command = self._compute(dt_s, state)
+
+    def _compute(self, dt_s: float, state: MotorState) -> MotorCommand:
+        body, dynamics, data = self.body, self.dynamics, self.dynamics.data
+        standing = self.legs.gait.phase == "stand"
+        rest_acc = np.zeros(body.model.nv)
+        q_des, qd_des = state.q.copy(), np.zeros(body.count)
+        for side, arm in self.arms.items():
+            load = self.hands[side].load_n
+            arm.update(dt_s, dynamics, state.q[arm.motors], load_n=load, standing=standing)
+            q_des[arm.motors], qd_des[arm.motors] = arm.q, arm.qd
+            rest_acc[arm.dofs] = arm.qdd
+        for side, hand in self.hands.items():
+            rotation = data.site_xmat[self._wrist_site[side]].reshape(3, 3)
+            q_des[hand.motor] = hand.update(dt_s, state, rotation)
+        self.head.update(dt_s, dynamics, state.q[self.head.motors])
+        q_des[self.head.motors] = self.head.q
+        task, self._reference = self.legs.update(dt_s, dynamics, self.estimator.load, rest_acc)
+        solution = self.whole.solve(dynamics, task)
+        if not solution.ok:
+            self._command.stamp_s = state.stamp_s
+            return self._command
+        active = self.whole.active_motors
+        acc = solution.acc[body.dof_of[active]]
+        qd = state.qd[active]
+        q_des[active] = state.q[active] + 0.5 * dt_s * qd
+        qd_des[active] = qd + 0.5 * dt_s * acc
+        tau = solution.tau[body.dof_of]
+        for hand in self.hands.values():
+            tau[hand.motor] = 0.0
+        return MotorCommand(state.stamp_s, q_des, qd_des, tau, body.kp.copy(), body.kd.copy())
+
+    def _tilt(self) -> float:
+        """Angle between the base's z axis and the vertical [rad]."""
+        _, x, y, _ = self.estimator.quat_wxyz
+        return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
+
+    def _update_mode(self) -> None:
+        if self.mode in ("damping", "fallen"):
+            return
+        tilt = self._tilt()
+        height = float(self.estimator.p[2])
+        if tilt > FALLEN_TILT_RAD or height < FALLEN_HEIGHT_SHARE * self._height():
+            self.mode = "fallen"
+            self._failure = failure(
+                "fallen",
+                f"the trunk leans {math.degrees(tilt):.0f} degrees, {height:.2f} m above the floor",
+                tilt_rad=tilt,
+                height_m=height,
+            )
+            return
+        self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
+
+    # --- what it knows -------------------------------------------------------------------------
+
+    def state(self) -> BodyState:
+        """The newest state; call after the first tick."""
+        body, data, state = self.body, self.dynamics.data, self._state
+        legs = self.legs
+        com, velocity = self.dynamics.com, self.dynamics.com_velocity
+        omega = legs.gait.omega_1_s
+        hands: dict[Side, HandState] = {
+            side: hand.state(state, body.site_pose(data, body.grasp_site[side]))
+            for side, hand in self.hands.items()
+        }
+        command = (0.0, 0.0) if self._reference is None else self._reference.zmp_command
+        soles = {side: body.site_pose(data, body.sole_site[side]) for side in SIDES}
+        return BodyState(
+            stamp_s=state.stamp_s,
+            mode=self.mode,
+            X_NB=self.estimator.X_NB(),
+            v_NB=_vector(self.estimator.v),
+            w_NB=_vector(data.xmat[body.base_body].reshape(3, 3) @ self.estimator.w_B),
+            X_NL=soles["left"],
+            X_NR=soles["right"],
+            X_NS=self._stance(soles),
+            left_contact=self.estimator.load[0] > 0.1,
+            right_contact=self.estimator.load[1] > 0.1,
+            q_rad=tuple(state.q.tolist()),
+            qd_rad_s=tuple(state.qd.tolist()),
+            tau_nm=tuple(state.tau.tolist()),
+            com_N=_vector(com),
+            dcm_N=(float(com[0] + velocity[0] / omega), float(com[1] + velocity[1] / omega)),
+            zmp_N=command,
+            hands=hands,
+            activities=self._activities(),
+            clamped=self.limits.clamped,
+            refused=self.limits.refused,
+            temperature_c=tuple(state.temperature_c.tolist()),
+            failure=self._failure,
+        )
+
+    def _stance(self, soles: dict[Side, SE3]) -> SE3:
+        left, right = soles["left"], soles["right"]
+        c = math.cos(left.yaw_rad) + math.cos(right.yaw_rad)
+        s = math.sin(left.yaw_rad) + math.sin(right.yaw_rad)
+        x, y = (0.5 * (left.p[k] + right.p[k]) for k in (0, 1))
+        return SE3.from_xy_yaw(x, y, math.atan2(s, c))
+
+    def _activities(self) -> dict[Channel, Activity]:
+        result: dict[Channel, Activity] = {
+            "legs": self.legs.activity,
+            "head": self.head.activity,
+        }
+        if "left" in self.arms:
+            result["left_arm"] = self.arms["left"].activity
+            result["left_hand"] = self.hands["left"].activity
+        if "right" in self.arms:
+            result["right_arm"] = self.arms["right"].activity
+            result["right_hand"] = self.hands["right"].activity
+        return result
+
+
+def _planar(X: SE3) -> Sole:
+    return Sole(X.p[0], X.p[1], X.yaw_rad)
+
+
+def _vector(values: Array) -> tuple[float, float, float]:
+    x, y, z = values.tolist()
+    return (x, y, z)

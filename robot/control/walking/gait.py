@@ -1,0 +1,358 @@
+"""The gait: standing, double support and single support as one state machine.
+
+Footsteps come from a wish (a twist or a target stance), are planned a few ahead, and give a
+piecewise linear ZMP whose DCM is tracked. What to do next is decided when a foot lifts (one step
+ahead): a robot that changes its mind at a landing falls sideways.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+from robot.control.walking.dcm import DcmPlan, Point, Segment
+from robot.control.walking.footsteps import (
+    FootstepPlanner,
+    Sole,
+    Twist,
+    Wish,
+    other,
+    sign_of,
+    stance_of,
+)
+from robot.control.walking.support import SupportPolygon
+from robot.control.walking.swing import Swing
+from robot.messages import Side
+from robot.model.body import SIDES
+from robot.model.description import RobotDescription
+from robot.se3 import wrap_angle
+
+HORIZON_STEPS = 4
+START_S = 0.55
+STOP_S = 0.40
+URGENT_START_S = 0.06
+SETTLE_S = 0.25
+TOUCHDOWN_LOAD = 0.08
+LATE_S = 0.25
+DEADBAND_M = 0.02
+DCM_GAIN_1_S = 4.0
+INTEGRAL_GAIN = 0.8
+INTEGRAL_LIMIT_M = 0.05
+ZMP_MARGIN_M = 0.008
+REACH_FORWARD_M = 0.42
+REACH_SIDE_M = 0.42
+
+Phase = Literal["stand", "double", "single"]
+
+
+@dataclass(slots=True)
+class Reference:
+    """What the gait wants of the body now; all in N."""
+
+    xi: Point
+    zmp: Point
+    zmp_command: Point
+    contact: list[bool]
+    max_force_share: list[float]
+    heading_rad: float
+    swing: Swing | None = None
+    swing_side: Side | None = None
+
+
+@dataclass(slots=True)
+class Gait:
+    """One body's gait.
+
+    `planted` are the soles on the floor as last measured; `wish` is what drives the next decision,
+    None for standing. `omega_1_s` is the pendulum's frequency, set by the caller every tick.
+    """
+
+    description: RobotDescription
+    planted: dict[Side, Sole]
+    omega_1_s: float = 4.0
+    wish: Wish | None = None
+    phase: Phase = "stand"
+    phase_s: float = 0.0
+    duration_s: float = 0.0
+    support: Side = "right"
+    swing: Swing | None = None
+    steps_taken: int = 0
+    planner: FootstepPlanner = field(init=False)
+    _landings: list[Sole] = field(init=False, default_factory=list[Sole])
+    _plan: DcmPlan = field(init=False)
+    _polygon: SupportPolygon = field(init=False)
+    _integral: list[float] = field(init=False, default_factory=lambda: [0.0, 0.0])
+    _one_leg_s: float = field(init=False, default=0.0)
+    _urgent: bool = field(init=False, default=False)
+
+    def __post_init__(self) -> None:
+        """Begin standing."""
+        self.planner = FootstepPlanner(self.description.walking)
+        self._stand()
+
+    # --- decisions ---------------------------------------------------------------------------
+
+    def lift(self, side: Side, duration_s: float) -> None:
+        """From standing, shift onto `side` and keep the other foot in the air."""
+        if self.phase != "stand":
+            return
+        self.support = side
+        self._one_leg_s = duration_s
+        self._landings = [self.planted[other(side)]]
+        self._start_double(1.2, self._stance_centre())
+
+    def settled(self) -> bool:
+        """Standing, with nothing left to do."""
+        return self.phase == "stand" and self.phase_s > SETTLE_S and not self._wants_step()
+
+    def _wants_step(self) -> bool:
+        """Would the wish move a foot?"""
+        if self.wish is None:
+            return False
+        side = self.planner.first_swing(self.planted["left"], self.planted["right"], self.wish)
+        landings = (
+            self.planner.next(self.planted[other(s)], self.planted[s], s, self.wish)
+            for s in (side, other(side))
+        )
+        return any(landing is not None for landing in landings)
+
+    def _begin(self, *, swing: Side, start_s: float) -> None:
+        """Leave standing with `swing` as the first foot in the air."""
+        self.support = other(swing)
+        self._one_leg_s = 0.0
+        wish = self.wish or Twist()
+        landing = self.planner.next(self.planted[self.support], self.planted[swing], swing, wish)
+        self._landings = self._look_ahead(landing or self.planted[swing])
+        self._start_double(start_s, self._stance_centre())
+
+    def _look_ahead(self, first: Sole) -> list[Sole]:
+        """The first landing and those after it, as far as the wish goes."""
+        wish = self.wish or Twist()
+        landings = [first]
+        feet = dict(self.planted)
+        side = other(self.support)
+        feet[side] = first
+        while len(landings) < HORIZON_STEPS:
+            side = other(side)
+            landing = self.planner.next(feet[other(side)], feet[side], side, wish)
+            if landing is None:
+                break
+            feet[side] = landing
+            landings.append(landing)
+        return landings
+
+    # --- the machine ---------------------------------------------------------------------------
+
+    def update(self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]) -> Reference:
+        """Advance by `dt_s`.
+
+        Args:
+            dt_s: time since the last update.
+            xi: measured DCM in N [m].
+            measured: soles as the estimator sees them.
+            load: share of the weight on the left and right foot.
+        """
+        self.phase_s += dt_s
+        if self.phase == "stand":
+            self._update_stand(xi)
+        elif self.phase == "double" and self.phase_s >= self.duration_s:
+            if self._landings:
+                self._start_single()
+            else:
+                self._stand()
+        elif self.phase == "single":
+            self._update_single(dt_s, xi, measured, load)
+        return self._reference(dt_s, xi)
+
+    def _update_stand(self, xi: Point) -> None:
+        if self._polygon.margin_m(xi) < -0.005:
+            forward, left, _ = self._stance().relative(Sole(xi[0], xi[1], 0.0))
+            swing: Side = "left" if left > 0.0 else "right"
+            self._urgent = True
+            if abs(forward) > abs(left):
+                swing = "left" if left < 0.0 else "right"
+            self._begin(swing=swing, start_s=URGENT_START_S)
+            return
+        if self.phase_s > SETTLE_S and self._wants_step():
+            assert self.wish is not None
+            left, right = self.planted["left"], self.planted["right"]
+            swing = self.planner.first_swing(left, right, self.wish)
+            support = other(swing)
+            if self.planner.next(self.planted[support], self.planted[swing], swing, self.wish) is None:
+                swing = support
+            self._begin(swing=swing, start_s=START_S)
+
+    def _update_single(
+        self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]
+    ) -> None:
+        assert self.swing is not None
+        side = other(self.support)
+        if not self._one_leg_s:
+            self._adjust(dt_s, xi)
+        self.swing.advance(dt_s)
+        down = load[SIDES.index(side)] > TOUCHDOWN_LOAD
+        early = self.phase_s > 0.6 * self.duration_s and self.swing.vz <= 0.0
+        if (down and early) or self.phase_s > self.duration_s + LATE_S:
+            self._touch_down(side, measured)
+
+    def _touch_down(self, side: Side, measured: dict[Side, Sole]) -> None:
+        """The swing foot bears: plan the next double support from where it really stands."""
+        unused_s = max(0.0, self.duration_s - self.phase_s)
+        going_on = len(self._landings) > 1
+        before = self.support
+        self.planted[side] = measured[side]
+        self.planted[before] = measured[before]
+        self.support = side
+        self.swing = None
+        self._one_leg_s = 0.0
+        self._urgent = False
+        self.steps_taken += 1
+        if going_on:
+            swing = before
+            wish = self.wish or Twist()
+            landing = self.planner.next(self.planted[side], self.planted[swing], swing, wish)
+            self._landings = self._look_ahead(landing or self._landings[1])
+            duration_s = self.description.walking.double_support_s + unused_s
+            self._start_double(duration_s, self._zmp_of(self.planted[before]))
+        else:
+            self._landings = []
+            self._start_double(STOP_S + unused_s, self._zmp_of(self.planted[before]))
+
+    def _start_double(self, duration_s: float, zmp: Point) -> None:
+        self.phase, self.phase_s, self.duration_s = "double", 0.0, duration_s
+        self._replan(zmp)
+        self._polygon = self._hull([self.planted["left"], self.planted["right"]])
+
+    def _start_single(self) -> None:
+        walking = self.description.walking
+        side = other(self.support)
+        self.phase, self.phase_s = "single", 0.0
+        self.duration_s = self._one_leg_s or walking.single_support_s
+        landing = self._landings[0]
+        if not self._one_leg_s:
+            self._landings = self._look_ahead(landing)
+        self.swing = Swing(self.planted[side], landing, self.duration_s, walking.step_height_m)
+        self._replan(self._zmp_of(self.planted[self.support]))
+        self._polygon = self._hull([self.planted[self.support]])
+
+    def _stand(self) -> None:
+        self.phase, self.phase_s, self.duration_s = "stand", 0.0, 0.0
+        self.swing = None
+        self._landings = []
+        self._integral = [0.0, 0.0]
+        centre = self._stance_centre()
+        self._plan = DcmPlan([], centre, self.omega_1_s)
+        self._polygon = self._hull([self.planted["left"], self.planted["right"]])
+
+    # --- references ----------------------------------------------------------------------------
+
+    def _stance(self) -> Sole:
+        return stance_of(self.planted["left"], self.planted["right"])
+
+    def _stance_centre(self) -> Point:
+        stance = self._stance()
+        return (stance.x, stance.y)
+
+    def _zmp_of(self, sole: Sole) -> Point:
+        return (sole.x, sole.y)
+
+    def _hull(self, soles: list[Sole]) -> SupportPolygon:
+        foot = self.description.feet["left"]
+        return SupportPolygon(
+            soles, foot.half_length_m, foot.half_width_m, margin_m=ZMP_MARGIN_M
+        )
+
+    def _replan(self, zmp: Point) -> None:
+        """Segments from now: the rest of this phase, then the footsteps ahead."""
+        walking = self.description.walking
+        segments: list[Segment] = []
+        foot = self._zmp_of(self.planted[self.support])
+        last = self.planted[other(self.support)]
+        current = self.planted[self.support]
+        if self.phase == "double":
+            if not self._landings:
+                centre = self._stance_centre()
+                self._plan = DcmPlan(
+                    [Segment(zmp, centre, self.duration_s)], centre, self.omega_1_s
+                )
+                return
+            segments.append(Segment(zmp, foot, self.duration_s))
+        single_s = self._one_leg_s or walking.single_support_s
+        for k, landing in enumerate(self._landings):
+            segments.append(Segment(foot, foot, single_s))
+            last, current = current, landing
+            if k + 1 < len(self._landings):
+                following = self._zmp_of(landing)
+                segments.append(Segment(foot, following, walking.double_support_s))
+                foot = following
+        stance = stance_of(last, current)
+        centre = (stance.x, stance.y)
+        if len(self._landings) < HORIZON_STEPS:
+            segments.append(Segment(foot, centre, STOP_S))
+            terminal = centre
+        else:
+            end = self._zmp_of(self._landings[-1])
+            segments.append(Segment(foot, end, walking.double_support_s))
+            terminal = end
+        self._plan = DcmPlan(segments, terminal, self.omega_1_s)
+
+    def _adjust(self, dt_s: float, xi: Point) -> None:
+        """Shift the landing by the DCM error that the stance foot cannot take back in time."""
+        assert self.swing is not None
+        left_s = max(0.0, self.duration_s - self.phase_s)
+        xi_ref, zmp_ref = self._plan.at(min(self.phase_s, self.duration_s))
+        growth = math.exp(self.omega_1_s * left_s)
+        command = self._command(xi, xi_ref, zmp_ref)
+        shift = [
+            growth * (xi[k] - xi_ref[k]) - (growth - 1.0) * (command[k] - zmp_ref[k]) * 0.5
+            for k in (0, 1)
+        ]
+        size = math.hypot(*shift)
+        scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
+        nominal = self._landings[0]
+        wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
+        self.swing.aim(self._reachable(wanted), dt_s)
+
+    def _reachable(self, landing: Sole) -> Sole:
+        """Keep a landing where the swing leg can put it without crossing the other."""
+        support = self.planted[self.support]
+        s = sign_of(other(self.support))
+        forward, left, turn = support.relative(landing)
+        forward = max(-REACH_FORWARD_M, min(REACH_FORWARD_M, forward))
+        width = self.description.walking.min_stance_width_m
+        left = s * max(width, min(REACH_SIDE_M, s * left))
+        return support.offset(forward, left, turn_rad=turn)
+
+    def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
+        """The ZMP that brings the DCM back, clipped to the support."""
+        gain = 1.0 + DCM_GAIN_1_S / self.omega_1_s
+        x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
+        y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
+        return self._polygon.clip((x, y))
+
+    def _reference(self, dt_s: float, xi: Point) -> Reference:
+        xi_ref, zmp_ref = self._plan.at(self.phase_s)
+        if self.phase == "stand":
+            for k in (0, 1):
+                step = self._integral[k] + INTEGRAL_GAIN * dt_s * (xi[k] - xi_ref[k])
+                self._integral[k] = max(-INTEGRAL_LIMIT_M, min(INTEGRAL_LIMIT_M, step))
+        elif self.phase == "single":
+            self._integral = [0.0, 0.0]
+        command = self._command(xi, xi_ref, zmp_ref)
+        contact, share = [True, True], [2.0, 2.0]
+        swing_side: Side | None = None
+        heading = self._stance().yaw
+        if self.phase == "single":
+            assert self.swing is not None
+            swing_side = other(self.support)
+            contact[SIDES.index(swing_side)] = False
+            support_yaw = self.planted[self.support].yaw
+            heading = support_yaw + 0.5 * wrap_angle(float(self.swing.position[2]) - support_yaw)
+        elif self.phase == "double" and self._landings:
+            lifting = SIDES.index(other(self.support))
+            left = max(0.0, 1.0 - self.phase_s / self.duration_s)
+            share[lifting] = 0.03 + 1.2 * left
+        return Reference(
+            xi_ref, zmp_ref, command, contact, share, heading, self.swing, swing_side
+        )

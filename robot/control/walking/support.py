@@ -1,0 +1,58 @@
+"""The support polygon, and points kept inside it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from robot.control.walking.footsteps import Sole
+from robot.se3 import Array
+
+Point = tuple[float, float]
+
+
+class SupportPolygon:
+    """Convex hull of planted soles shrunk by a margin; half planes a x + b y + c <= 0."""
+
+    def __init__(
+        self, soles: list[Sole], half_length_m: float, half_width_m: float, *, margin_m: float = 0.0
+    ) -> None:
+        """Corners of every sole, hulled."""
+        corners: list[Point] = []
+        lx, ly = half_length_m - margin_m, half_width_m - margin_m
+        for sole in soles:
+            c, s = math.cos(sole.yaw), math.sin(sole.yaw)
+            for x, y in ((lx, ly), (lx, -ly), (-lx, -ly), (-lx, ly)):
+                corners.append((sole.x + c * x - s * y, sole.y + s * x + c * y))
+        hull = ConvexHull(np.array(corners))
+        self.vertices: list[Point] = [corners[i] for i in hull.vertices]
+        self.planes: Array = hull.equations
+
+    def margin_m(self, point: Point) -> float:
+        """Distance to the nearest edge, positive inside."""
+        planes = self.planes
+        return -float((planes[:, :2] @ np.array(point) + planes[:, 2]).max())
+
+    def clip(self, point: Point) -> Point:
+        """The nearest point inside."""
+        x, y = point
+        inside = True
+        for a, b, c in self.planes.tolist():
+            if a * x + b * y + c > 1e-9:
+                inside = False
+                break
+        if inside:
+            return point
+        best, best_d2 = point, math.inf
+        n = len(self.vertices)
+        for i in range(n):
+            (x0, y0), (x1, y1) = self.vertices[i], self.vertices[(i + 1) % n]
+            ex, ey = x1 - x0, y1 - y0
+            t = max(0.0, min(1.0, ((x - x0) * ex + (y - y0) * ey) / (ex * ex + ey * ey)))
+            px, py = x0 + t * ex, y0 + t * ey
+            d2 = (px - x) ** 2 + (py - y) ** 2
+            if d2 < best_d2:
+                best, best_d2 = (px, py), d2
+        return best

@@ -1,0 +1,146 @@
+"""A robot's MJCF with the indices that its description gives meaning to.
+
+The model holds the robot alone (no world); its free base and every joint that no motor drives but
+an equality couples (the second finger of a hand) are filled in from the motors.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from robot.errors import DescriptionError, Problem
+from robot.messages import Side
+from robot.model.description import RobotDescription
+from robot.se3 import SE3, Array
+
+SIDES: tuple[Side, Side] = ("left", "right")
+
+
+class BodyModel:
+    """MjModel and index arrays in motor order.
+
+    Attributes:
+        model: the compiled MjModel (`Any`: mujoco ships partial stubs).
+        qpos_of: qpos address of each motor, shape (n,).
+        dof_of: dof (qvel) address of each motor, shape (n,).
+        lower_rad, upper_rad: joint range of each motor, shape (n,).
+        torque_limit_nm, velocity_limit_rad_s: shape (n,).
+        kp, kd: position gains of the description, shape (n,).
+    """
+
+    def __init__(self, description: RobotDescription) -> None:
+        """Compile the MJCF and look every name up.
+
+        Raises:
+            DescriptionError: if the MJCF lacks what the description names.
+        """
+        self.description = description
+        try:
+            self.model: Any = mujoco.MjModel.from_xml_path(str(description.mjcf_path()))
+        except ValueError as error:
+            raise DescriptionError(
+                [Problem(f"the MJCF does not compile: {error}", str(description.mjcf_path()))]
+            ) from None
+        self._check_names()
+        model = self.model
+        motors = description.motors.values()
+        joints = [self.joint_id(motor.joint) for motor in motors]
+        self.count = len(joints)
+        self.qpos_of: NDArray[np.int64] = np.array([model.jnt_qposadr[j] for j in joints])
+        self.dof_of: NDArray[np.int64] = np.array([model.jnt_dofadr[j] for j in joints])
+        self.lower_rad: Array = np.array([model.jnt_range[j][0] for j in joints])
+        self.upper_rad: Array = np.array([model.jnt_range[j][1] for j in joints])
+        self.torque_limit_nm: Array = np.array([motor.torque_limit_nm for motor in motors])
+        self.velocity_limit_rad_s: Array = np.array([motor.velocity_limit_rad_s for motor in motors])
+        self.kp: Array = np.array([motor.kp for motor in motors])
+        self.kd: Array = np.array([motor.kd for motor in motors])
+        self.base_body: int = self.body_id(description.base_body)
+        self.torso_body: int = self.body_id(description.torso_body)
+        self.mass_kg = float(model.body_subtreemass[self.base_body])
+        self.sole_site = {side: self.site_id(description.feet[side].sole_site) for side in SIDES}
+        self.foot_body = {side: self.body_id(description.feet[side].body) for side in SIDES}
+        self.grasp_site = {
+            side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
+        }
+        self._coupled_qpos, self._coupled_dof, self._couple_to, self._couple_gain = self._couplings()
+
+    def _check_names(self) -> None:
+        """Every name of the description must be in the MJCF."""
+        description, model = self.description, self.model
+        wanted: list[tuple[str, int, str]] = []
+        obj = mujoco.mjtObj
+        wanted += [("joint", obj.mjOBJ_JOINT, motor.joint) for motor in description.motors.values()]
+        wanted += [("body", obj.mjOBJ_BODY, description.base_body)]
+        wanted += [("body", obj.mjOBJ_BODY, description.torso_body)]
+        for foot in description.feet.values():
+            wanted += [("body", obj.mjOBJ_BODY, foot.body), ("site", obj.mjOBJ_SITE, foot.sole_site)]
+        for hand in description.hands.values():
+            wanted += [("body", obj.mjOBJ_BODY, hand.body), ("site", obj.mjOBJ_SITE, hand.grasp_site)]
+        wanted += [("site", obj.mjOBJ_SITE, description.sensors.imu.site)]
+        problems = [
+            Problem(
+                f"{kind} {name!r} of the description is not in {description.mjcf}",
+                str(description.mjcf_path()),
+                suggestion=f"add the {kind} to the MJCF or correct the description",
+            )
+            for kind, code, name in wanted
+            if mujoco.mj_name2id(model, code, name) < 0
+        ]
+        if problems:
+            raise DescriptionError(problems)
+
+    def _couplings(self) -> tuple[Any, Any, Any, Any]:
+        """Joints tied to a motor's joint by a linear joint equality."""
+        model = self.model
+        motor_of = {int(dof): i for i, dof in enumerate(self.dof_of)}
+        rows: list[tuple[int, int, int, float]] = []
+        for e in range(model.neq):
+            if model.eq_type[e] != mujoco.mjtEq.mjEQ_JOINT:
+                continue
+            first, second = int(model.eq_obj1id[e]), int(model.eq_obj2id[e])
+            motor = motor_of.get(int(model.jnt_dofadr[second]))
+            if motor is not None:
+                gain = float(model.eq_data[e][1])
+                rows.append(
+                    (int(model.jnt_qposadr[first]), int(model.jnt_dofadr[first]), motor, gain)
+                )
+        columns = list(zip(*rows, strict=True)) or [(), (), (), ()]
+        index = [np.array(column, dtype=np.int64) for column in columns[:3]]
+        return index[0], index[1], index[2], np.array(columns[3], dtype=np.float64)
+
+    def joint_id(self, name: str) -> int:
+        """Id of a joint."""
+        return int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, name))
+
+    def body_id(self, name: str) -> int:
+        """Id of a body."""
+        return int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_BODY, name))
+
+    def site_id(self, name: str) -> int:
+        """Id of a site."""
+        return int(mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_SITE, name))
+
+    def data(self) -> Any:
+        """A fresh MjData."""
+        return mujoco.MjData(self.model)
+
+    def write_joints(self, data: Any, q: Array, qd: Array | None = None) -> None:
+        """Put motor positions (and velocities), shape (n,), into a MjData, coupled joints too."""
+        data.qpos[self.qpos_of] = q
+        data.qpos[self._coupled_qpos] = self._couple_gain * q[self._couple_to]
+        if qd is not None:
+            data.qvel[self.dof_of] = qd
+            data.qvel[self._coupled_dof] = self._couple_gain * qd[self._couple_to]
+
+    def write_base(self, data: Any, X_NB: SE3) -> None:
+        """Put the base pose into a MjData."""
+        data.qpos[0:3] = X_NB.p
+        data.qpos[3:7] = X_NB.quat_wxyz
+
+    def site_pose(self, data: Any, site: int) -> SE3:
+        """Pose of a site in the frame that the base pose was given in."""
+        return SE3.from_rotation(data.site_xmat[site].reshape(3, 3), data.site_xpos[site])
