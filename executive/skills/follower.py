@@ -1,8 +1,8 @@
-"""Following a path on the floor: pure pursuit for a body that can also step sideways.
+"""Following a planned base path: where to go next, as a twist.
 
-See [Coulter1992], "Implementation of the pure pursuit path tracking algorithm", for the pursuit
-of a point ahead on the path. What is added: the body turns on the spot when it looks far off the
-path, and steps sideways back onto it.
+The body aims at a point a little ahead on the path (pure pursuit, [Coulter1992], "Implementation
+of the pure pursuit path tracking algorithm") and, as it can step sideways and backwards, moves
+towards it whatever its heading is, while it turns to the heading that the path has there.
 """
 
 from __future__ import annotations
@@ -12,16 +12,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from robot.model.description import Walking
+from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
-LOOKAHEAD_M = 0.40
-TURN_ON_THE_SPOT_RAD = 0.70
-WALK_AGAIN_RAD = 0.25
-TURN_GAIN_1_S = 1.8
-CROSS_TRACK_GAIN_1_S = 0.8
+LOOKAHEAD_M = 0.35
 SEARCH_M = 0.60
-SLOW_NEAR_GOAL_1_S = 0.8
+RUN_DONE_M = 0.12
+TURN_DONE_RAD = 0.20
+TURN_FIRST_RAD = 0.70
+TURN_GAIN_1_S = 1.8
 LEAST_SPEED_M_S = 0.10
+SLOW_DOWN_1_S = 0.8
+METRES_PER_RADIAN = 0.3
 
 
 class Twist(NamedTuple):
@@ -32,108 +34,169 @@ class Twist(NamedTuple):
     turn_rad_s: float
 
 
-class Polyline:
-    """A path on the floor by its points in W [m], measured along its length."""
+class Run:
+    """A polyline walked without turning on the spot, measured along its length."""
 
-    def __init__(self, points_m: Sequence[tuple[float, float]]) -> None:
-        """Make it from at least one point; doubled points are dropped."""
-        if not points_m:
-            raise ValueError("a path needs at least one point")
-        self.points_m = [points_m[0]]
+    def __init__(self, stances: Sequence[Stance]) -> None:
+        """Make it from at least two stances at different places."""
+        self.stances = list(stances)
         self.at_m = [0.0]
-        for point in points_m[1:]:
-            step_m = math.dist(point, self.points_m[-1])
-            if step_m > 1e-6:
-                self.points_m.append(point)
-                self.at_m.append(self.at_m[-1] + step_m)
+        for a, b in zip(stances, stances[1:], strict=False):
+            self.at_m.append(self.at_m[-1] + math.dist(a[:2], b[:2]))
 
     @property
     def length_m(self) -> float:
-        """Length of the whole path."""
+        """Length of the whole run."""
         return self.at_m[-1]
 
-    def point(self, along_m: float) -> tuple[float, float]:
-        """The point at a distance along the path, its ends beyond them."""
+    def stance(self, along_m: float) -> Stance:
+        """The stance at a distance along the run, its ends beyond them."""
         if along_m <= 0.0:
-            return self.points_m[0]
+            return self.stances[0]
         for i in range(1, len(self.at_m)):
             if along_m <= self.at_m[i]:
-                (ax, ay), (bx, by) = self.points_m[i - 1], self.points_m[i]
+                (ax, ay, a_yaw), (bx, by, b_yaw) = self.stances[i - 1], self.stances[i]
                 part = (along_m - self.at_m[i - 1]) / (self.at_m[i] - self.at_m[i - 1])
-                return (ax + part * (bx - ax), ay + part * (by - ay))
-        return self.points_m[-1]
+                yaw_rad = a_yaw + part * wrap_angle(b_yaw - a_yaw)
+                return (ax + part * (bx - ax), ay + part * (by - ay), wrap_angle(yaw_rad))
+        return self.stances[-1]
 
-    def nearest(
-        self, x_m: float, y_m: float, *, from_m: float = 0.0, to_m: float = math.inf
-    ) -> tuple[float, float]:
-        """Distance along of the nearest point between two distances, and how far left of it we are.
+    def nearest_m(self, x_m: float, y_m: float, *, from_m: float, to_m: float) -> float:
+        """Distance along of the nearest point between two distances.
 
         Where the path comes near itself the window keeps us on our branch.
         """
-        best = (math.inf, min(from_m, self.length_m), 0.0)
+        best = (math.inf, min(from_m, self.length_m))
         for i in range(1, len(self.at_m)):
             low_m, high_m = max(from_m, self.at_m[i - 1]), min(to_m, self.at_m[i])
             if low_m > high_m:
                 continue
-            (ax, ay), (bx, by) = self.points_m[i - 1], self.points_m[i]
+            (ax, ay, _), (bx, by, _) = self.stances[i - 1], self.stances[i]
             span_m = self.at_m[i] - self.at_m[i - 1]
-            ux, uy = (bx - ax) / span_m, (by - ay) / span_m
-            along_m = self.at_m[i - 1] + (x_m - ax) * ux + (y_m - ay) * uy
-            along_m = min(max(along_m, low_m), high_m)
-            px, py = self.point(along_m)
-            left_m = ux * (y_m - ay) - uy * (x_m - ax)
-            best = min(best, (math.hypot(x_m - px, y_m - py), along_m, left_m))
-        return best[1], best[2]
+            along_m = ((x_m - ax) * (bx - ax) + (y_m - ay) * (by - ay)) / span_m
+            along_m = min(max(self.at_m[i - 1] + along_m, low_m), high_m)
+            px, py, _ = self.stance(along_m)
+            best = min(best, (math.hypot(x_m - px, y_m - py), along_m))
+        return best[1]
+
+
+class Turn(NamedTuple):
+    """A turn on the spot to a heading, from another."""
+
+    from_rad: float
+    to_rad: float
 
 
 class Follower:
     """Twists that lead the body along a path; remembers how far along it is."""
 
     def __init__(
-        self, points_m: Sequence[tuple[float, float]], walking: Walking, *, speed_m_s: float
+        self, start: Stance, waypoints: Sequence[Stance], *, walking: Walking, speed_m_s: float
     ) -> None:
-        """Follow a path at a cruising speed, within the limits of the gait."""
-        self.path = Polyline(points_m)
+        """Follow waypoints at a cruising speed, within the limits of the gait."""
         self.walking = walking
-        self.speed_m_s = min(speed_m_s, walking.max_forward_m_s)
-        self.along_m = 0.0
-        self._turning = True
+        self.speed_m_s = speed_m_s
+        self._legs = _legs(start, waypoints)
+        self._along_m = 0.0
+        self._turning = False
+        self.total_m = max(self.remaining_m, 1e-9)
 
     @property
     def remaining_m(self) -> float:
-        """Length of path still ahead."""
-        return self.path.length_m - self.along_m
+        """What is still to be walked; a turn counts `METRES_PER_RADIAN`."""
+        return sum(_cost_m(leg) for leg in self._legs) - self._along_m
+
+    @property
+    def done(self) -> bool:
+        """Nothing is left: the last leg's end is near."""
+        return not self._legs
 
     def ahead(self, span_m: float, *, step_m: float = 0.1) -> list[tuple[float, float]]:
-        """Points of the path over the next `span_m`."""
-        count = int(min(span_m, self.remaining_m) / step_m)
-        return [self.path.point(self.along_m + i * step_m) for i in range(count + 1)]
+        """Points of the path over the next `span_m`, beyond turns too."""
+        points: list[tuple[float, float]] = []
+        along_m = self._along_m
+        for leg in self._legs:
+            while isinstance(leg, Run) and along_m < leg.length_m and span_m > 0.0:
+                points.append(leg.stance(along_m)[:2])
+                along_m += step_m
+                span_m -= step_m
+            along_m = 0.0
+        return points
 
-    def twist(self, X_WB: SE3) -> Twist:
+    def twist(self, X_WS: SE3) -> Twist:
         """The twist for where the body is now; moves on along the path."""
-        x_m, y_m, _ = X_WB.p
-        self.along_m, left_of_m = self.path.nearest(
-            x_m, y_m, from_m=self.along_m, to_m=self.along_m + SEARCH_M
-        )
-        aim_x, aim_y = self.path.point(self.along_m + LOOKAHEAD_M)
-        off_rad = wrap_angle(math.atan2(aim_y - y_m, aim_x - x_m) - X_WB.yaw_rad)
-        if math.hypot(aim_x - x_m, aim_y - y_m) < 0.05:
-            off_rad = 0.0
-        self._turning = abs(off_rad) > (WALK_AGAIN_RAD if self._turning else TURN_ON_THE_SPOT_RAD)
-        turn_rad_s = _clamp(TURN_GAIN_1_S * off_rad, self.walking.max_turn_rad_s)
+        x_m, y_m, _ = X_WS.p
+        self._advance(x_m, y_m, X_WS.yaw_rad)
+        if not self._legs:
+            return Twist(0.0, 0.0, 0.0)
+        leg = self._legs[0]
+        if isinstance(leg, Turn):
+            return turn_towards(wrap_angle(leg.to_rad - X_WS.yaw_rad), self.walking)
+        aim_x, aim_y, aim_yaw = leg.stance(self._along_m + LOOKAHEAD_M)
+        off_rad = wrap_angle(aim_yaw - X_WS.yaw_rad)
+        self._turning = abs(off_rad) > (TURN_DONE_RAD if self._turning else TURN_FIRST_RAD)
         if self._turning:
-            return Twist(0.0, 0.0, turn_rad_s)
-        straight = 1.0 - 0.8 * min(1.0, abs(off_rad) / TURN_ON_THE_SPOT_RAD)
-        forward_m_s = straight * min(
-            self.speed_m_s, LEAST_SPEED_M_S + SLOW_NEAR_GOAL_1_S * self.remaining_m
+            return turn_towards(off_rad, self.walking)
+        left_over_m = leg.length_m - self._along_m
+        speed_m_s = min(self.speed_m_s, LEAST_SPEED_M_S + SLOW_DOWN_1_S * left_over_m)
+        speed_m_s *= 1.0 - 0.7 * abs(off_rad) / TURN_FIRST_RAD
+        bearing_rad = math.atan2(aim_y - y_m, aim_x - x_m) - X_WS.yaw_rad
+        return self._within_limits(
+            speed_m_s * math.cos(bearing_rad), speed_m_s * math.sin(bearing_rad), off_rad
         )
-        left_m_s = _clamp(-CROSS_TRACK_GAIN_1_S * left_of_m, 0.5 * self.walking.max_sideways_m_s)
-        return Twist(forward_m_s, left_m_s, turn_rad_s)
+
+    def _advance(self, x_m: float, y_m: float, yaw_rad: float) -> None:
+        """Drop the legs that are done."""
+        while self._legs:
+            leg = self._legs[0]
+            if isinstance(leg, Turn):
+                if abs(wrap_angle(leg.to_rad - yaw_rad)) > TURN_DONE_RAD:
+                    return
+            else:
+                self._along_m = leg.nearest_m(
+                    x_m, y_m, from_m=self._along_m, to_m=self._along_m + SEARCH_M
+                )
+                if leg.length_m - self._along_m > RUN_DONE_M:
+                    return
+            self._legs.pop(0)
+            self._along_m = 0.0
+
+    def _within_limits(self, forward_m_s: float, left_m_s: float, off_rad: float) -> Twist:
+        """Scale a velocity, keeping its direction, until the gait can do it."""
+        gait = self.walking
+        most_m_s = gait.max_forward_m_s if forward_m_s > 0.0 else gait.max_backward_m_s
+        scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / gait.max_sideways_m_s)
+        turn_rad_s = _clamp(TURN_GAIN_1_S * off_rad, gait.max_turn_rad_s)
+        return Twist(forward_m_s / scale, left_m_s / scale, turn_rad_s)
 
 
 def turn_towards(yaw_error_rad: float, walking: Walking) -> Twist:
     """The twist that turns on the spot by an angle."""
     return Twist(0.0, 0.0, _clamp(TURN_GAIN_1_S * yaw_error_rad, walking.max_turn_rad_s))
+
+
+def _legs(start: Stance, waypoints: Sequence[Stance]) -> list[Run | Turn]:
+    """Group stances into runs, split where the body turns on the spot."""
+    legs: list[Run | Turn] = []
+    run = [start]
+    for stance in waypoints:
+        if math.dist(stance[:2], run[-1][:2]) > 1e-3:
+            run.append(stance)
+            continue
+        if len(run) > 1:
+            legs.append(Run(run))
+        if abs(wrap_angle(stance[2] - run[-1][2])) > 1e-3:
+            legs.append(Turn(run[-1][2], stance[2]))
+        run = [stance]
+    if len(run) > 1:
+        legs.append(Run(run))
+    return legs
+
+
+def _cost_m(leg: Run | Turn) -> float:
+    if isinstance(leg, Run):
+        return leg.length_m
+    return METRES_PER_RADIAN * abs(wrap_angle(leg.to_rad - leg.from_rad))
 
 
 def _clamp(value: float, limit: float) -> float:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from executive.skills.body import Body
 from executive.skills.script import Script
 from executive.skills.skill import Resource
-from robot.messages import MoveArm, Side, Stand
+from robot.messages import MoveHand, Side, Stand
 
 REST_TIMEOUT_S = 6.0
-ARM_STOP_S = 0.4
 
 
 def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
@@ -18,6 +17,25 @@ def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
     """
     body.phase = "coming to rest"
     for side, resource in _ARMS:
+        if resource in resources:
+            hold_arm(body, side)
+    if "legs" in resources:
+        body.send(Stand(**body.header()))
+    end_s = body.now_s + REST_TIMEOUT_S
+    while body.now_s < end_s:
+        yield
+        if "legs" not in resources or body.state.mode in ("stand", "damping"):
+            return
+
+
+def hold_arm(body: Body, side: Side) -> None:
+    """Brake one arm where its hand is, if it is under way."""
+    activity = body.state.activities.get(f"{side}_arm")
+    if activity is not None and activity.status == "running":
+        body.send(MoveHand(**body.header(), side=side, X_NG=body.hand(side).X_NG))
+
+
+_ARMS:
         if resource in resources:
             hold_arm(body, side)
     if "legs" in resources:

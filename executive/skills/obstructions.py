@@ -1,0 +1,38 @@
+"""What stands in the way: things the lidar sees that the map does not explain."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from robot.messages import Obstacle
+from robot.se3 import SE3
+
+Point2 = tuple[float, float]
+
+
+def in_the_way(
+    points_m: Sequence[Point2], obstacles: Iterable[Obstacle], *, radius_m: float
+) -> Obstacle | None:
+    """The first obstacle nearer than `radius_m` to points of the path ahead, in W."""
+    for point in points_m:
+        for obstacle in obstacles:
+            if clearance_m(point, obstacle) < radius_m:
+                return obstacle
+    return None
+
+
+def clearance_m(point: Point2, obstacle: Obstacle) -> float:
+    """Distance on the floor from a point to an obstacle's outline, 0 inside it."""
+    return min(
+        (_outside_m(point, obstacle.X_WO @ s.X_BodyShape, s.size_m) for s in obstacle.shapes),
+        default=math.inf,
+    )
+
+
+def _outside_m(point: Point2, X_WA: SE3, size_m: tuple[float, float, float]) -> float:
+    """Distance from a point to the rectangle under a shape (a cylinder counts as its square)."""
+    dx, dy = point[0] - X_WA.p[0], point[1] - X_WA.p[1]
+    c, s = math.cos(X_WA.yaw_rad), math.sin(X_WA.yaw_rad)
+    x_m, y_m = abs(c * dx + s * dy), abs(c * dy - s * dx)
+    return math.hypot(max(0.0, x_m - 0.5 * size_m[0]), max(0.0, y_m - 0.5 * size_m[1]))

@@ -1,0 +1,196 @@
+"""Walking somewhere: ask for a path, follow it, plan again around what blocks it, step in.
+
+Shared by every skill that walks; skills themselves stay strangers to one another.
+"""
+
+from __future__ import annotations
+
+import math
+
+from executive.skills.asking import ask, pose_of, stance_of, surroundings
+from executive.skills.body import Body
+from executive.skills.follower import Follower, Twist, turn_towards
+from executive.skills.gripping import check_grips
+from executive.skills.looking import look_at
+from executive.skills.obstructions import in_the_way
+from executive.skills.script import Script, give_up
+from executive.skills.stepping import miss, step_to
+from robot.messages import Obstacle, Stand, Walk
+from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.se3 import wrap_angle
+
+REPLANS = 3
+CRUISE = 0.8
+CRUISE_CARRYING = 0.7
+HAND_OVER_M = 0.35
+HAND_OVER_RAD = 0.45
+BLOCKED_WITHIN_M = 1.0
+BLOCKED_FOR_S = 0.4
+STALLED_S = 6.0
+STALLED_M = 0.05
+LOOK_EVERY_S = 1.0
+LOOK_AHEAD_M = 1.5
+LOOK_HEIGHT_M = 0.5
+STOP_TIMEOUT_S = 5.0
+
+
+def walk_to(body: Body, goal: Stance) -> Script[None]:
+    """Walk to a stance of W, around furniture and what the sensors see, and stand on it exactly.
+
+    Gives up with the planner's failure, `path_blocked`, `walk_stalled` or `object_dropped`.
+    """
+    if _is_near(body, goal):
+        yield from step_to(body, goal)
+        return
+    blocker: Obstacle | None = None
+    for attempt in range(1 + REPLANS):
+        path = yield from plan_path(body, goal, attempt=attempt)
+        blocker = yield from follow(body, path)
+        if blocker is None:
+            yield from step_to(body, goal)
+            return
+        body.phase = f"stopping for {blocker.name}"
+        yield from stand_still(body)
+    assert blocker is not None
+    raise give_up(
+        "path_blocked",
+        f"{blocker.name} stands in the way, whichever way was tried",
+        blocker=blocker.id,
+        x_m=round(blocker.X_WO.p[0], 2),
+        y_m=round(blocker.X_WO.p[1], 2),
+        replans=REPLANS,
+    )
+
+
+def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]:
+    """Ask for a way from here."""
+    request = BasePathRequest(
+        start=stance_of(body.X_WS),
+        goal=goal,
+        around=surroundings(body),
+        seed=body.context.seed + attempt,
+    )
+    return (yield from ask(body, request, BasePath))
+
+
+def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
+    """Walk along a path until its end is a few steps away; or until something blocks it.
+
+    Returns what blocks it. The body is left walking: step on, or stand still.
+    """
+    gait = body.description.walking
+    carrying = bool(body.context.holdings.all())
+    speed_m_s = gait.max_forward_m_s * (CRUISE_CARRYING if carrying else CRUISE)
+    follower = Follower(
+        stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s
+    )
+    watch = _Watch(body)
+    while not _arrived(body, follower, path.waypoints[-1]):
+        check_grips(body)
+        twist = follower.twist(body.X_WS)
+        if follower.done:
+            twist = turn_towards(wrap_angle(path.waypoints[-1][2] - body.X_WS.yaw_rad), gait)
+        _walk(body, twist)
+        body.progress = 1.0 - follower.remaining_m / follower.total_m
+        watch.look_ahead(follower)
+        watch.check_progress(follower.remaining_m)
+        blocker = watch.blocker(follower)
+        if blocker is not None:
+            return blocker
+        yield
+    return None
+
+
+def turn_by(body: Body, angle_rad: float) -> Script[None]:
+    """Turn on the spot by an angle, which may be more than a full turn; ends within a step of it."""
+    gait = body.description.walking
+    left_rad = angle_rad
+    before_rad = body.X_WS.yaw_rad
+    end_s = body.now_s + 10.0 + 3.0 * abs(angle_rad) / gait.max_turn_rad_s
+    while abs(left_rad) > HAND_OVER_RAD:
+        if body.now_s > end_s:
+            raise give_up("walk_stalled", "the turn does not get on", left_rad=round(left_rad, 2))
+        _walk(body, turn_towards(left_rad, gait))
+        yield
+        yaw_rad = body.X_WS.yaw_rad
+        left_rad -= wrap_angle(yaw_rad - before_rad)
+        before_rad = yaw_rad
+
+
+def stand_still(body: Body, *, pitch_rad: float = 0.0, yaw_rad: float = 0.0,
+                height_m: float | None = None) -> Script[None]:  # fmt: skip
+    """Finish the step and stand, in a posture of the trunk; wait until it is taken."""
+    command = Stand(**body.header(), height_m=height_m, pitch_rad=pitch_rad, yaw_rad=yaw_rad)
+    body.send(command)
+    yield from body.finish("legs", command.id, timeout_s=STOP_TIMEOUT_S, code="walk_stalled")
+
+
+class _Watch:
+    """What is kept an eye on while walking: the way ahead, progress, obstacles."""
+
+    def __init__(self, body: Body) -> None:
+        self.body = body
+        self._looked_s = -math.inf
+        self._least_m = math.inf
+        self._progress_s = body.now_s
+        self._blocked_since_s: float | None = None
+
+    def look_ahead(self, follower: Follower) -> None:
+        """Turn the head along the path now and then."""
+        if self.body.now_s - self._looked_s < LOOK_EVERY_S:
+            return
+        points = follower.ahead(LOOK_AHEAD_M)
+        if points:
+            look_at(self.body, (*points[-1], LOOK_HEIGHT_M))
+            self._looked_s = self.body.now_s
+
+    def check_progress(self, remaining_m: float) -> None:
+        """Give up when the way has not become shorter for long."""
+        if remaining_m < self._least_m - STALLED_M:
+            self._least_m = remaining_m
+            self._progress_s = self.body.now_s
+        waited_s = self.body.now_s - self._progress_s
+        if waited_s > STALLED_S:
+            raise give_up(
+                "walk_stalled",
+                f"no progress for {waited_s:.0f} s, {remaining_m:.2f} m before the goal",
+                remaining_m=round(remaining_m, 2),
+            )
+
+    def blocker(self, follower: Follower) -> Obstacle | None:
+        """Something on the path ahead, once it has been seen there for a moment."""
+        blocker = in_the_way(
+            follower.ahead(BLOCKED_WITHIN_M),
+            self.body.world.unmapped,
+            radius_m=self.body.description.body_radius_m,
+        )
+        if blocker is None:
+            self._blocked_since_s = None
+        elif self._blocked_since_s is None:
+            self._blocked_since_s = self.body.now_s
+        elif self.body.now_s - self._blocked_since_s >= BLOCKED_FOR_S:
+            return blocker
+        return None
+
+
+def _is_near(body: Body, goal: Stance) -> bool:
+    """Whether a few exact steps will do."""
+    off_m, off_rad = miss(body.X_WS, pose_of(goal))
+    return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD
+
+
+def _arrived(body: Body, follower: Follower, goal: Stance) -> bool:
+    """Whether exact steps should take over."""
+    off_m, off_rad = miss(body.X_WS, pose_of(goal))
+    return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD and follower.remaining_m < 2 * HAND_OVER_M
+
+
+def _walk(body: Body, twist: Twist) -> None:
+    body.send(
+        Walk(
+            **body.header(),
+            forward_m_s=round(twist.forward_m_s, 4),
+            left_m_s=round(twist.left_m_s, 4),
+            turn_rad_s=round(twist.turn_rad_s, 4),
+        )
+    )
