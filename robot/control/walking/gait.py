@@ -33,7 +33,7 @@ START_S = 0.55
 STOP_S = 0.40
 URGENT_START_S = 0.06
 SETTLE_S = 0.25
-TOUCHDOWN_LOAD = 0.08
+TOUCHDOWN_LOAD = 0.02
 LATE_S = 0.25
 DEADBAND_M = 0.02
 DCM_GAIN_1_S = 4.0
@@ -332,7 +332,10 @@ class Gait:
         return self._polygon.clip((x, y))
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
-        xi_ref, zmp_ref = self._plan.at(self.phase_s)
+        time_s = self.phase_s
+        if self.phase == "single":  # late: do not run on into the next double support
+            time_s = min(time_s, self.duration_s)
+        xi_ref, zmp_ref = self._plan.at(time_s)
         if self.phase == "stand":
             for k in (0, 1):
                 step = self._integral[k] + INTEGRAL_GAIN * dt_s * (xi[k] - xi_ref[k])

@@ -13,6 +13,7 @@ LATE_DESCENT_M_S = 0.10
 FREEZE_S = 0.08
 LANDING_FILTER_S = 0.04
 LIFT_SHARE = 0.45
+PRESS_M = 0.006  # the height profile ends below the floor, so that the foot meets it in time
 LONGEST_LIFT_S = 0.6
 
 
@@ -83,9 +84,8 @@ class Swing:
             self.z, self.vz, self.az = self.height_m, 0.0, 0.0
         elif self.time_s < self.duration_s:
             z, vz, az = self._blend((self.time_s - drop_from_s) / drop_s, drop_s)
-            self.z, self.vz, self.az = self.height_m - z, -vz, -az
-            if self.z < 0.01:  # meet the floor at a small speed, not hovering above it
-                self.vz = min(self.vz, -0.5 * LATE_DESCENT_M_S)
+            scale = 1.0 + PRESS_M / self.height_m
+            self.z, self.vz, self.az = self.height_m - scale * z, -scale * vz, -scale * az
         else:
             self.z -= LATE_DESCENT_M_S * dt_s
             self.vz, self.az = -LATE_DESCENT_M_S, 0.0
