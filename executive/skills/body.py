@@ -5,7 +5,7 @@ Skills plan in the world W; commands are in the odometry frame N, in which the c
 
 from __future__ import annotations
 
-from typing import TypedDict
+from typing import Literal, TypedDict
 
 from executive.skills.context import SkillContext
 from executive.skills.script import Script, give_up
@@ -25,6 +25,12 @@ from robot.messages import (
 from robot.se3 import SE3
 
 SILENT_AFTER_S = 1.0
+
+SIDES: tuple[Side, Side] = ("left", "right")
+ARM_CHANNEL: dict[Side, Literal["left_arm", "right_arm"]] = {
+    "left": "left_arm",
+    "right": "right_arm",
+}
 
 
 class Header(TypedDict):

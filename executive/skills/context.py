@@ -1,4 +1,4 @@
-"""What every skill is given: the body, the planner, the robot's description, what the hands hold."""
+"""What every skill is given: the body, the planner, the description, what is held."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ towards it whatever its heading is, while it turns to the heading that the path 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -41,7 +42,7 @@ class Run:
         """Make it from at least two stances at different places."""
         self.stances = list(stances)
         self.at_m = [0.0]
-        for a, b in zip(stances, stances[1:], strict=False):
+        for a, b in itertools.pairwise(stances):
             self.at_m.append(self.at_m[-1] + math.dist(a[:2], b[:2]))
 
     @property

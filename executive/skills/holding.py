@@ -51,7 +51,7 @@ class Holdings:
 
     def all(self) -> tuple[Held, ...]:
         """Every hold, left hand first."""
-        return tuple(self._held[side] for side in ("left", "right") if side in self._held)
+        return tuple(sorted(self._held.values(), key=lambda held: held.side))
 
     def free_sides(self) -> tuple[Side, ...]:
         """The empty hands, right first: it is the one that things are usually taken with."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from executive.skills.asking import ask, held_in, surroundings
-from executive.skills.body import Body
+from executive.skills.body import ARM_CHANNEL, Body
 from executive.skills.gripping import check_grips
 from executive.skills.script import GaveUp, Script, give_up
 from robot.messages import MoveArm, MoveHand, Side
@@ -19,6 +19,7 @@ RETARGET_M = 0.004
 RETARGET_EVERY_S = 0.2
 SAME_POSTURE_RAD = 0.15
 PLAN_ATTEMPTS = 2
+SAMPLING = ("no_path", "planner_timeout")
 
 
 def move_arm(
@@ -91,7 +92,7 @@ def move_hand(
             )
         yield
         check_grips(body)
-        activity = body.activity(f"{side}_arm", command_id)
+        activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):
@@ -122,7 +123,7 @@ def _plan(body: Body, request: Callable[[int], ArmRequest]) -> Script[ArmPlan]:
         try:
             return (yield from ask(body, request(attempt), ArmPlan))
         except GaveUp as end:
-            if attempt + 1 == PLAN_ATTEMPTS or end.failure.code not in ("no_path", "planner_timeout"):
+            if attempt + 1 == PLAN_ATTEMPTS or end.failure.code not in SAMPLING:
                 raise
     raise AssertionError("unreachable")
 
@@ -132,7 +133,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
     while True:
         yield
         check_grips(body)
-        activity = body.activity(f"{side}_arm", command_id)
+        activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):

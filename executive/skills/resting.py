@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.skills.body import Body
+from executive.skills.body import ARM_CHANNEL, Body
 from executive.skills.script import Script
 from executive.skills.skill import Resource
 from robot.messages import MoveHand, Side, Stand
@@ -16,8 +16,8 @@ def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
     Fingers keep their grip. Ends after `REST_TIMEOUT_S` in any case.
     """
     body.phase = "coming to rest"
-    for side, resource in _ARMS:
-        if resource in resources:
+    for side, channel in ARM_CHANNEL.items():
+        if channel in resources:
             hold_arm(body, side)
     if "legs" in resources:
         body.send(Stand(**body.header()))
@@ -30,36 +30,6 @@ def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
 
 def hold_arm(body: Body, side: Side) -> None:
     """Brake one arm where its hand is, if it is under way."""
-    activity = body.state.activities.get(f"{side}_arm")
+    activity = body.state.activities.get(ARM_CHANNEL[side])
     if activity is not None and activity.status == "running":
         body.send(MoveHand(**body.header(), side=side, X_NG=body.hand(side).X_NG))
-
-
-_ARMS:
-        if resource in resources:
-            hold_arm(body, side)
-    if "legs" in resources:
-        body.send(Stand(**body.header()))
-    end_s = body.now_s + REST_TIMEOUT_S
-    while body.now_s < end_s:
-        yield
-        if "legs" not in resources or body.state.mode in ("stand", "damping"):
-            return
-
-
-def hold_arm(body: Body, side: Side) -> None:
-    """Brake one arm to where it will be in a moment, if it is under way."""
-    state = body.state
-    activity = state.activities.get(f"{side}_arm")
-    if activity is None or activity.status != "running":
-        return
-    stop_rad = tuple(
-        state.q_rad[i] + 0.5 * ARM_STOP_S * state.qd_rad_s[i]
-        for i in body.description.indices(f"{side}_arm")
-    )
-    body.send(
-        MoveArm(**body.header(), side=side, times_s=(ARM_STOP_S,), positions_rad=(stop_rad,))
-    )
-
-
-_ARMS: tuple[tuple[Side, Resource], ...] = (("left", "left_arm"), ("right", "right_arm"))

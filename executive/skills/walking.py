@@ -81,9 +81,7 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     gait = body.description.walking
     carrying = bool(body.context.holdings.all())
     speed_m_s = gait.max_forward_m_s * (CRUISE_CARRYING if carrying else CRUISE)
-    follower = Follower(
-        stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s
-    )
+    follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
     watch = _Watch(body)
     while not _arrived(body, follower, path.waypoints[-1]):
         check_grips(body)
@@ -102,7 +100,7 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
 
 
 def turn_by(body: Body, angle_rad: float) -> Script[None]:
-    """Turn on the spot by an angle, which may be more than a full turn; ends within a step of it."""
+    """Turn on the spot by an angle, even beyond a full turn; ends within a step of it."""
     gait = body.description.walking
     left_rad = angle_rad
     before_rad = body.X_WS.yaw_rad
@@ -182,7 +180,9 @@ def _is_near(body: Body, goal: Stance) -> bool:
 def _arrived(body: Body, follower: Follower, goal: Stance) -> bool:
     """Whether exact steps should take over."""
     off_m, off_rad = miss(body.X_WS, pose_of(goal))
-    return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD and follower.remaining_m < 2 * HAND_OVER_M
+    return (
+        off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD and follower.remaining_m < 2 * HAND_OVER_M
+    )
 
 
 def _walk(body: Body, twist: Twist) -> None:

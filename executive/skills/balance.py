@@ -1,0 +1,99 @@
+"""Postures: stand, squat, lean, stand on one leg, hold against pushes."""
+
+from __future__ import annotations
+
+from executive.skills.context import SkillContext
+from executive.skills.parameters import BalanceParams
+from executive.skills.script import Script, give_up
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.walking import stand_still
+from robot.messages import OneLeg, Side
+
+SQUAT = 0.75
+"""Base height of a squat as a part of the nominal one."""
+
+LEAN_RAD = 0.35
+LEAN_BACK_RAD = -0.2
+TURN_RAD = 0.5
+SHIFT_S = 8.0
+PUSHED_M_S = 0.15
+
+
+class Balance(ScriptedSkill):
+    """Take a posture, hold it for its time, and stand again."""
+
+    resources = frozenset({"legs"})
+
+    def __init__(self, parameters: BalanceParams, context: SkillContext) -> None:
+        """Which posture, for how long."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Take it, hold it, stand."""
+        body, wanted = self.body, self.parameters
+        if wanted.mode == "one_leg":
+            yield from self._one_leg("right" if wanted.side == "right" else "left")
+            return
+        body.phase = "standing" if wanted.mode in ("stand", "hold") else f"going to {wanted.mode}"
+        if wanted.mode == "squat":
+            height_m = SQUAT * body.description.walking.base_height_m
+            yield from stand_still(body, height_m=height_m)
+        elif wanted.mode == "lean":
+            yield from self._lean()
+        else:
+            yield from stand_still(body)
+        yield from self._hold()
+        if wanted.mode in ("squat", "lean"):
+            body.phase = "standing up"
+            yield from stand_still(body)
+
+    def _lean(self) -> Script[None]:
+        side = self.parameters.side or "forward"
+        if side in ("left", "right"):
+            yield from stand_still(self.body, yaw_rad=TURN_RAD if side == "left" else -TURN_RAD)
+        else:
+            pitch_rad = LEAN_RAD if side == "forward" else LEAN_BACK_RAD
+            yield from stand_still(self.body, pitch_rad=pitch_rad)
+
+    def _hold(self) -> Script[None]:
+        """Stay for the time asked for; says when it is being pushed."""
+        body, span_s = self.body, self.parameters.duration_s
+        end_s = body.now_s + span_s
+        while body.now_s < end_s:
+            vx, vy, _ = body.state.v_NB
+            pushed = vx * vx + vy * vy > PUSHED_M_S**2
+            body.phase = "holding against a push" if pushed else f"holding ({self.parameters.mode})"
+            body.progress = 1.0 - (end_s - body.now_s) / span_s
+            yield
+
+    def _one_leg(self, side: Side) -> Script[None]:
+        """Stand on one leg, and see that the other foot really left the floor."""
+        body, span_s = self.body, self.parameters.duration_s
+        body.phase = f"standing on the {side} leg"
+        command = OneLeg(**body.header(), side=side, duration_s=span_s)
+        body.send(command)
+        end_s = body.now_s + span_s + SHIFT_S
+        lifted_s = 0.0
+        before_s = body.now_s
+        while True:
+            yield
+            state = body.state
+            on_it = state.left_contact if side == "left" else state.right_contact
+            on_other = state.right_contact if side == "left" else state.left_contact
+            if on_it and not on_other:
+                lifted_s += body.now_s - before_s
+            before_s = body.now_s
+            body.progress = min(1.0, lifted_s / max(span_s, 0.1))
+            activity = body.activity("legs", command.id)
+            if activity is not None and activity.status != "running":
+                break
+            if body.now_s > end_s:
+                raise give_up("timeout", "did not come back to both feet in time")
+        if activity.status == "failed" or lifted_s < 0.8 * span_s:
+            raise give_up(
+                "lost_balance",
+                f"stood on the {side} leg for {lifted_s:.1f} s of {span_s:.1f} s: "
+                + (activity.detail or "the other foot came down"),
+                lifted_s=round(lifted_s, 2),
+            )

@@ -1,0 +1,50 @@
+"""Every skill there is: from parameters to the skill that carries them out."""
+
+from __future__ import annotations
+
+from executive.skills.balance import Balance
+from executive.skills.context import SkillContext
+from executive.skills.look import Look
+from executive.skills.navigate import Navigate
+from executive.skills.parameters import (
+    BalanceParams,
+    LookParams,
+    NavigateParams,
+    PickParams,
+    PlaceParams,
+    SayParams,
+    SearchParams,
+    SkillParams,
+    StopParams,
+    WaitParams,
+)
+from executive.skills.pick import Pick
+from executive.skills.place import PutDown
+from executive.skills.say import Say
+from executive.skills.search import Search
+from executive.skills.skill import Skill
+from executive.skills.stop import Stop
+from executive.skills.wait import Wait
+
+
+def make(parameters: SkillParams, context: SkillContext) -> Skill:
+    """The skill for these parameters; made for one goal, used once."""
+    match parameters:
+        case NavigateParams():
+            return Navigate(parameters, context)
+        case PickParams():
+            return Pick(parameters, context)
+        case PlaceParams():
+            return PutDown(parameters, context)
+        case LookParams():
+            return Look(parameters, context)
+        case SearchParams():
+            return Search(parameters, context)
+        case BalanceParams():
+            return Balance(parameters, context)
+        case SayParams():
+            return Say(parameters, context)
+        case WaitParams():
+            return Wait(parameters, context)
+        case StopParams():
+            return Stop(parameters, context)

@@ -1,0 +1,98 @@
+"""Walk to a pose, a place or a person, or by a step."""
+
+from __future__ import annotations
+
+import math
+
+from executive.skills.asking import pose_of, stance_of
+from executive.skills.body import Body
+from executive.skills.context import SkillContext
+from executive.skills.parameters import NavigateParams, Step
+from executive.skills.script import Script, give_up
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.stepping import step_to
+from executive.skills.stowing import stow_arms
+from executive.skills.visiting import (
+    AT_PERSON_M,
+    heading_to,
+    stances_around,
+    stances_at,
+    walk_to_any,
+)
+from executive.skills.walking import follow, plan_path, stand_still, turn_by, walk_to
+from robot.planning.requests import BasePath, Stance
+from robot.se3 import SE3
+
+DETOUR = 1.25
+"""A path longer than the straight line by more than this goes around something."""
+
+
+class Navigate(ScriptedSkill):
+    """Walk there and stand within 3 cm and 3 degrees."""
+
+    resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    def __init__(self, parameters: NavigateParams, context: SkillContext) -> None:
+        """Where to."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Tuck the arms in, then walk."""
+        body, wanted = self.body, self.parameters
+        yield from stow_arms(body)
+        if wanted.by is not None:
+            body.phase = "walking"
+            yield from walk_by(body, wanted.by)
+        elif wanted.pose is not None:
+            x_m, y_m, yaw_rad = wanted.pose.x_m, wanted.pose.y_m, wanted.pose.yaw_rad
+            if yaw_rad is None:
+                yaw_rad = heading_to(body.X_WS, x_m, y_m)
+            body.phase = f"walking to ({x_m:.1f}, {y_m:.1f})"
+            yield from walk_to(body, (x_m, y_m, yaw_rad))
+        elif wanted.place_id is not None:
+            place = body.place(wanted.place_id)
+            body.phase = f"walking to the {place.name}"
+            yield from walk_to_any(body, stances_at(place, body.X_WS), name=place.name)
+        elif wanted.person_id is not None:
+            yield from self._to_person(wanted.person_id)
+
+    def _to_person(self, person_id: str) -> Script[None]:
+        body = self.body
+        person = next((person for person in body.map.people if person.id == person_id), None)
+        if person is None:
+            raise give_up("unknown_place", f"there is no person {person_id!r} in {body.map.name}")
+        body.phase = f"walking to {person.name}"
+        distance_m = AT_PERSON_M + person.radius_m
+        stances = stances_around(person.X_WO.p, body.X_WS, distance_m=distance_m)
+        yield from walk_to_any(body, stances, name=person.name)
+
+
+def walk_by(body: Body, step: Step) -> Script[None]:
+    """Turn, then walk, relative to here: straight if nothing is in the way, else around it."""
+    X_WS = body.X_WS
+    X_WS_turned = SE3.from_xy_yaw(X_WS.p[0], X_WS.p[1], X_WS.yaw_rad + step.turn_rad)
+    if abs(step.turn_rad) > 1e-6:
+        yield from turn_by(body, step.turn_rad)
+        yield from step_to(body, stance_of(X_WS_turned))
+    straight_m = math.hypot(step.forward_m, step.left_m)
+    if straight_m < 1e-6:
+        return
+    goal = stance_of(X_WS_turned @ SE3((step.forward_m, step.left_m, 0.0)))
+    path = yield from plan_path(body, goal)
+    if path.length_m > DETOUR * straight_m + 0.1:
+        yield from walk_to(body, goal)
+        return
+    yield from _walk_straight(body, goal)
+
+
+def _walk_straight(body: Body, goal: Stance) -> Script[None]:
+    """Keep the heading: forwards, sideways or backwards."""
+    distance_m = math.dist(body.X_WS.p[:2], pose_of(goal).p[:2])
+    straight = BasePath(waypoints=(goal,), length_m=distance_m, clearance_m=0.0)
+    blocker = yield from follow(body, straight)
+    if blocker is not None:
+        yield from stand_still(body)
+        yield from walk_to(body, goal)
+        return
+    yield from step_to(body, goal)

@@ -1,0 +1,165 @@
+"""Put what a hand holds on a place: stand before it, raise, step in, lower, let go, look."""
+
+from __future__ import annotations
+
+import math
+
+from executive.skills.approaching import approach, withdraw
+from executive.skills.asking import ask, held_in, stance_of, surroundings
+from executive.skills.context import SkillContext
+from executive.skills.gripping import check_grips, open_fingers, set_payload
+from executive.skills.holding import Held
+from executive.skills.looking import see
+from executive.skills.parameters import PlaceParams
+from executive.skills.reaching import move_arm, move_hand, posture_rad
+from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.stowing import HOME
+from robot.messages import ObjectInfo, Place
+from robot.planning.requests import PlacePlan, PlaceRequest
+from robot.se3 import SE3
+
+LOWER_M_S = 0.05
+MOVE_M_S = 0.12
+RETREAT_M_S = 0.12
+PRESS_M = 0.012
+CONTACT = 0.5
+LEAST_CONTACT_N = 0.6
+GRAVITY_M_S2 = 9.81
+TOO_HIGH_M = 0.02
+LOWERINGS = 3
+OPEN_MARGIN_M = 0.035
+PLACED_WITHIN_M = 0.03
+UPRIGHT_RAD = 0.25
+SPOT_SIZE_M = 0.2
+
+
+class PutDown(ScriptedSkill):
+    """Put an object down; ends with the arm home, clear of the place, the object seen there."""
+
+    resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    def __init__(self, parameters: PlaceParams, context: SkillContext) -> None:
+        """What to put where."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Plan, approach, lower, let go, withdraw, verify."""
+        body = self.body
+        info = body.object_info(self.parameters.object_id)
+        held = body.context.holdings.find(info.id)
+        if held is None:
+            raise give_up("not_holding", f"no hand holds the {info.name}", object=info.id)
+        check_grips(body)
+        place = self._place()
+        plan = yield from self._plan(place, held)
+        body.progress = 0.1
+        yield from approach(body, plan, what=place.name)
+        body.progress = 0.5
+        yield from self._lower(info, place, plan, held)
+        yield from self._let_go(info, plan, held)
+        body.progress = 0.8
+        yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
+        yield from self._verify(info, place, plan)
+
+    def _place(self) -> Place:
+        """The place of the map, or for an exact pose the one under it, or a spot of its own."""
+        X_WO = self.parameters.X_WO
+        if self.parameters.place_id is not None or X_WO is None:
+            return self.body.place(self.parameters.place_id or "")
+        for place in self.body.map.places:
+            if not place.floor and _is_over(place, X_WO):
+                return place
+        return Place(id="spot", name="spot", X_WP=X_WO, size_m=(SPOT_SIZE_M, SPOT_SIZE_M))
+
+    def _plan(self, place: Place, held: Held) -> Script[PlacePlan]:
+        self.body.phase = f"planning how to put it on the {place.name}"
+        known = held_in(self.body, held.side)
+        assert known is not None
+        request = PlaceRequest(
+            place=place,
+            side=held.side,
+            held=known,
+            around=surroundings(self.body),
+            start=stance_of(self.body.X_WS),
+            target=self.parameters.X_WO,
+            seed=self.body.context.seed,
+        )
+        return (yield from ask(self.body, request, PlacePlan))
+
+    def _lower(self, info: ObjectInfo, place: Place, plan: PlacePlan, held: Held) -> Script[None]:
+        """Bring the object above its spot, then down until half its weight is off the hand."""
+        body, side = self.body, plan.side
+        body.phase = f"reaching over the {place.name}"
+        yield from move_arm(body, side, plan.X_WG_pre, keep_upright=True, near_rad=plan.pre_rad)
+        yield from move_hand(body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S)
+        check_grips(body)
+        body.phase = f"lowering the {info.name}"
+        below = _shifted(plan.X_WG_release, -PRESS_M)
+        contact_n = max(LEAST_CONTACT_N, CONTACT * GRAVITY_M_S2 * held.mass_kg)
+        for _ in range(LOWERINGS):
+            try:
+                yield from move_hand(
+                    body, side, lambda: below, speed_m_s=LOWER_M_S, stop_load_n=contact_n
+                )
+            except GaveUp as end:
+                if end.failure.code != "arm_stalled":
+                    raise
+            if body.X_WG(side).p[2] - plan.X_WG_release.p[2] < TOO_HIGH_M:
+                return
+        high_m = body.X_WG(side).p[2] - plan.X_WG_release.p[2]
+        raise give_up(
+            "place_missed",
+            f"something holds the {info.name} {high_m * 100:.0f} cm above the {place.name}",
+            high_m=round(high_m, 3),
+        )
+
+    def _let_go(self, info: ObjectInfo, plan: PlacePlan, held: Held) -> Script[None]:
+        """Open and draw the hand back straight."""
+        body, side = self.body, plan.side
+        body.phase = f"letting go of the {info.name}"
+        body.context.holdings.release(side)
+        set_payload(body, side, 0.0)
+        yield from open_fingers(body, side, opening_m=held.gap_m + OPEN_MARGIN_M)
+        body.phase = "drawing the hand back"
+        back = plan.X_WG_release.inverse() @ plan.X_WG_retreat
+        X_WG_back = body.X_WG(side) @ back
+        yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=RETREAT_M_S)
+
+    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[None]:
+        """Look: the object must stand where it was put."""
+        self.body.phase = f"checking the {info.name}"
+        try:
+            X_WO = yield from see(self.body, info.id, p_W=plan.X_WO.p)
+        except GaveUp as end:
+            raise give_up(
+                "place_missed", f"the {info.name} cannot be seen on the {place.name}"
+            ) from end
+        off_m = math.dist(X_WO.p, plan.X_WO.p)
+        tilt_rad = tilt(X_WO)
+        if off_m > PLACED_WITHIN_M or tilt_rad > UPRIGHT_RAD:
+            raise give_up(
+                "place_missed",
+                f"the {info.name} is {off_m * 100:.1f} cm from where it was put"
+                + (", and has toppled" if tilt_rad > UPRIGHT_RAD else ""),
+                off_m=round(off_m, 4),
+                tilt_rad=round(tilt_rad, 3),
+            )
+
+
+def tilt(X_WO: SE3) -> float:
+    """Angle between an object's z axis and the vertical [rad]."""
+    _, x, y, _ = X_WO.quat_wxyz
+    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
+
+
+def _is_over(place: Place, X_WO: SE3) -> bool:
+    """Whether a pose is on a place: inside its rectangle, within a hand's breadth above it."""
+    x_m, y_m, z_m = place.X_WP.inverse().apply(X_WO.p)
+    inside = abs(x_m) <= 0.5 * place.size_m[0] and abs(y_m) <= 0.5 * place.size_m[1]
+    return bool(inside and -0.02 < z_m < 0.25)
+
+
+def _shifted(X_WG: SE3, up_m: float) -> SE3:
+    return SE3((X_WG.p[0], X_WG.p[1], X_WG.p[2] + up_m), X_WG.quat_wxyz)

@@ -1,0 +1,25 @@
+"""Say something."""
+
+from __future__ import annotations
+
+from executive.skills.context import SkillContext
+from executive.skills.parameters import SayParams
+from executive.skills.script import Script
+from executive.skills.scripted import ScriptedSkill
+
+
+class Say(ScriptedSkill):
+    """Hand a text to the voice."""
+
+    resources = frozenset({"voice"})
+
+    def __init__(self, parameters: SayParams, context: SkillContext) -> None:
+        """What to say."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Say it; takes one tick."""
+        self.body.phase = "speaking"
+        self.context.say(self.parameters.text)
+        yield

@@ -1,0 +1,24 @@
+"""Come to rest."""
+
+from __future__ import annotations
+
+from executive.skills.context import SkillContext
+from executive.skills.parameters import StopParams
+from executive.skills.resting import come_to_rest
+from executive.skills.script import Script
+from executive.skills.scripted import ScriptedSkill
+
+
+class Stop(ScriptedSkill):
+    """Finish the step, stand, and hold the arms where they are."""
+
+    resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    def __init__(self, parameters: StopParams, context: SkillContext) -> None:
+        """Nothing to choose."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """The same as what ends every skill."""
+        yield from come_to_rest(self.body, self.resources)

@@ -1,0 +1,28 @@
+"""Do nothing for a while."""
+
+from __future__ import annotations
+
+from executive.skills.context import SkillContext
+from executive.skills.parameters import WaitParams
+from executive.skills.script import Script
+from executive.skills.scripted import ScriptedSkill
+
+
+class Wait(ScriptedSkill):
+    """Wait for a time, or until stopped."""
+
+    resources = frozenset()
+
+    def __init__(self, parameters: WaitParams, context: SkillContext) -> None:
+        """How long."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Let the time pass."""
+        span_s = self.parameters.duration_s
+        self.body.phase = "waiting" if span_s is not None else "waiting until told to go on"
+        begin_s = self.body.now_s
+        while span_s is None or self.body.now_s - begin_s < span_s - 1e-9:
+            self.body.progress = 0.0 if not span_s else (self.body.now_s - begin_s) / span_s
+            yield
