@@ -14,8 +14,9 @@ from robot.se3 import SE3, Array
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.scene import TIMESTEP_S, compile_scene
+from sim.placing import placed
 from sim.schema import World
-from sim.world import start_pose
+from sim.atlas import start_pose
 
 NEVER = 1 << 62
 
@@ -48,15 +49,15 @@ class Plant:
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
         """
-        self.world = world
+        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2)]
+        self.world = placed(world, seeds[0])
         self.robot = robot
-        self.model = compile_scene(world, robot)
+        self.model = compile_scene(self.world, robot)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
-        sensor_seed, = np.random.SeedSequence(seed).spawn(1)
         self._body = BodySensors(
             self.model, self.data, robot, motors=self.motors,
-            rng=np.random.default_rng(sensor_seed) if noisy else None,
+            rng=seeds[1] if noisy else None,
         )
         self._steps = 0
         self._watchdog_step = NEVER

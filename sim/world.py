@@ -1,11 +1,54 @@
-"""Worlds: shipped or written by people, read from YAML, and what follows from them."""
+"""Worlds by name or file: shipped ones (sim/worlds), or anybody's YAML (docs/worlds.md)."""
 
 from __future__ import annotations
 
-import math
+from importlib import resources
+from pathlib import Path
 
-from robot.se3 import SE3
+from robot import config
+from robot.errors import ConfigError, Problem
+from robot.messages import WorldMap
+from sim import atlas, checks
+from sim.placing import variation
 from sim.schema import Room, World
+
+__all__ = ["World", "available", "empty", "load", "map_of", "variation", "world_map"]
+
+world_map = atlas.world_map
+
+
+def available() -> list[str]:
+    """Names of the shipped worlds."""
+    return sorted(path.name.removesuffix(".yaml") for path in _folder().glob("*.yaml"))
+
+
+def load(name_or_path: str) -> World:
+    """Read a world: a shipped one by name, or any by the path of its YAML file.
+
+    Raises:
+        ConfigError: with everything that is wrong, by file and line, and the nearest valid name.
+    """
+    path = Path(name_or_path)
+    if path.suffix not in (".yaml", ".yml"):
+        path = _folder() / f"{name_or_path}.yaml"
+        if not path.exists():
+            hint = config.nearest(name_or_path, available())
+            raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
+    node = config.read_yaml(path)
+    world = config.convert(node, World, file=str(path))
+    problems = [
+        Problem(found.message, str(path), config.line_of(node, found.where),
+                suggestion=found.suggestion or None)
+        for found in checks.check(world)
+    ]  # fmt: skip
+    if problems:
+        raise ConfigError(sorted(problems, key=lambda problem: problem.line or 0))
+    return world
+
+
+def map_of(name_or_path: str) -> WorldMap:
+    """The prior map of a world by name or path; raises ConfigError as `load` does."""
+    return world_map(load(name_or_path))
 
 
 def empty() -> World:
@@ -13,6 +56,5 @@ def empty() -> World:
     return World(name="empty", rooms=(Room(id="hall", at_m=(0.0, 0.0), size_m=(20.0, 20.0)),))
 
 
-def start_pose(world: World) -> SE3:
-    """X_WS where the robot's stance begins."""
-    return SE3.from_xy_yaw(*world.start.at_m, math.radians(world.start.yaw_deg))
+def _folder() -> Path:
+    return Path(str(resources.files("sim"))) / "worlds"

@@ -1,0 +1,129 @@
+"""Walls, furniture, people and objects as MuJoCo bodies.
+
+Friction and contact of what is grasped are the finger pads' (they have priority); these are for
+standing on each other. Things that stand still are bodies without a joint, each its own, so that
+collision looks only at what is near.
+"""
+
+from __future__ import annotations
+
+import mujoco
+
+from robot.messages import Obstacle
+from robot.se3 import SE3
+from sim import atlas, furniture
+from sim.paint import Paint
+from sim.schema import Furniture, Object, Person
+
+FLOOR_FRICTION = [0.9, 0.01, 0.0005]
+WOOD_FRICTION = [0.6, 0.005, 0.0001]
+OBJECT_FRICTION = [0.7, 0.005, 0.0005]
+BOX = mujoco.mjtGeom.mjGEOM_BOX
+CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
+CAPSULE = mujoco.mjtGeom.mjGEOM_CAPSULE
+SPHERE = mujoco.mjtGeom.mjGEOM_SPHERE
+LOOKS = {"contype": 0, "conaffinity": 0, "mass": 0.0}  # a geom only to look at
+
+
+def add_wall(spec: mujoco.MjSpec, wall: Obstacle, paint: Paint) -> None:
+    """A wall, in geom group 1 so that a view can leave walls out."""
+    body = _body(spec, f"wall/{wall.id}", wall.X_WO)
+    for shape in wall.shapes:
+        half = [size / 2 for size in shape.size_m]
+        body.add_geom(
+            type=BOX, size=half, pos=shape.X_BodyShape.p, material=paint.color("wall"),
+            friction=WOOD_FRICTION, condim=3, group=1,
+        )  # fmt: skip
+
+
+def add_furniture(spec: mujoco.MjSpec, item: Furniture, paint: Paint) -> None:
+    """A piece of furniture out of its form's parts; free to be pushed if it is movable."""
+    body = _body(spec, f"furniture/{item.id}", atlas.pose_of(item))
+    parts = furniture.form(item).parts
+    free = furniture.movable(item)
+    if free:
+        body.add_freejoint(name=f"furniture/{item.id}")
+    volume = sum(part.size_m[0] * part.size_m[1] * part.size_m[2] for part in parts)
+    own = item.color or furniture.KINDS[item.kind].color
+    for part in parts:
+        x, y, z = (size / 2 for size in part.size_m)
+        share = 8 * x * y * z / volume
+        body.add_geom(
+            type=CYLINDER if part.kind == "cylinder" else BOX,
+            size=[x, z, 0.0] if part.kind == "cylinder" else [x, y, z],
+            pos=part.p,
+            material=paint.color(part.color or own),
+            friction=WOOD_FRICTION,
+            condim=3,
+            mass=item.mass_kg * share if free else 0.0,
+        )
+
+
+def add_object(spec: mujoco.MjSpec, item: Object, X_WO: SE3, paint: Paint) -> None:
+    """A free rigid body, its origin O in its middle."""
+    body = _body(spec, f"object/{item.id}", X_WO)
+    body.add_freejoint(name=f"object/{item.id}")
+    x, y, z = (size / 2 for size in item.size_m)
+    body.add_geom(
+        name=f"object/{item.id}",
+        type=CYLINDER if item.shape == "cylinder" else BOX,
+        size=[x, z, 0.0] if item.shape == "cylinder" else [x, y, z],
+        mass=item.mass_kg,
+        material=paint.color(item.color),
+        friction=OBJECT_FRICTION,
+        condim=3,
+    )
+    _dress(body, item, paint)
+
+
+def _dress(body: mujoco.MjsBody, item: Object, paint: Paint) -> None:
+    """Thin films on an object that say what it is: the hollow of a cup, cap and label of a bottle."""
+    x, _, z = (size / 2 for size in item.size_m)
+    film = 0.0004
+    if item.category in ("cup", "mug", "glass", "bowl"):
+        dark = paint.color("charcoal")
+        body.add_geom(type=CYLINDER, size=[0.85 * x, film, 0], pos=[0, 0, z], material=dark, **LOOKS)
+    elif item.category in ("bottle", "can") and item.shape == "cylinder":
+        white = paint.color("white")
+        label = [x + film, 0.22 * z, 0]
+        body.add_geom(type=CYLINDER, size=label, pos=[0, 0, -0.1 * z], material=white, **LOOKS)
+        cap = [0.45 * x, film, 0]
+        body.add_geom(type=CYLINDER, size=cap, pos=[0, 0, z], material=white, **LOOKS)
+    elif item.shape == "box":
+        white = paint.color("white")
+        band = [x + film, item.size_m[1] / 2 + film, 0.12 * z]
+        body.add_geom(type=BOX, size=band, pos=[0, 0, 0.45 * z], material=white, **LOOKS)
+
+
+def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
+    """A figure of capsules that stands; a mocap body, so that a fault can move it."""
+    body = _body(spec, f"person/{person.id}", atlas.pose_of(person))
+    body.mocap = True
+    scale = person.height_m / 1.70
+    skin, shirt, trousers = paint.color("skin"), paint.color(person.color), paint.color("charcoal")
+    hair, shoes = paint.color("brown"), paint.color("black")
+    limbs = [  # from, to, radius of a figure of 1.70 m; material
+        ((0, 0.085, 0.10), (0, 0.085, 0.80), 0.070, trousers),
+        ((0, -0.085, 0.10), (0, -0.085, 0.80), 0.070, trousers),
+        ((0.02, 0.085, 0.04), (0.14, 0.085, 0.04), 0.040, shoes),
+        ((0.02, -0.085, 0.04), (0.14, -0.085, 0.04), 0.040, shoes),
+        ((0, 0, 0.95), (0, 0, 1.25), 0.140, shirt),
+        ((0, 0.12, 1.34), (0, -0.12, 1.34), 0.070, shirt),
+        ((0, 0.19, 1.34), (0.02, 0.23, 1.08), 0.045, shirt),
+        ((0, -0.19, 1.34), (0.02, -0.23, 1.08), 0.045, shirt),
+        ((0.02, 0.23, 1.06), (0.10, 0.22, 0.84), 0.036, skin),
+        ((0.02, -0.23, 1.06), (0.10, -0.22, 0.84), 0.036, skin),
+        ((0, 0, 1.38), (0, 0, 1.46), 0.050, skin),
+    ]
+    for start, end, radius, material in limbs:
+        ends = [value * scale for value in (*start, *end)]
+        body.add_geom(type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material)
+    for p, radius, material in (
+        ((0.0, 0.0, 1.585), 0.105, skin), ((-0.02, 0.0, 1.605), 0.108, hair),
+    ):  # fmt: skip
+        place = [value * scale for value in p]
+        body.add_geom(type=SPHERE, pos=place, size=[radius * scale, 0, 0], material=material)
+
+
+def _body(spec: mujoco.MjSpec, name: str, pose: SE3) -> mujoco.MjsBody:
+    return spec.worldbody.add_body(name=name, pos=pose.p, quat=pose.quat_wxyz)
