@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from robot.bus import topics
+from robot.bus.bus import Bus
+from robot.clock import Clock
 from robot.messages import BodyCommand, BodyState, DepthImage, LidarScan, WorldMap, WorldState
 
 
@@ -41,3 +44,50 @@ class BodyLink(Protocol):
     def depth(self) -> DepthImage | None:
         """The newest depth image."""
         ...
+
+
+class BusLink:
+    """A `BodyLink` over a bus; command ids grow from 1."""
+
+    def __init__(self, bus: Bus, clock: Clock) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._last_id = 0
+        self._body = bus.subscribe(topics.BODY_STATE)
+        self._world = bus.subscribe(topics.WORLD_STATE)
+        self._map = bus.subscribe(topics.ORACLE_MAP)
+        self._lidar = bus.subscribe(topics.LIDAR)
+        self._depth = bus.subscribe(topics.DEPTH)
+
+    def send(self, command: BodyCommand) -> None:
+        """Send one command. Raises BusError if the bus is closed."""
+        self._bus.publish(topics.BODY_COMMAND, command)
+
+    def next_id(self) -> int:
+        """A fresh command id, growing."""
+        self._last_id += 1
+        return self._last_id
+
+    def now_s(self) -> float:
+        """The runtime's clock."""
+        return self._clock.now_s()
+
+    def body(self) -> BodyState | None:
+        """The newest state of the body, None before the first."""
+        return self._body.latest
+
+    def world(self) -> WorldState | None:
+        """The newest state of the world model, None before the first."""
+        return self._world.latest
+
+    def map(self) -> WorldMap | None:
+        """The prior map, None before it came."""
+        return self._map.latest
+
+    def lidar(self) -> LidarScan | None:
+        """The newest lidar scan."""
+        return self._lidar.latest
+
+    def depth(self) -> DepthImage | None:
+        """The newest depth image."""
+        return self._depth.latest

@@ -180,6 +180,24 @@ class BodyState(Message, frozen=True, kw_only=True):
     failure: Failure | None = None
 
 
+class LoopTiming(Message, frozen=True, kw_only=True):
+    """How well a periodic loop keeps its time, since it began.
+
+    `late` of `count` periods began later than half a period after their time; percentiles of the
+    lateness in seconds. `real_time_factor` is simulated time over wall time, 1 on hardware.
+    """
+
+    process: str
+    period_s: float
+    count: int
+    late: int
+    p50_s: float
+    p99_s: float
+    p999_s: float
+    max_s: float
+    real_time_factor: float = 1.0
+
+
 # --- sensors and oracle ------------------------------------------------------------------------
 
 

@@ -1,0 +1,1 @@
+"""Messages between the parts of the robot: the table of topics, and what carries them."""
