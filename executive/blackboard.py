@@ -58,6 +58,10 @@ STOP = Key[str](
     "stop", str, writer="operator", meaning="why a person wants it to stop, or empty", initial=""
 )
 GOAL = Key[str]("goal", str, writer="task", meaning="what was asked for, in words", initial="")
+ABORT = Key[Failure | None](
+    "abort", Failure | None, writer="guard", meaning="why the task was ended from above",
+    initial=None,
+)  # fmt: skip
 FAILURE = Key[Failure | None](
     "failure", Failure | None, writer="task", meaning="the newest failure of a step", initial=None
 )
@@ -66,12 +70,12 @@ RECOVERIES = Key[int](
 )
 PHASE = Key[str]("phase", str, writer="skills", meaning="what the newest skill does", initial="")
 HELD = Key[dict[Side, str]](
-    "held", dict[str, str], writer="skills", meaning="hand to id of the object in it", initial={}
+    "held", dict[str, str], writer="sense", meaning="hand to id of the object in it", initial={}
 )
 SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robot", initial="")
 
 KEYS: tuple[Key[Any], ...] = (
-    NOW, BODY, WORLD, MAP, HEALTH, STOP, GOAL, FAILURE, RECOVERIES, PHASE, HELD, SAID,
+    NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, ABORT, GOAL, FAILURE, RECOVERIES, PHASE, SAID,
 )  # fmt: skip
 """The whole table."""
 
@@ -125,7 +129,7 @@ class Blackboard:
         if not key.accepts(value):
             kind = type(value).__name__
             raise BlackboardError(f"{key.name!r} takes {key.kind}, not a {kind}")
-        changed = self._values[key.name] != value
+        changed = bool(self._watchers) and self._values[key.name] != value
         self._values[key.name] = value
         if changed:
             for watcher in self._watchers:

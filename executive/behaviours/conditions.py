@@ -1,0 +1,37 @@
+"""Leaves that read the blackboard and answer at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.blackboard import HEALTH, STOP, Blackboard
+from executive.ladder import Level
+
+Predicate = Callable[[Blackboard], bool]
+
+
+class Check(Behaviour):
+    """SUCCESS while a predicate over the blackboard holds, else FAILURE."""
+
+    def __init__(self, name: str, predicate: Predicate, *, board: Blackboard) -> None:
+        """Make the leaf; `predicate` only reads."""
+        super().__init__(name)
+        self._predicate = predicate
+        self._board = board
+
+    def update(self) -> Status:
+        """Ask the predicate."""
+        return Status.SUCCESS if self._predicate(self._board) else Status.FAILURE
+
+
+def must_end(board: Blackboard) -> bool:
+    """A person asked for a stop, or the robot is too unwell to go on."""
+    return bool(board.read(STOP)) or board.read(HEALTH).level >= Level.SIT
+
+
+def must_hold(board: Blackboard) -> bool:
+    """Something is missing without which the robot had better stand still."""
+    return board.read(HEALTH).level >= Level.HOLD

@@ -1,0 +1,140 @@
+"""The one leaf that runs skills.
+
+Traps of py_trees 2.6 that it stays out of: an exception in `update` would never reach `terminate`,
+so it is caught here; `terminate` is also called on leaves that ended long ago, so it acts only on a
+skill that is at work; and a stop that takes several ticks is handed over to the stage, because an
+interrupted leaf is not ticked again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.behaviours.stage import Stage, broken
+from executive.blackboard import Blackboard
+from executive.skills.parameters import SkillParams
+from executive.skills.skill import Skill, SkillReport
+from robot.errors import Failure, failure
+
+Bound = Callable[[Blackboard], SkillParams | Failure]
+"""Parameters that are known only when the step's turn comes."""
+
+DEFAULT_LIMIT_S = 240.0
+
+
+class RunSkill(Behaviour):
+    """Runs one skill: RUNNING while it acts, then SUCCESS or FAILURE as it reports."""
+
+    def __init__(
+        self,
+        name: str,
+        params: SkillParams | Bound,
+        *,
+        stage: Stage,
+        attempt: int = 0,
+        limit_s: float = DEFAULT_LIMIT_S,
+    ) -> None:
+        """Make the leaf; the skill itself is made when its turn comes.
+
+        Args:
+            name: what the step is called on screen and in the journal.
+            params: of the skill, or a function that makes them from the blackboard.
+            stage: shared by all leaves.
+            attempt: 0 the first time, more for a retry.
+            limit_s: the longest it may take.
+        """
+        super().__init__(name)
+        self._params = params
+        self._stage = stage
+        self._attempt = attempt
+        self._limit_s = limit_s
+        self._skill: Skill | None = None
+        self._acting = False
+        self._begun_s = 0.0
+        self.progress = 0.0
+
+    def initialise(self) -> None:
+        """Forget the last round."""
+        self._skill = None
+        self._acting = False
+        self.progress = 0.0
+
+    def update(self) -> Status:
+        """Go on with the skill; never raises."""
+        try:
+            return self._go_on()
+        except Exception as error:  # see the module's note
+            return self._give_up(broken(error))
+
+    def terminate(self, new_status: Status) -> None:
+        """Bring a skill to rest that is interrupted."""
+        if new_status is Status.INVALID:
+            self._leave()
+        self._skill = None
+
+    def _go_on(self) -> Status:
+        now_s = self._stage.now_s
+        if self._skill is None:
+            params = self._params(self._stage.board) if callable(self._params) else self._params
+            if isinstance(params, Failure):
+                return self._give_up(params)
+            self._skill = self._stage.make_skill(params, self._attempt)
+            self._begun_s = now_s
+        late = now_s - self._begun_s > self._limit_s
+        if not self._acting:
+            resource = self._stage.conflict(self._skill)
+            if resource is not None:
+                self.feedback_message = f"waiting for the {resource}"
+                reason = failure("timeout", f"the {resource} did not come free")
+                return self._give_up(reason) if late else Status.RUNNING
+            self._enter(self._skill, now_s)
+        elif late:
+            text = f"{self.name!r} took longer than {self._limit_s:.0f} s"
+            return self._give_up(failure("timeout", text, phase=self.feedback_message))
+        return self._judge(self._skill.step(now_s))
+
+    def _enter(self, skill: Skill, now_s: float) -> None:
+        """Start the skill; the parts of the body that it needs are free."""
+        self._stage.take(skill)
+        self._stage.record("step", step=self.name, attempt=self._attempt)
+        self._acting = True
+        self._begun_s = now_s
+        skill.start(now_s)
+
+    def _judge(self, report: SkillReport) -> Status:
+        """Turn a report into a status."""
+        self._show(report)
+        if report.status == "running":
+            return Status.RUNNING
+        self._acting = False
+        if self._skill is not None:
+            self._stage.release(self._skill)
+        if report.status == "succeeded":
+            self._stage.record("done", step=self.name)
+            return Status.SUCCESS
+        return self._give_up(report.failure or failure("internal", "it failed without a reason"))
+
+    def _show(self, report: SkillReport) -> None:
+        """Tell people (and, where it is news, the journal) what the skill does."""
+        self.progress = report.progress
+        if report.phase and report.phase != self.feedback_message:
+            self.feedback_message = report.phase
+            self._stage.phase(report.phase)
+            if report.status == "running":
+                self._stage.record("phase", step=self.name, phase=report.phase)
+
+    def _give_up(self, reason: Failure) -> Status:
+        """Fail, and bring the skill to rest if it is still at work."""
+        self._leave()
+        self.feedback_message = reason.cause
+        self._stage.fail(reason, step=self.name)
+        return Status.FAILURE
+
+    def _leave(self) -> None:
+        """Hand a skill that is at work over to the stage, which stops it."""
+        if self._acting and self._skill is not None:
+            self._acting = False
+            self._stage.leave(self.name, self._skill)

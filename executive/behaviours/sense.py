@@ -1,0 +1,100 @@
+"""The first leaf of every tick: the newest messages onto the blackboard."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.behaviours.stage import Stage, failure_data
+from executive.blackboard import BODY, HEALTH, HELD, MAP, NOW, WORLD
+from executive.health import HealthMonitor
+from executive.ladder import Health, Level
+from executive.skills.holding import Holdings
+from robot.link import BodyLink
+
+StampOf = Callable[[BodyLink], float | None]
+
+
+def _stamp(message: object) -> float | None:
+    return getattr(message, "stamp_s", None)
+
+
+STAMPS: Mapping[str, StampOf] = {
+    "body/state": lambda link: _stamp(link.body()),
+    "world/state": lambda link: _stamp(link.world()),
+    "sensors/lidar": lambda link: _stamp(link.lidar()),
+    "sensors/depth": lambda link: _stamp(link.depth()),
+}
+"""Topic name to how the stamp of its newest message is read from the link."""
+
+
+class Sense(Behaviour):
+    """Reads the link once a tick; always RUNNING."""
+
+    def __init__(
+        self, stage: Stage, link: BodyLink, monitor: HealthMonitor, *, holdings: Holdings
+    ) -> None:
+        """Become the writer of everything that is sensed."""
+        super().__init__("sense")
+        self._stage = stage
+        self._link = link
+        self._monitor = monitor
+        self._holdings = holdings
+        self._board = stage.board.claim("sense")
+        self._health = Health()
+
+    def at(self, now_s: float) -> None:
+        """Set the time of the tick that comes."""
+        self._board.set(NOW, now_s)
+
+    def update(self) -> Status:
+        """Put the newest of everything on the board."""
+        link, board = self._link, self._board
+        board.set(BODY, link.body())
+        board.set(WORLD, link.world())
+        board.set(MAP, link.map())
+        board.set(HELD, {held.side: held.object_id for held in self._holdings.all()})
+        health = self._monitor.look(
+            self._stage.now_s,
+            {name: read(link) for name, read in STAMPS.items()},
+            body=link.body(),
+            world=link.world(),
+        )
+        board.set(HEALTH, health)
+        self._journal(health)
+        worst = health.failure
+        self.feedback_message = worst.cause if worst else "all is well"
+        return Status.RUNNING
+
+    def _journal(self, health: Health) -> None:
+        """Journal what has come up or gone away since the last tick."""
+        before = {(finding.name, finding.level) for finding in self._health.findings}
+        for finding in health.findings:
+            if (finding.name, finding.level) not in before:
+                self._stage.record(
+                    "health",
+                    name=finding.name,
+                    level=finding.level.name,
+                    **failure_data(finding.failure),
+                )
+        after = {finding.name for finding in health.findings}
+        for finding in self._health.findings:
+            if finding.name not in after:
+                self._stage.record("health", name=finding.name, level=Level.OK.name)
+        self._health = health
+
+
+class WindDown(Behaviour):
+    """Sees interrupted skills through until the body is at rest; always RUNNING."""
+
+    def __init__(self, stage: Stage) -> None:
+        """Watch over the stage's skills."""
+        super().__init__("come to rest")
+        self._stage = stage
+
+    def update(self) -> Status:
+        """Go on with whatever is coming to rest."""
+        self.feedback_message = "" if self._stage.wind_down() else "stopping"
+        return Status.RUNNING

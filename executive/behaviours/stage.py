@@ -1,0 +1,115 @@
+"""What all leaves of one executive share: the board, the journal, the skills at work."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from executive.blackboard import FAILURE, NOW, PHASE, Blackboard
+from executive.journal import Journal
+from executive.skills.parameters import SkillParams
+from executive.skills.skill import Resource, Skill, SkillReport
+from robot.errors import Failure, failure
+
+STOP_TIMEOUT_S = 10.0
+"""How long a skill may take to bring the body to rest before it is given up."""
+
+MakeSkill = Callable[[SkillParams, int], Skill]
+"""Makes the skill for parameters; the number is the attempt, from 0: a retry plans anew."""
+
+
+class Stage:
+    """The skills at work, what they hold of the body, and where leaves report.
+
+    A skill that is interrupted may need several ticks to come to rest, in which its leaf is not
+    ticked any more. So it is left here: `wind_down`, ticked every time, brings it to its end, and
+    the parts of the body that it uses stay taken until then.
+    """
+
+    def __init__(self, board: Blackboard, journal: Journal, make_skill: MakeSkill) -> None:
+        """Set the stage; becomes the writer of the tasks' and the skills' keys."""
+        self.board = board
+        self.journal = journal
+        self.make_skill = make_skill
+        self.task = board.claim("task")
+        self._phases = board.claim("skills")
+        self._taken: dict[Resource, Skill] = {}
+        self._stopping: list[tuple[str, Skill, float]] = []
+
+    @property
+    def now_s(self) -> float:
+        """The time of this tick."""
+        return self.board.read(NOW)
+
+    @property
+    def quiet(self) -> bool:
+        """Whether no skill is at work, not even on coming to rest."""
+        return not self._taken and not self._stopping
+
+    def record(self, event: str, **data: object) -> None:
+        """Write an event to the journal, stamped with this tick's time."""
+        self.journal.write(self.now_s, event, **data)
+
+    def conflict(self, skill: Skill) -> Resource | None:
+        """A part of the body that the skill needs and another one has."""
+        wanted = sorted(skill.resources)
+        return next((r for r in wanted if self._taken.get(r, skill) is not skill), None)
+
+    def take(self, skill: Skill) -> None:
+        """Give a skill the parts of the body it needs."""
+        self._taken.update(dict.fromkeys(skill.resources, skill))
+
+    def release(self, skill: Skill) -> None:
+        """Take back what a skill has; may be repeated."""
+        self._taken = {r: owner for r, owner in self._taken.items() if owner is not skill}
+
+    def phase(self, text: str) -> None:
+        """Say what the newest skill does."""
+        self._phases.set(PHASE, text)
+
+    def fail(self, reason: Failure, *, step: str) -> None:
+        """Put a step's failure on the board and into the journal."""
+        self.task.set(FAILURE, reason)
+        self.record("failure", step=step, **failure_data(reason))
+
+    def leave(self, name: str, skill: Skill) -> None:
+        """Stop a skill whose leaf is not ticked any more; `wind_down` sees it through."""
+        self.record("stopping", step=name)
+        self._stopping.append((name, skill, self.now_s))
+        self._step_to_rest(name, skill, self.now_s)
+
+    def wind_down(self) -> bool:
+        """Go on with every skill that is coming to rest; True when none is left."""
+        for name, skill, since_s in list(self._stopping):
+            self._step_to_rest(name, skill, since_s)
+        return not self._stopping
+
+    def _step_to_rest(self, name: str, skill: Skill, since_s: float) -> None:
+        report = stop_safely(skill, self.now_s)
+        late = self.now_s - since_s > STOP_TIMEOUT_S
+        if report.status == "running" and not late:
+            self.phase(report.phase)
+            return
+        self._stopping = [entry for entry in self._stopping if entry[1] is not skill]
+        self.release(skill)
+        self.record("stopped", step=name, took_s=round(self.now_s - since_s, 3), in_time=not late)
+
+
+def stop_safely(skill: Skill, now_s: float) -> SkillReport:
+    """Call a skill's `stop`; an exception ends it, as a failure."""
+    try:
+        return skill.stop(now_s)
+    except Exception as error:  # the other skills must come to rest all the same
+        return SkillReport(status="failed", failure=broken(error))
+
+
+def broken(error: Exception) -> Failure:
+    """The failure that an unexpected exception is, without anything that differs between runs."""
+    return failure("internal", f"{type(error).__name__}: {error}")
+
+
+def failure_data(reason: Failure) -> dict[str, object]:
+    """A failure as the journal has it."""
+    data: dict[str, object] = {"code": reason.code, "cause": reason.cause}
+    if reason.evidence:
+        data["evidence"] = reason.evidence
+    return data

@@ -1,0 +1,110 @@
+"""What the map says, as words for the parser and as answers for the planner of tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeVar
+
+from intents.vocabulary import Someone, Spot, Thing, Vocabulary
+from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
+
+T = TypeVar("T")
+SMALL, BIG = 0.75, 1.33
+"""Volume relative to the mean of its name: less is small, more is big."""
+
+
+class Knowledge:
+    """A map, looked up by the names people use."""
+
+    def __init__(self, world_map: WorldMap) -> None:
+        """Index the map."""
+        self.map = world_map
+        self._furniture = {item.id: item.name for item in world_map.obstacles}
+
+    def vocabulary(self) -> Vocabulary:
+        """All names of this world, for the parser."""
+        surfaces = [place for place in self.map.places if not place.floor]
+        floors = [place for place in self.map.places if place.floor]
+        rooms = [place for place in floors if place.id == place.room]
+        spots = [place for place in floors if place.id != place.room]
+        names = {place.name for place in surfaces}
+        grouped = sorted({self._furniture.get(p.of, p.name) for p in surfaces} - names)
+        return Vocabulary.of(
+            objects=[self._thing(info) for info in self.map.objects],
+            places=[
+                *(Spot(name=name, synonyms=()) for name in grouped),
+                *(Spot(name=place.name, synonyms=place.synonyms) for place in surfaces),
+                *(Spot(name=place.name, synonyms=place.synonyms) for place in spots),
+            ],
+            rooms=[Spot(name=place.name, synonyms=place.synonyms) for place in rooms],
+            people=[Someone(name=person.name) for person in self.map.people],
+            categories=self.map.categories,
+        )
+
+    def _thing(self, info: ObjectInfo) -> Thing:
+        return Thing(
+            name=plain_name(info),
+            synonyms=info.synonyms,
+            category=info.category,
+            color=info.color,
+            size=self.size_word(info),
+        )
+
+    def size_word(self, info: ObjectInfo) -> str:
+        """A size word where it tells this object from others of its name."""
+        name = plain_name(info)
+        alike = [volume(other) for other in self.map.objects if plain_name(other) == name]
+        ratio = volume(info) * len(alike) / sum(alike)
+        return "small" if ratio < SMALL else "big" if ratio > BIG else ""
+
+    def object(self, object_id: str) -> ObjectInfo | None:
+        """The object with an id."""
+        return _first(item for item in self.map.objects if item.id == object_id)
+
+    def place(self, place_id: str) -> Place | None:
+        """The place with an id."""
+        return _first(item for item in self.map.places if item.id == place_id)
+
+    def places(self, name: str) -> tuple[Place, ...]:
+        """Every place that a name can mean: one, or the boards of a shelf, or none."""
+        wanted = name.casefold()
+        exact = [p for p in self.map.places if wanted in (p.name.casefold(), p.id.casefold())]
+        if exact:
+            return tuple(exact)
+        furniture = {key for key, title in self._furniture.items() if title.casefold() == wanted}
+        boards = [p for p in self.map.places if p.of and (p.of in furniture or p.of == name)]
+        if boards:
+            return tuple(boards)
+        return tuple(p for p in self.map.places if wanted in map(str.casefold, p.synonyms))
+
+    def person(self, name: str | None) -> PersonInfo | None:
+        """A person by name; None stands for the operator: who is called so, or the only one."""
+        people = self.map.people
+        wanted = (name or "operator").casefold()
+        named = _first(p for p in people if wanted in (p.name.casefold(), p.id.casefold()))
+        if named is None and name is None and len(people) == 1:
+            return people[0]
+        return named
+
+
+def plain_name(info: ObjectInfo) -> str:
+    """The name without the colour in front of it: "cup" of a "red cup"."""
+    prefix = f"{info.color} "
+    plain = info.name.removeprefix(prefix) if info.color else info.name
+    return plain or info.name
+
+
+def full_name(info: ObjectInfo) -> str:
+    """What the object is called on screen: "the red cup"."""
+    plain = plain_name(info)
+    return f"the {info.color} {plain}" if info.color else f"the {plain}"
+
+
+def volume(info: ObjectInfo) -> float:
+    """Volume of the box around an object [m³]."""
+    x, y, z = info.shape.size_m
+    return x * y * z
+
+
+def _first(items: Iterable[T]) -> T | None:
+    return next(iter(items), None)
