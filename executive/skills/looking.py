@@ -46,9 +46,7 @@ def see(body: Body, object_id: str, *, p_W: Vector3 | None = None) -> Script[SE3
             "object_not_seen",
             f"looked for the {name} at ({p_W[0]:.2f}, {p_W[1]:.2f}) m and did not see it",
             object=object_id,
-            last_seen_s=round(track.seen_s, 2)
-            if track and math.isfinite(track.seen_s)
-            else "never",
+            last_seen_s=round(track.seen_s, 2) if track and track.X_WO else "never",
         )
     return X_WO
 

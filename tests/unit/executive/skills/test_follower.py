@@ -1,0 +1,128 @@
+"""The path follower: within the gait's limits, and it gets there."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.skills.follower import Follower, Run, turn_towards
+from robot.model.description import load
+from robot.se3 import SE3, wrap_angle
+
+GAIT = load("juno").walking
+coordinate = st.floats(-4.0, 4.0)
+angle = st.floats(-math.pi, math.pi)
+stance = st.tuples(coordinate, coordinate, angle)
+
+
+@given(stance, st.lists(stance, min_size=1, max_size=5), stance)
+def test_twists_stay_within_the_gait(start, waypoints, here):
+    follower = Follower(start, waypoints, walking=GAIT, speed_m_s=0.4)
+    twist = follower.twist(SE3.from_xy_yaw(*here))
+    assert -GAIT.max_backward_m_s - 1e-9 <= twist.forward_m_s <= GAIT.max_forward_m_s + 1e-9
+    assert abs(twist.left_m_s) <= GAIT.max_sideways_m_s + 1e-9
+    assert abs(twist.turn_rad_s) <= GAIT.max_turn_rad_s + 1e-9
+
+
+def walk(follower, X_WS, seconds=90.0, dt_s=0.05):
+    trail = [X_WS]
+    for _ in range(int(seconds / dt_s)):
+        twist = follower.twist(X_WS)
+        if follower.done:
+            break
+        X_WS = X_WS @ SE3.from_xy_yaw(
+            twist.forward_m_s * dt_s, twist.left_m_s * dt_s, twist.turn_rad_s * dt_s
+        )
+        trail.append(X_WS)
+    return trail
+
+
+def facing_path(points, start_yaw):
+    """Waypoints that turn on the spot at every corner, then walk straight ahead."""
+    stances, yaw = [], start_yaw
+    for a, b in zip(points, points[1:], strict=False):
+        yaw = math.atan2(b[1] - a[1], b[0] - a[0])
+        stances += [(*a, yaw), (*b, yaw)]
+    return stances
+
+
+@given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=2, max_size=4), angle)
+def test_it_gets_to_the_end_and_stays_near_the_path(corners, yaw):
+    points = [corners[0]]
+    points += [b for a, b in zip(corners, corners[1:], strict=False) if a != b]
+    if len(points) < 2:
+        return
+    points = [(float(x), float(y)) for x, y in points]
+    start = (*points[0], yaw)
+    follower = Follower(start, facing_path(points, yaw), walking=GAIT, speed_m_s=0.4)
+    trail = walk(follower, SE3.from_xy_yaw(*start))
+    assert follower.done
+    assert math.dist(trail[-1].p[:2], points[-1]) < 0.2
+    for X_WS in trail:
+        off_m = min(_distance(X_WS.p[:2], a, b) for a, b in zip(points, points[1:], strict=False))
+        assert off_m < 0.15
+
+
+@given(st.floats(-0.3, 0.3), st.floats(-0.5, 0.5))
+def test_it_comes_back_onto_the_path(aside_m, askew_rad):
+    follower = Follower((0.0, 0.0, 0.0), [(4.0, 0.0, 0.0)], walking=GAIT, speed_m_s=0.4)
+    trail = walk(follower, SE3.from_xy_yaw(0.0, aside_m, askew_rad))
+    late = [X_WS for X_WS in trail if X_WS.p[0] > 2.5]
+    assert late
+    assert all(abs(X_WS.p[1]) < 0.05 for X_WS in late)
+
+
+@pytest.mark.parametrize("bearing", [0.5 * math.pi, -0.5 * math.pi, math.pi])
+def test_it_steps_sideways_and_backwards_where_the_path_says_so(bearing):
+    goal = (math.cos(bearing), math.sin(bearing), 0.0)
+    follower = Follower((0.0, 0.0, 0.0), [goal], walking=GAIT, speed_m_s=0.4)
+    trail = walk(follower, SE3())
+    assert follower.done
+    assert max(abs(X_WS.yaw_rad) for X_WS in trail) < 0.05
+
+
+def test_remaining_never_grows_and_ends_at_nothing():
+    path = facing_path([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.5, 0.5)], 2.0)
+    follower = Follower((0.0, 0.0, 2.0), path, walking=GAIT, speed_m_s=0.4)
+    remaining, X_WS = [], SE3.from_xy_yaw(0.0, 0.0, 2.0)
+    for _ in range(1500):
+        twist = follower.twist(X_WS)
+        remaining.append(follower.remaining_m)
+        X_WS = X_WS @ SE3.from_xy_yaw(
+            twist.forward_m_s * 0.05, twist.left_m_s * 0.05, twist.turn_rad_s * 0.05
+        )
+    assert all(b <= a + 1e-9 for a, b in zip(remaining, remaining[1:], strict=False))
+    assert remaining[-1] == pytest.approx(0.0)
+
+
+def test_where_the_path_comes_back_on_itself_it_does_not_jump_ahead():
+    there_and_back = [(3.0, 0.0, 0.0), (3.0, 0.0, math.pi), (0.0, 0.0, math.pi)]
+    follower = Follower((0.0, 0.0, 0.0), there_and_back, walking=GAIT, speed_m_s=0.4)
+    trail = walk(follower, SE3())
+    assert max(X_WS.p[0] for X_WS in trail) > 2.7
+    assert abs(trail[-1].p[0]) < 0.2
+
+
+@given(st.lists(stance, min_size=2, max_size=4), st.floats(-1.0, 20.0))
+def test_a_stance_along_a_run_lies_on_it(stances, along_m):
+    if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in zip(stances, stances[1:], strict=False)):
+        return
+    x, y, yaw = Run(stances).stance(along_m)
+    off_m = min(
+        _distance((x, y), a[:2], b[:2]) for a, b in zip(stances, stances[1:], strict=False)
+    )
+    assert off_m < 1e-6
+    assert abs(wrap_angle(yaw)) <= math.pi
+
+
+@given(angle)
+def test_turning_goes_the_short_way(error):
+    assert turn_towards(error, GAIT).turn_rad_s * error >= 0.0
+
+
+def _distance(p, a, b):
+    ux, uy = b[0] - a[0], b[1] - a[1]
+    span = ux * ux + uy * uy
+    t = max(0.0, min(1.0, ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / span))
+    return math.hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy)

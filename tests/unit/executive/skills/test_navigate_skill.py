@@ -1,0 +1,210 @@
+"""Navigate: gets there exactly, replans around what blocks, and says why not."""
+
+import math
+
+import pytest
+
+from executive.skills.holding import Held
+from executive.skills.parameters import FloorPose, NavigateParams, Step
+from robot.errors import failure
+from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
+from robot.planning.requests import BasePathRequest
+from robot.se3 import SE3, wrap_angle
+from tests.fakes.puppet import Thing
+from tests.fakes.stage import Stage
+
+
+@pytest.fixture
+def stage():
+    return Stage()
+
+
+def to(x_m, y_m, yaw_rad=None):
+    return NavigateParams(pose=FloorPose(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad))
+
+
+@pytest.mark.parametrize("goal", [(2.0, 0.0, 0.0), (-1.5, 1.0, 2.0), (0.2, 0.1, 0.3), (0, 0, 3.1)])
+def test_it_stands_exactly_where_it_was_sent(stage, goal):
+    report = stage.run(to(*goal))
+    assert report.status == "succeeded", report
+    assert math.dist(stage.puppet.X_WS.p[:2], goal[:2]) < 0.03
+    assert abs(wrap_angle(stage.puppet.X_WS.yaw_rad - goal[2])) < math.radians(3)
+    assert stage.puppet.mode == "stand"
+
+
+def test_without_a_heading_it_arrives_as_it_came(stage):
+    stage.run(to(0.0, -2.0))
+    assert stage.puppet.X_WS.yaw_rad == pytest.approx(-math.pi / 2, abs=0.05)
+
+
+def test_the_goal_is_aimed_at_again_when_localisation_moves(stage):
+    stage.puppet.drift_m_s = 0.02
+    report = stage.run(to(2.0, 1.0, 0.0))
+    assert report.status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], (2.0, 1.0)) < 0.03
+
+
+def test_a_walk_that_ends_aside_is_corrected_twice_then_fails(stage):
+    stage.puppet.miss_m = 0.06
+    report = stage.run(to(1.5, 0.0, 0.0))
+    assert report.failure.code == "walk_stalled"
+    assert report.failure.evidence["off_m"] == pytest.approx(0.06, abs=0.01)
+    assert len(stage.commands(WalkTo)) == 3
+
+
+def test_legs_that_do_not_move_are_noticed(stage):
+    stage.puppet.stuck_legs = True
+    report = stage.run(to(2.0, 0.0, 0.0), limit_s=30.0)
+    assert report.failure.code == "walk_stalled"
+    assert isinstance(stage.puppet.sent[-1], Stand)
+
+
+def box(x_m, y_m, name="unmapped 1"):
+    shape = Shape(kind="box", size_m=(0.3, 0.3, 1.0))
+    return Obstacle(id=name, name=name, X_WO=SE3((x_m, y_m, 0.5)), shapes=(shape,))
+
+
+def test_a_blocked_path_is_planned_again_three_times_then_named(stage):
+    stage.puppet.unmapped = (box(1.0, 0.0, "a chair"),)
+    report = stage.run(to(2.0, 0.0, 0.0))
+    assert report.failure.code == "path_blocked"
+    assert "a chair" in report.failure.cause
+    asked = [r for r in stage.planner.requests if isinstance(r, BasePathRequest)]
+    assert len(asked) == 4
+    assert all(request.around.unmapped for request in asked)
+    assert len({request.seed for request in asked}) == 4
+    assert stage.puppet.X_WS.p[0] < 0.7
+
+
+def test_a_flicker_of_an_obstacle_does_not_stop_the_walk(stage):
+    tick = stage.puppet.tick
+
+    def flicker():
+        tick()
+        ahead = stage.puppet.X_WS @ SE3((0.6, 0.0, 0.0))
+        now = round(stage.puppet.time_s / 0.05) % 10 < 4
+        stage.puppet.unmapped = (box(*ahead.p[:2]),) if now else ()
+
+    stage.puppet.tick = flicker
+    assert stage.run(to(2.0, 0.0, 0.0)).status == "succeeded"
+
+
+def test_what_is_beside_the_path_does_not_block(stage):
+    stage.puppet.unmapped = (box(1.0, 0.6),)
+    assert stage.run(to(2.0, 0.0, 0.0)).status == "succeeded"
+
+
+def test_the_planners_failure_is_the_skills(stage):
+    stage.planner.failures[BasePathRequest] = [failure("goal_in_collision", "inside the table")]
+    report = stage.run(to(2.0, 0.0, 0.0))
+    assert report.failure.code == "goal_in_collision"
+    assert stage.commands(Walk) == []
+
+
+def test_at_a_surface_it_faces_it_from_the_near_side(stage):
+    report = stage.run(NavigateParams(place_id="table"))
+    assert report.status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], (1.3, 0.0)) < 0.03
+    assert abs(stage.puppet.X_WS.yaw_rad) < 0.06
+
+
+def test_a_side_that_is_not_free_is_left_for_the_next(stage):
+    stage.planner.failures[BasePathRequest] = [failure("goal_in_collision", "a chair is there")]
+    report = stage.run(NavigateParams(place_id="table"))
+    assert report.status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], (1.3, 0.0)) > 0.5
+
+
+def test_it_stops_before_a_person_facing_them(stage):
+    stage.run(NavigateParams(person_id="ann"))
+    X_WS = stage.puppet.X_WS
+    assert math.dist(X_WS.p[:2], (0.0, 3.0)) == pytest.approx(1.25, abs=0.04)
+    assert X_WS.yaw_rad == pytest.approx(math.pi / 2, abs=0.06)
+
+
+@pytest.mark.parametrize("unknown", [{"place_id": "moon"}, {"person_id": "nobody"}])
+def test_an_unknown_id_moves_nothing(stage, unknown):
+    report = stage.run(NavigateParams(**unknown))
+    assert report.failure.code == "unknown_place"
+    assert stage.commands(Walk) == []
+
+
+@pytest.mark.parametrize(
+    ("step", "goal"),
+    [
+        (Step(forward_m=1.0), (1.0, 0.0, 0.0)),
+        (Step(forward_m=-0.6), (-0.6, 0.0, 0.0)),
+        (Step(left_m=0.5), (0.0, 0.5, 0.0)),
+        (Step(turn_rad=math.pi / 2), (0.0, 0.0, math.pi / 2)),
+        (Step(turn_rad=math.pi / 2, forward_m=1.0), (0.0, 1.0, math.pi / 2)),
+    ],
+)
+def test_steps_are_relative_to_here(stage, step, goal):
+    assert stage.run(NavigateParams(by=step)).status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], goal[:2]) < 0.03
+    assert abs(wrap_angle(stage.puppet.X_WS.yaw_rad - goal[2])) < 0.06
+
+
+def test_a_step_back_does_not_turn_around(stage):
+    headings = []
+    tick = stage.puppet.tick
+
+    def watch():
+        tick()
+        headings.append(abs(stage.puppet.X_WS.yaw_rad))
+
+    stage.puppet.tick = watch
+    stage.run(NavigateParams(by=Step(forward_m=-1.0)))
+    assert max(headings) < 0.1
+
+
+@pytest.mark.parametrize("turns", [1.0, -2.0])
+def test_full_turns_are_turned_in_full(stage, turns):
+    stage.run(NavigateParams(by=Step(turn_rad=turns * 2 * math.pi)))
+    assert stage.puppet.turned_rad == pytest.approx(turns * 2 * math.pi, abs=0.1)
+
+
+def test_an_arm_that_is_out_is_brought_home_first(stage):
+    for i in stage.puppet.description.indices("right_arm"):
+        stage.puppet.q_rad[i] += 0.5
+    stage.run(to(1.0, 0.0))
+    kinds = [type(command) for command in stage.puppet.sent]
+    assert kinds.index(MoveArm) < kinds.index(Walk)
+
+
+def test_a_dropped_object_stops_the_walk(stage):
+    thing = Thing("cup", SE3((9, 9, 0.75)))
+    stage.puppet.things["cup"] = thing
+    stage.puppet.holding["right"] = ("cup", SE3())
+    stage.puppet._openings["right"] = thing.width_m
+    stage.puppet._wanted["right"] = 0.0
+    stage.puppet.slips_at_s = 4.0
+    held = Held(object_id="cup", side="right", X_GO=SE3(), gap_m=0.07, mass_kg=0.2)
+    stage.context.holdings.take(held)
+    report = stage.run(to(3.0, 0.0))
+    assert report.failure.code == "object_dropped"
+    assert stage.context.holdings.find("cup") is None
+    assert stage.puppet.payload_kg["right"] == 0.0
+    assert stage.puppet.mode == "stand"
+
+
+def test_stop_in_mid_walk_stands_and_forgets_nothing_open(stage):
+    stage.run(to(3.0, 0.0), until_phase="walking", limit_s=5.0)
+    for _ in range(60):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    report = stage.stop()
+    assert report.failure.code == "cancelled"
+    assert stage.puppet.mode == "stand"
+    assert stage.planner.open == {}
+    assert stage.stop() == report
+
+
+def test_stop_while_planning_cancels_the_plan(stage):
+    stage.skill = stage.make(to(3.0, 0.0))
+    stage.skill.start(0.0)
+    stage.skill.step(0.0)
+    assert stage.planner.open
+    stage.stop()
+    assert stage.planner.open == {}
+    assert stage.planner.cancelled
