@@ -25,7 +25,7 @@ TURN_ACCELERATION_RAD_S2 = 0.8
 HEIGHT_GAINS = (80.0, 18.0)
 PELVIS_GAINS = (100.0, 20.0)
 WAIST_GAINS = (100.0, 20.0)
-POSTURE_GAINS = (50.0, 10.0)
+POSTURE_DAMPING_1_S = 10.0
 SWING_GAINS = (400.0, 40.0)
 SWING_TURN_GAINS = (300.0, 35.0)
 STANCE_DAMPING = 30.0
@@ -51,10 +51,10 @@ class Legs:
         self.activity = Activity(id=0, status="done")
         self.height_m = height_m
         self._height_goal_m = self.description.walking.base_height_m
+        self._height_rate_m_s = 0.0
         self._waist = np.zeros(len(self.description.groups["waist"]))
         self._waist_goal = self._waist.copy()
         self._whole = whole
-        self._nominal = np.array(self.description.posture("nominal"))[whole.active_motors]
         self._expires_s = math.inf
         self._now_s = 0.0
         self._twist_goal = Twist()
@@ -146,7 +146,9 @@ class Legs:
     def _ramp(self, dt_s: float) -> None:
         """Move height, waist and twist towards their goals at bounded rates."""
         step = HEIGHT_RATE_M_S * dt_s
-        self.height_m += max(-step, min(step, self._height_goal_m - self.height_m))
+        change = max(-step, min(step, self._height_goal_m - self.height_m))
+        self.height_m += change
+        self._height_rate_m_s = change / dt_s
         turn = WAIST_RATE_RAD_S * dt_s
         self._waist += np.minimum(np.maximum(self._waist_goal - self._waist, -turn), turn)
         if self._now_s > self._expires_s:
@@ -192,11 +194,11 @@ class Legs:
             value = omega * omega * (float(dynamics.com[k]) - ref.zmp_command[k])
             acc[k] = max(-MAX_COM_ACC_M_S2, min(MAX_COM_ACC_M_S2, value))
         kp, kd = HEIGHT_GAINS
-        acc[2] = kp * (self.height_m - float(data.qpos[2])) - kd * float(data.qvel[2])
-        posture_kp, posture_kd = POSTURE_GAINS
+        rate_error = self._height_rate_m_s - float(data.qvel[2])
+        acc[2] = kp * (self.height_m - float(data.qpos[2])) + kd * rate_error
         q = data.qpos[self.body.qpos_of[whole.active_motors]]
         qd = data.qvel[self.body.dof_of[whole.active_motors]]
-        posture = posture_kp * (self._nominal - q) - posture_kd * qd
+        posture = -POSTURE_DAMPING_1_S * qd
         waist_kp, waist_kd = WAIST_GAINS
         rows = whole.waist
         posture[rows] = waist_kp * (self._waist - q[rows]) - waist_kd * qd[rows]

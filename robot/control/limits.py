@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.model.body import BodyModel
+from robot.se3 import Array
 
 REFUSALS_TO_DAMP = 3
 OVERSPEED = 1.6
@@ -28,6 +31,10 @@ class Limits:
         self.tripped = ""
         self._in_a_row = 0
         self._last_good: MotorCommand | None = None
+        self._middle: Array = 0.5 * (body.lower_rad + body.upper_rad)
+        half = 0.5 * (body.upper_rad - body.lower_rad)
+        self._inverse: Array = 1.0 / np.array([half, body.velocity_limit_rad_s, body.torque_limit_nm])
+        self._share: Array = np.zeros_like(self._inverse)
 
     def reset(self) -> None:
         """Forget a trip."""
@@ -37,35 +44,43 @@ class Limits:
     def apply(self, command: MotorCommand, state: MotorState) -> MotorCommand:
         """What may be sent: the command clamped, the last good one, or damping."""
         body = self.body
-        speed = np.abs(state.qd)
-        if (speed > OVERSPEED * body.velocity_limit_rad_s).any():
-            worst = int(np.argmax(speed / body.velocity_limit_rad_s))
-            name = body.description.motor_names[worst]
-            self.tripped = f"{name} overspeed, {speed[worst]:.1f} rad/s"
+        self._check_speed(state)
         if self.tripped:
             return MotorCommand.damping(body.count, command.stamp_s, body.kd)
-        if not self._finite(command):
-            self.refused += 1
-            self._in_a_row += 1
-            if self._in_a_row >= REFUSALS_TO_DAMP or self._last_good is None:
-                self.tripped = f"{self._in_a_row} commands in a row were not finite"
-                return MotorCommand.damping(body.count, command.stamp_s, body.kd)
-            self._last_good.stamp_s = command.stamp_s
-            return self._last_good
+        share = self._share
+        feedback = command.kp * (command.q_des - state.q) + command.kd * (command.qd_des - state.qd)
+        share[0] = command.q_des - self._middle
+        share[1] = command.qd_des
+        share[2] = feedback + command.tau_ff
+        share *= self._inverse
+        np.abs(share, out=share)
+        worst = float(share.max())
+        if not math.isfinite(worst):
+            return self._refuse(command)
         self._in_a_row = 0
-        self._clamp(command, state)
+        if worst > 1.0:
+            self._clamp(command, state)
         self._last_good = command
         return command
 
-    def _finite(self, command: MotorCommand) -> bool:
-        total = (
-            command.q_des.sum()
-            + command.qd_des.sum()
-            + command.tau_ff.sum()
-            + command.kp.sum()
-            + command.kd.sum()
-        )
-        return bool(np.isfinite(total))
+    def _check_speed(self, state: MotorState) -> None:
+        """A joint far over its speed means that something broke: damp."""
+        share = np.abs(state.qd) * self._inverse[1]
+        if float(share.max()) > OVERSPEED:
+            worst = int(share.argmax())
+            name = self.body.description.motor_names[worst]
+            self.tripped = f"{name} overspeed, {abs(float(state.qd[worst])):.1f} rad/s"
+
+    def _refuse(self, command: MotorCommand) -> MotorCommand:
+        """Not finite: hold the last good command, damp from the third in a row."""
+        self.refused += 1
+        self._in_a_row += 1
+        body, last = self.body, self._last_good
+        if self._in_a_row >= REFUSALS_TO_DAMP or last is None:
+            self.tripped = f"{self._in_a_row} commands in a row were not finite"
+            return MotorCommand.damping(body.count, command.stamp_s, body.kd)
+        last.stamp_s = command.stamp_s
+        return last
 
     def _clamp(self, command: MotorCommand, state: MotorState) -> None:
         """In place: position target, velocity target, then what the firmware's law would give."""

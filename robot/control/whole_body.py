@@ -12,17 +12,20 @@ own axes. Arms and head follow prescribed accelerations; their coupling enters a
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any, cast
 
 import daqp  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.kinematics.dynamics import Dynamics
 from robot.model.body import SIDES, BodyModel
 from robot.se3 import Array
 
 STANCE_WEIGHT = 2000.0
+GRAVITY_M_S2 = 9.81
 COM_WEIGHT = 50.0
 SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0
@@ -89,7 +92,14 @@ class WholeBody:
         self._posture_weight = weights
         self._cones = [self._cone(i) for i in range(2)]
         self._programmes = {n: self._allocate(n) for n in (0, 1, 2)}
-        self._rest = np.setdiff1d(np.arange(body.model.nv), self.dofs)
+        self._own = as_index(self.dofs)
+        self._rest = as_index(np.setdiff1d(np.arange(body.model.nv), self.dofs))
+        self._sites = [body.sole_site[side] for side in SIDES]
+        self._rows: Array = np.zeros((15, self.size))
+        self._b: Array = np.zeros(15)
+        self._w: Array = np.full(15, COM_WEIGHT)
+        self._local: list[Array] = [np.zeros((6, self.size)) for _ in SIDES]
+        self._regular: Array = np.concatenate([np.full(3, 1e-6), np.full(3, PELVIS_WEIGHT), weights])
 
     def _cone(self, foot: int) -> Array:
         """Rows C with C w <= 0 for a wrench w = (fx, fy, fz, tx, ty, tz) in the sole's axes."""
@@ -114,8 +124,13 @@ class WholeBody:
         upper[6 + joints :] = 0.0
         sense = np.zeros(rows, dtype=np.int32)
         sense[:6] = 5  # equalities
+        H = np.zeros((n, n))
+        diagonal = np.einsum("ii->i", H)
+        diagonal[self.size :] = FORCE_WEIGHT
         return {
-            "H": np.zeros((n, n)),
+            "H": H,
+            "H_own": H[: self.size, : self.size],
+            "diagonal": diagonal,
             "g": np.zeros(n),
             "A": np.zeros((rows, n)),
             "lower": lower,
@@ -124,20 +139,21 @@ class WholeBody:
         }
 
     def solve(self, dynamics: Dynamics, task: Task) -> Solution:
-        """Solve for this tick; on a failed programme the last resort is gravity on the feet."""
+        """Solve for this tick; `ok` is False where the programme has no solution."""
         feet = [i for i in range(2) if task.contact[i]]
         programme = self._programmes[len(feet)]
-        dofs, size = self.dofs, self.size
-        M = dynamics.M[np.ix_(dofs, dofs)]
-        known = dynamics.h[dofs] + dynamics.M[np.ix_(dofs, self._rest)] @ task.rest_acc[self._rest]
-        jac = [dynamics.jac_sole[i][:, dofs] for i in range(2)]
-        self._objective(programme, dynamics, task, jac, M)
+        own, rest, size = self._own, self._rest, self.size
+        M_own, h = dynamics.M[own], dynamics.h
+        M = M_own[:, own]
+        known = h[own] + M_own[:, rest] @ task.rest_acc[rest]
+        jac = [dynamics.jac_sole[i][:, own] for i in range(2)]
+        self._objective(programme, dynamics, task, jac, M, known)
         contact_jac: list[Array] = []
         for i in feet:
-            rotation = dynamics.data.site_xmat[dynamics.body.sole_site[SIDES[i]]].reshape(3, 3)
-            local = np.empty_like(jac[i])
-            local[:3] = rotation.T @ jac[i][:3]
-            local[3:] = rotation.T @ jac[i][3:]
+            rotation = dynamics.data.site_xmat[self._sites[i]].reshape(3, 3).T
+            local = self._local[i]
+            np.matmul(rotation, jac[i][:3], out=local[:3])
+            np.matmul(rotation, jac[i][3:], out=local[3:])
             contact_jac.append(local)
         self._constraints(programme, task, feet, M, known, contact_jac)
         result = cast(
@@ -151,56 +167,50 @@ class WholeBody:
                 programme["sense"],
             ),
         )
-        x, flag = result[0], result[2]
-        ok = flag > 0 and bool(np.isfinite(x).all())
-        nv = self.body.model.nv
-        solution = Solution(np.zeros(nv), task.rest_acc.copy(), ok=ok)
-        if not ok:
+        x = result[0]
+        solution = Solution(np.zeros(self.body.model.nv), task.rest_acc.copy())
+        if result[2] <= 0 or not math.isfinite(float(x.sum())):
+            solution.ok = False
             return solution
-        solution.acc[dofs] = x[:size]
+        solution.acc[own] = x[:size]
         tau = M @ x[:size] + known
         for k, i in enumerate(feet):
             wrench = x[size + 6 * k : size + 6 * k + 6]
-            tau -= contact_jac[k].T @ wrench
+            tau -= wrench @ contact_jac[k]
             solution.wrench[i] = wrench
-        solution.tau[dofs] = tau
+        solution.tau[own] = tau
         solution.tau[:6] = 0.0
-        rest = self._rest
-        solution.tau[rest] = dynamics.M[rest] @ solution.acc + dynamics.h[rest]
+        solution.tau[rest] = dynamics.M[rest] @ solution.acc + h[rest]
         return solution
 
     def _objective(
-        self, programme: dict[str, Any], dynamics: Dynamics, task: Task, jac: list[Array], M: Array
+        self,
+        programme: dict[str, Any],
+        dynamics: Dynamics,
+        task: Task,
+        jac: list[Array],
+        M: Array,
+        known: Array,
     ) -> None:
         """Fill H and g with the weighted tasks."""
         size, mass = self.size, self.body.mass_kg
-        H, g = programme["H"], programme["g"]
-        H[:] = 0.0
-        g[:] = 0.0
-        rows = np.empty((15, size))
-        rows[:3] = M[:3] / mass
-        target = np.empty(15)
-        rest = self._rest
-        drift = dynamics.h[:3] + dynamics.M[:3, rest] @ task.rest_acc[rest]
-        target[:3] = task.com_acc - drift / mass
-        target[2] += 9.81
-        weight = np.empty(15)
-        weight[:3] = COM_WEIGHT
+        H, g, rows, target, weight = programme["H"], programme["g"], self._rows, self._b, self._w
+        np.divide(M[:3], mass, out=rows[:3])
+        target[:3] = task.com_acc - known[:3] / mass
+        target[2] += GRAVITY_M_S2
         for i in range(2):
             start = 3 + 6 * i
             rows[start : start + 6] = jac[i]
             target[start : start + 6] = task.sole_acc[i] - dynamics.bias_sole[i]
             weight[start : start + 6] = STANCE_WEIGHT if task.contact[i] else SWING_WEIGHT
-        weighted = rows * weight[:, None]
-        H[:size, :size] = rows.T @ weighted
-        g[:size] = -(target @ weighted)
-        diagonal = np.einsum("ii->i", H)
-        diagonal[:3] += 1e-6
-        diagonal[3:6] += PELVIS_WEIGHT
-        g[3:6] -= PELVIS_WEIGHT * task.pelvis_acc_B
-        diagonal[6:size] += self._posture_weight
-        g[6:size] -= self._posture_weight * task.posture_acc
-        diagonal[size:] = FORCE_WEIGHT
+        weighted = rows.T * weight
+        np.matmul(weighted, rows, out=programme["H_own"])
+        gradient = weighted @ target
+        diagonal = programme["diagonal"]
+        diagonal[:size] += self._regular
+        gradient[3:6] += PELVIS_WEIGHT * task.pelvis_acc_B
+        gradient[6:] += self._posture_weight * task.posture_acc
+        np.negative(gradient, out=g[:size])
 
     def _constraints(
         self,
@@ -226,3 +236,11 @@ class WholeBody:
         limit = self.torque_limit
         lower[6 : 6 + joints] = -limit - known[6:]
         upper[6 : 6 + joints] = limit - known[6:]
+
+
+def as_index(indices: NDArray[np.int64]) -> slice | NDArray[np.int64]:
+    """A slice where the indices run on without a gap (views instead of copies), else themselves."""
+    first, last = int(indices[0]), int(indices[-1])
+    if np.array_equal(indices, np.arange(first, last + 1)):
+        return slice(first, last + 1)
+    return indices

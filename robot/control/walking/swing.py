@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
-
 from robot.control.walking.footsteps import Sole
-from robot.se3 import Array, wrap_angle
+from robot.se3 import wrap_angle
 
 LATE_DESCENT_M_S = 0.10
 FREEZE_S = 0.08
@@ -28,23 +24,24 @@ class Swing:
 
     def __init__(self, start: Sole, landing: Sole, duration_s: float, height_m: float) -> None:
         """Start at rest on the floor at `start`."""
-        self.position: Array = np.array([start.x, start.y, start.yaw])
-        self.velocity: Array = np.zeros(3)
-        self.acceleration: Array = np.zeros(3)
+        self.position = [start.x, start.y, start.yaw]
+        self.velocity = [0.0, 0.0, 0.0]
+        self.acceleration = [0.0, 0.0, 0.0]
         self.duration_s = duration_s
         self.height_m = height_m
         self.time_s = 0.0
         self.z, self.vz, self.az = 0.0, 0.0, 0.0
         yaw = start.yaw + wrap_angle(landing.yaw - start.yaw)
-        self.landing: Array = np.array([landing.x, landing.y, yaw])
+        self.landing = [landing.x, landing.y, yaw]
 
     def aim(self, landing: Sole, dt_s: float) -> None:
         """Move the landing towards `landing` through a low pass; frozen shortly before the end."""
         if self.duration_s - self.time_s < FREEZE_S:
             return
-        yaw = float(self.landing[2]) + wrap_angle(landing.yaw - float(self.landing[2]))
+        yaw = self.landing[2] + wrap_angle(landing.yaw - self.landing[2])
         gain = dt_s / (LANDING_FILTER_S + dt_s)
-        self.landing += gain * (np.array([landing.x, landing.y, yaw]) - self.landing)
+        for k, value in enumerate((landing.x, landing.y, yaw)):
+            self.landing[k] += gain * (value - self.landing[k])
 
     def advance(self, dt_s: float) -> None:
         """Move the reference on by `dt_s`."""
@@ -53,25 +50,30 @@ class Swing:
         if left_s > 0.02:
             self._quintic(dt_s, left_s + dt_s)
         elif left_s > 0.0:
-            self.position += (self.landing - self.position) * min(1.0, dt_s / (left_s + dt_s))
-            self.velocity[:] = 0.0
-            self.acceleration[:] = 0.0
+            share = min(1.0, dt_s / (left_s + dt_s))
+            for k in range(3):
+                self.position[k] += share * (self.landing[k] - self.position[k])
+            self._rest()
         else:
-            self.velocity[:] = 0.0
-            self.acceleration[:] = 0.0
+            self._rest()
         self._height(dt_s)
+
+    def _rest(self) -> None:
+        self.velocity = [0.0, 0.0, 0.0]
+        self.acceleration = [0.0, 0.0, 0.0]
 
     def _quintic(self, dt_s: float, left_s: float) -> None:
         """One tick along the minimum-jerk curve from here to rest at the landing."""
-        p, v, a, T = self.position, self.velocity, self.acceleration, left_s
-        d = self.landing - p
-        c3 = (20 * d - 12 * v * T - 3 * a * T * T) / (2 * T**3)
-        c4 = (-30 * d + 16 * v * T + 3 * a * T * T) / (2 * T**4)
-        c5 = (12 * d - 6 * v * T - a * T * T) / (2 * T**5)
-        t = dt_s
-        self.position = p + v * t + 0.5 * a * t**2 + c3 * t**3 + c4 * t**4 + c5 * t**5
-        self.velocity = v + a * t + 3 * c3 * t**2 + 4 * c4 * t**3 + 5 * c5 * t**4
-        self.acceleration = a + 6 * c3 * t + 12 * c4 * t**2 + 20 * c5 * t**3
+        t, T = dt_s, left_s
+        for k in range(3):
+            p, v, a = self.position[k], self.velocity[k], self.acceleration[k]
+            d = self.landing[k] - p
+            c3 = (20 * d - 12 * v * T - 3 * a * T * T) / (2 * T**3)
+            c4 = (-30 * d + 16 * v * T + 3 * a * T * T) / (2 * T**4)
+            c5 = (12 * d - 6 * v * T - a * T * T) / (2 * T**5)
+            self.position[k] = p + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5))))
+            self.velocity[k] = v + t * (a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))
+            self.acceleration[k] = a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))
 
     def _height(self, dt_s: float) -> None:
         """Up to the apex, down to the floor, and on at a slow constant speed if it is late."""
@@ -98,12 +100,3 @@ class Swing:
             h * (30 * s**2 - 60 * s**3 + 30 * s**4) / duration_s,
             h * (60 * s - 180 * s**2 + 120 * s**3) / duration_s**2,
         )
-
-    def sole(self) -> Sole:
-        """Where the landing is aimed at now."""
-        x, y, yaw = (float(value) for value in self.landing)
-        return Sole(x, y, yaw)
-
-    def distance_m(self) -> float:
-        """Horizontal way still to go."""
-        return math.hypot(*(self.landing[:2] - self.position[:2]))
