@@ -26,6 +26,7 @@ from robot.se3 import SE3
 
 APPROACH_M_S = 0.12
 LIFT_M_S = 0.12
+LOWER_M_S = 0.06
 OPEN_MARGIN_M = 0.045
 GAP_TOLERANCE_M = 0.015
 FOLLOW_AT_MOST_M = 0.04
@@ -46,6 +47,7 @@ class Pick(ScriptedSkill):
         super().__init__(context)
         self.parameters = parameters
         self._tare_n = 0.0
+        self._X_WG_closed: SE3 | None = None
 
     def script(self) -> Script[None]:
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""
@@ -108,6 +110,7 @@ class Pick(ScriptedSkill):
         body.phase = f"closing the {side} fingers"
         self._tare_n = body.hand(side).load_n
         gap_m = yield from close_fingers(body, side)
+        self._X_WG_closed = body.X_WG(side)
         X_GO = body.X_WG(side).inverse() @ self._where(info, X_WO)
         self._check_gap(info, plan, gap_m)
         held = Held(object_id=info.id, side=side, X_GO=X_GO, gap_m=gap_m, mass_kg=info.mass_kg)
@@ -192,6 +195,9 @@ class Pick(ScriptedSkill):
         body.context.holdings.release(side)
         set_payload(body, side, 0.0)
         try:
+            if self._X_WG_closed is not None:
+                X_WG_closed = self._X_WG_closed  # never let go above nothing
+                yield from move_hand(body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S)
             yield from open_fingers(body, side)
             back = plan.X_WG_grasp.inverse() @ plan.X_WG_pre
             X_WG_back = body.X_WG(side) @ back

@@ -302,8 +302,11 @@ class Puppet:
 
     def _lifted(self, side: str) -> bool:
         last = self.sent[-1] if self.sent else None
-        return isinstance(last, m.OneLeg) and last.side != side and self.mode == "stand" and (
-            self._activities["legs"].status == "running"
+        return (
+            isinstance(last, m.OneLeg)
+            and last.side != side
+            and self.mode == "stand"
+            and (self._activities["legs"].status == "running")
         )
 
     def _check(self, command: m.BodyCommand) -> None:

@@ -1,5 +1,6 @@
 """The path follower: within the gait's limits, and it gets there."""
 
+import itertools
 import math
 
 import pytest
@@ -41,7 +42,7 @@ def walk(follower, X_WS, seconds=90.0, dt_s=0.05):
 def facing_path(points, start_yaw):
     """Waypoints that turn on the spot at every corner, then walk straight ahead."""
     stances, yaw = [], start_yaw
-    for a, b in zip(points, points[1:], strict=False):
+    for a, b in itertools.pairwise(points):
         yaw = math.atan2(b[1] - a[1], b[0] - a[0])
         stances += [(*a, yaw), (*b, yaw)]
     return stances
@@ -50,7 +51,7 @@ def facing_path(points, start_yaw):
 @given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=2, max_size=4), angle)
 def test_it_gets_to_the_end_and_stays_near_the_path(corners, yaw):
     points = [corners[0]]
-    points += [b for a, b in zip(corners, corners[1:], strict=False) if a != b]
+    points += [b for a, b in itertools.pairwise(corners) if a != b]
     if len(points) < 2:
         return
     points = [(float(x), float(y)) for x, y in points]
@@ -60,7 +61,7 @@ def test_it_gets_to_the_end_and_stays_near_the_path(corners, yaw):
     assert follower.done
     assert math.dist(trail[-1].p[:2], points[-1]) < 0.2
     for X_WS in trail:
-        off_m = min(_distance(X_WS.p[:2], a, b) for a, b in zip(points, points[1:], strict=False))
+        off_m = min(_distance(X_WS.p[:2], a, b) for a, b in itertools.pairwise(points))
         assert off_m < 0.15
 
 
@@ -92,7 +93,7 @@ def test_remaining_never_grows_and_ends_at_nothing():
         X_WS = X_WS @ SE3.from_xy_yaw(
             twist.forward_m_s * 0.05, twist.left_m_s * 0.05, twist.turn_rad_s * 0.05
         )
-    assert all(b <= a + 1e-9 for a, b in zip(remaining, remaining[1:], strict=False))
+    assert all(b <= a + 1e-9 for a, b in itertools.pairwise(remaining))
     assert remaining[-1] == pytest.approx(0.0)
 
 
@@ -106,12 +107,10 @@ def test_where_the_path_comes_back_on_itself_it_does_not_jump_ahead():
 
 @given(st.lists(stance, min_size=2, max_size=4), st.floats(-1.0, 20.0))
 def test_a_stance_along_a_run_lies_on_it(stances, along_m):
-    if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in zip(stances, stances[1:], strict=False)):
+    if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in itertools.pairwise(stances)):
         return
     x, y, yaw = Run(stances).stance(along_m)
-    off_m = min(
-        _distance((x, y), a[:2], b[:2]) for a, b in zip(stances, stances[1:], strict=False)
-    )
+    off_m = min(_distance((x, y), a[:2], b[:2]) for a, b in itertools.pairwise(stances))
     assert off_m < 1e-6
     assert abs(wrap_angle(yaw)) <= math.pi
 

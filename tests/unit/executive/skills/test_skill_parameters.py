@@ -12,14 +12,14 @@ from robot.se3 import SE3
 @pytest.mark.parametrize(
     "build",
     [
-        lambda: p.NavigateParams(),
+        p.NavigateParams,
         lambda: p.NavigateParams(place_id="table", person_id="ann"),
         lambda: p.NavigateParams(pose=p.FloorPose(x_m=math.nan, y_m=0.0)),
         lambda: p.NavigateParams(by=p.Step(forward_m=1000.0)),
         lambda: p.NavigateParams(by=p.Step(turn_rad=math.inf)),
         lambda: p.PlaceParams(object_id="cup"),
         lambda: p.PlaceParams(object_id="cup", place_id="table", X_WO=SE3()),
-        lambda: p.LookParams(),
+        p.LookParams,
         lambda: p.BalanceParams(mode="stand", duration_s=-1.0),
         lambda: p.BalanceParams(mode="stand", duration_s=1e6),
         lambda: p.BalanceParams(mode="one_leg", side="forward"),

@@ -1,0 +1,246 @@
+"""Pick: the object ends in the hand, or the failure says why and the arm is home again."""
+
+import math
+
+import msgspec
+import pytest
+
+from executive.skills.parameters import PickParams
+from robot.errors import failure
+from robot.messages import Grip, MoveArm, MoveHand, Payload, Walk, WalkTo
+from robot.planning.requests import ArmRequest, PickRequest
+from robot.se3 import SE3
+from tests.fakes.stage import Stage
+
+CUP = PickParams(object_id="cup")
+
+
+@pytest.fixture
+def stage():
+    return Stage()
+
+
+def test_the_object_ends_in_the_hand_clear_of_the_table(stage):
+    report = stage.run(CUP)
+    assert report.status == "succeeded", report
+    held = stage.context.holdings.find("cup")
+    assert held is not None
+    assert held.gap_m == pytest.approx(0.07, abs=0.002)
+    assert stage.puppet.holding["right"][0] == "cup"
+    assert stage.puppet.payload_kg["right"] == pytest.approx(0.2)
+    assert stage.puppet.things["cup"].X_WO.p[2] > stage.puppet.surface_m + 0.1
+    assert stage.puppet.X_WS.p[0] < 1.2
+    assert stage.puppet.mode == "stand"
+
+
+def test_the_hold_is_known_as_it_is(stage):
+    stage.run(CUP)
+    held = stage.context.holdings.find("cup")
+    believed = stage.puppet.X_WN @ stage.puppet.body().hands["right"].X_NG @ held.X_GO
+    assert math.dist(believed.p, stage.puppet.things["cup"].X_WO.p) < 0.01
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_hand_asked_for_is_used(stage, side):
+    report = stage.run(PickParams(object_id="cup", side=side))
+    assert report.status == "succeeded"
+    assert set(stage.puppet.holding) == {side}
+
+
+def test_fingers_are_open_before_the_hand_moves_in_and_close_before_it_lifts(stage):
+    stage.run(CUP)
+    order = [c for c in stage.puppet.sent if isinstance(c, Grip | MoveHand)]
+    opened = next(i for i, c in enumerate(order) if isinstance(c, Grip) and c.opening_m > 0.08)
+    closed = next(i for i, c in enumerate(order) if isinstance(c, Grip) and c.opening_m == 0.0)
+    lines = [i for i, c in enumerate(order) if isinstance(c, MoveHand)]
+    assert opened < lines[0] < closed < lines[-1]
+    assert sum(isinstance(c, Grip) for c in order[closed:]) == 1
+
+
+def test_the_lift_is_straight_up(stage):
+    stage.run(CUP)
+    closed = next(
+        i for i, c in enumerate(stage.puppet.sent) if isinstance(c, Grip) and c.opening_m == 0.0
+    )
+    lift = next(c for c in stage.puppet.sent[closed:] if isinstance(c, MoveHand))
+    grasp = [c for c in stage.puppet.sent[:closed] if isinstance(c, MoveHand)][-1]
+    assert lift.X_NG.p[2] - grasp.X_NG.p[2] == pytest.approx(0.1, abs=0.01)
+    assert math.dist(lift.X_NG.p[:2], grasp.X_NG.p[:2]) < 0.01
+
+
+def test_the_held_object_is_planned_with_and_kept_upright(stage):
+    stage.run(CUP)
+    after = [r for r in stage.planner.requests if isinstance(r, ArmRequest) and r.held is not None]
+    assert after
+    assert all(request.keep_upright and request.held.id == "cup" for request in after)
+    assert all("cup" in request.around.ignored for request in after)
+
+
+def test_the_grasp_follows_what_is_seen_not_what_was_planned(stage):
+    cup = stage.puppet.things["cup"]
+    tick = stage.puppet.tick
+
+    def nudged():
+        tick()
+        if stage.skill and stage.skill.step and "moving in" in stage.skill.body.phase:
+            if not stage.puppet.holding and cup.X_WO.p[1] < 0.119:
+                cup.X_WO = SE3((cup.X_WO.p[0], cup.X_WO.p[1] + 0.002, cup.X_WO.p[2]))
+
+    stage.puppet.tick = nudged
+    assert stage.run(CUP).status == "succeeded"
+    aims = {
+        c.X_NG.p
+        for c in stage.puppet.sent
+        if isinstance(c, MoveHand) and c.speed_m_s == pytest.approx(0.12)
+    }
+    assert len(aims) > 2
+
+
+def test_localisation_that_moves_does_not_make_it_miss(stage):
+    stage.puppet.drift_m_s = 0.003
+    assert stage.run(CUP).status == "succeeded"
+
+
+def test_an_object_that_is_gone_is_not_grasped_at(stage):
+    stage.puppet.things["cup"].known = True
+    stage.puppet.blind = True
+    report = stage.run(CUP)
+    assert report.failure.code == "object_not_seen"
+    assert not [c for c in stage.commands(Grip) if c.opening_m == 0.0]
+    assert stage.puppet.mode == "stand"
+
+
+def test_an_object_never_seen_is_searched_for_at_the_places(stage):
+    cup = stage.puppet.things["cup"]
+    cup.known, cup.seen_s = False, -math.inf
+    cup.X_WO = SE3((2.0, 2.3, 0.75))
+    report = stage.run(CUP, limit_s=400.0)
+    assert report.status == "succeeded", (report, stage.phases)
+    assert "looking over the counter" in stage.phases
+
+
+def test_closing_on_air_backs_off_and_says_so(stage):
+    cup = stage.puppet.things["cup"]
+    tick = stage.puppet.tick
+
+    def snatched():
+        tick()
+        if stage.skill.body.phase.startswith("moving in"):
+            cup.X_WO = SE3((1.8, 0.2, 0.75))
+
+    stage.puppet.tick = snatched
+    report = stage.run(CUP)
+    assert report.failure.code == "grasp_missed"
+    assert report.failure.evidence["gap_m"] < 0.006
+    assert stage.context.holdings.all() == ()
+    assert stage.puppet.payload_kg["right"] == 0.0
+    nominal = stage.puppet.description.posture("nominal")
+    for i in stage.puppet.description.indices("right_arm"):
+        assert stage.puppet.q_rad[i] == pytest.approx(nominal[i])
+    assert stage.puppet.X_WS.p[0] < 1.2
+
+
+def test_a_gap_of_another_width_is_a_pinch_off_the_middle(stage):
+    stage.puppet.things["cup"].width_m = 0.045
+    report = stage.run(CUP)
+    assert report.failure.code == "grasp_missed"
+    assert "pinched" in report.failure.cause
+
+
+def test_what_stays_down_is_not_held(stage):
+    stage.puppet.things["cup"].mass_kg = 0.01
+    report = stage.run(CUP)
+    assert report.failure.code == "grasp_missed"
+    assert "come up" in report.failure.cause
+    assert report.failure.evidence["expected_n"] == pytest.approx(1.96, abs=0.01)
+
+
+def test_out_of_reach_moves_the_base_twice_then_fails(stage):
+    far = failure("out_of_reach", "3 cm short")
+    arm = stage.planner._arm
+    stage.planner._arm = lambda r: far if isinstance(r.goal, SE3) else arm(r)
+    report = stage.run(CUP)
+    assert report.failure.code == "out_of_reach"
+    picks = [r for r in stage.planner.requests if isinstance(r, PickRequest)]
+    assert len(picks) == 3
+    assert len({request.seed for request in picks}) == 3
+
+
+def test_out_of_reach_once_is_cured_by_another_stance(stage):
+    arm, told = stage.planner._arm, []
+
+    def once(request):
+        if isinstance(request.goal, SE3) and not told:
+            told.append(request)
+            return failure("out_of_reach", "3 cm short")
+        return arm(request)
+
+    stage.planner._arm = once
+    assert stage.run(CUP).status == "succeeded"
+
+
+def test_an_arm_that_stalls_fails_and_is_held(stage):
+    stage.run(CUP, until_phase="reaching")
+    stage.puppet.stuck_arm = True
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+        assert stage.puppet.time_s < 100.0
+    assert report.failure.code == "arm_stalled"
+
+
+def test_a_drop_on_the_way_back_is_noticed(stage):
+    stage.run(CUP, until_phase="stepping back")
+    stage.puppet.slips_at_s = stage.puppet.time_s + 0.2
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.failure.code == "object_dropped"
+    assert stage.context.holdings.all() == ()
+
+
+def test_full_hands_are_refused_before_anything_moves(stage):
+    stage.run(PickParams(object_id="cup", side="right"))
+    sent = len(stage.puppet.sent)
+    held = stage.context.holdings.find("cup")
+    stage.context.holdings.take(msgspec.structs.replace(held, object_id="box"))
+    report = stage.run(PickParams(object_id="cup", side="right"))
+    assert report.failure.code == "hands_full"
+    assert not [c for c in stage.puppet.sent[sent:] if isinstance(c, Walk | WalkTo | MoveArm)]
+
+
+def test_what_is_held_already_need_not_be_picked(stage):
+    stage.run(CUP)
+    sent = len(stage.puppet.sent)
+    assert stage.run(CUP).status == "succeeded"
+    assert len(stage.puppet.sent) == sent
+
+
+def test_an_unknown_object_moves_nothing(stage):
+    report = stage.run(PickParams(object_id="unicorn"))
+    assert report.failure.code == "unknown_object"
+    assert not stage.commands(Walk)
+
+
+def test_the_planners_refusal_is_reported_as_it_is(stage):
+    stage.planner.failures[PickRequest] = [failure("no_grasp", "12 cm wide")]
+    report = stage.run(CUP)
+    assert report.failure.code == "no_grasp"
+    assert not stage.commands(Payload)
+
+
+PHASES = ["planning", "walking", "raising", "stepping up", "leaning", "looking", "reaching",
+          "moving in", "closing", "lifting", "straightening", "stepping back", "bringing"]  # fmt: skip
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_it_can_be_stopped_in_any_phase_and_stands(stage, phase):
+    assert stage.run(CUP, until_phase=phase).status == "running"
+    for _ in range(3):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    grips = len(stage.commands(Grip))
+    report = stage.stop()
+    assert report.failure.code == "cancelled"
+    assert stage.puppet.mode == "stand"
+    assert stage.planner.open == {}
+    assert len(stage.commands(Grip)) == grips, "stopping keeps the grip"
+    assert stage.stop() == report

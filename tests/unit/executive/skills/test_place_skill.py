@@ -1,0 +1,150 @@
+"""Place: the object ends where it was to go, let go only when it stands on something."""
+
+import math
+
+import pytest
+
+from executive.skills.parameters import PickParams, PlaceParams
+from robot.errors import failure
+from robot.messages import Grip, MoveHand
+from robot.planning.requests import ArmRequest, PlaceRequest
+from robot.se3 import SE3
+from tests.fakes.stage import TABLE_M, Stage
+
+ON_COUNTER = PlaceParams(object_id="cup", place_id="counter")
+
+
+@pytest.fixture
+def stage():
+    stage = Stage()
+    assert stage.run(PickParams(object_id="cup")).status == "succeeded"
+    return stage
+
+
+def test_the_object_stands_on_the_place_and_the_hand_is_empty(stage):
+    report = stage.run(ON_COUNTER)
+    assert report.status == "succeeded", report
+    cup = stage.puppet.things["cup"]
+    assert math.dist(cup.X_WO.p, (2.0, 2.5, TABLE_M + 0.05)) < 0.03
+    assert stage.context.holdings.all() == ()
+    assert stage.puppet.holding == {}
+    assert stage.puppet.payload_kg["right"] == 0.0
+    assert stage.puppet.mode == "stand"
+
+
+def test_it_is_lowered_slowly_until_its_weight_is_off(stage):
+    stage.run(ON_COUNTER)
+    down = [c for c in stage.commands(MoveHand) if c.stop_load_n is not None]
+    assert down
+    assert all(c.speed_m_s <= 0.05 for c in down)
+    assert all(0.5 <= c.stop_load_n <= 0.2 * 9.81 for c in down)
+
+
+def test_the_fingers_open_only_after_it_was_lowered(stage):
+    before = len(stage.puppet.sent)
+    stage.run(ON_COUNTER)
+    sent = stage.puppet.sent[before:]
+    first_open = next(i for i, c in enumerate(sent) if isinstance(c, Grip))
+    last_down = max(
+        i for i, c in enumerate(sent) if isinstance(c, MoveHand) and c.stop_load_n is not None
+    )
+    assert first_open > last_down
+
+
+def test_an_exact_pose_is_met(stage):
+    target = SE3((1.9, 2.3, TABLE_M + 0.05))
+    report = stage.run(PlaceParams(object_id="cup", X_WO=target))
+    assert report.status == "succeeded"
+    assert math.dist(stage.puppet.things["cup"].X_WO.p, target.p) < 0.03
+    request = next(r for r in stage.planner.requests if isinstance(r, PlaceRequest))
+    assert request.place.id == "counter"
+    assert request.target == target
+
+
+def test_the_object_is_kept_clear_and_upright_until_it_is_let_go(stage):
+    before = len(stage.planner.requests)
+    stage.run(ON_COUNTER)
+    asked = [r for r in stage.planner.requests[before:] if isinstance(r, ArmRequest)]
+    assert [request.held is not None for request in asked] == [True, True, False]
+    assert [request.keep_upright for request in asked] == [True, True, False]
+
+
+def test_an_object_that_is_not_held_cannot_be_placed(stage):
+    stage.context.holdings.release("right")
+    sent = len(stage.puppet.sent)
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == "not_holding"
+    assert len(stage.commands(Grip)) == len(
+        [c for c in stage.puppet.sent[:sent] if isinstance(c, Grip)]
+    )
+
+
+def test_what_topples_is_a_miss(stage):
+    tick = stage.puppet.tick
+
+    def toppled():
+        tick()
+        if stage.skill.body.phase.startswith("stepping back"):
+            cup = stage.puppet.things["cup"]
+            cup.X_WO = SE3.from_rpy(math.pi / 2, 0.0, 0.0, cup.X_WO.p)
+
+    stage.puppet.tick = toppled
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == "place_missed"
+    assert "toppled" in report.failure.cause
+
+
+def test_what_is_gone_afterwards_is_a_miss(stage):
+    stage.run(ON_COUNTER, until_phase="stepping back")
+    stage.puppet.blind = True
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.failure.code == "place_missed"
+
+
+def test_something_under_it_is_noticed_before_the_fingers_open(stage):
+    stage.run(ON_COUNTER, until_phase="reaching over")
+    stage.puppet.surface_m = TABLE_M + 0.05
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.failure.code == "place_missed"
+    assert stage.context.holdings.find("cup") is not None
+    assert stage.puppet.holding
+
+
+def test_a_drop_on_the_way_is_a_drop(stage):
+    stage.puppet.slips_at_s = stage.puppet.time_s + 2.0
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == "object_dropped"
+
+
+@pytest.mark.parametrize("code", ["no_free_spot", "no_stance"])
+def test_the_planners_refusal_is_reported_and_the_object_kept(stage, code):
+    stage.planner.failures[PlaceRequest] = [failure(code, "as the planner says")]
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == code
+    assert stage.puppet.holding
+
+
+def test_an_unknown_place_moves_nothing(stage):
+    sent = len(stage.puppet.sent)
+    report = stage.run(PlaceParams(object_id="cup", place_id="moon"))
+    assert report.failure.code == "unknown_place"
+    assert not [c for c in stage.puppet.sent[sent:] if isinstance(c, MoveHand | Grip)]
+
+
+PHASES = ["planning", "walking", "raising", "stepping up", "reaching", "lowering", "letting go",
+          "drawing", "stepping back", "bringing", "checking"]  # fmt: skip
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_it_can_be_stopped_in_any_phase_and_stands(stage, phase):
+    assert stage.run(ON_COUNTER, until_phase=phase).status == "running"
+    stage.puppet.tick()
+    stage.skill.step(stage.puppet.time_s)
+    report = stage.stop()
+    assert report.failure.code == "cancelled"
+    assert stage.puppet.mode == "stand"
+    assert stage.planner.open == {}
+    believed = stage.context.holdings.find("cup") is not None
+    assert believed or phase not in ("planning", "walking", "raising", "reaching", "lowering")
