@@ -88,6 +88,7 @@ class Motors:
         self.temperature_c: Array = np.full(self.count, AMBIENT_C)
         self.command_stamp_s = -np.inf
         self.watchdog = True
+        self._off: list[int] = []
         self._damping: Array = np.array([motor.kd for motor in motors])
         self._ctrl = data.ctrl
         self._force = data.actuator_force
@@ -131,6 +132,10 @@ class Motors:
         self._command[4] = self._damping
         self._apply()
 
+    def set_off(self, motor: int, *, off: bool) -> None:
+        """Let one motor (by index) damp whatever it is told, or obey again."""
+        self._off = sorted({*self._off, motor} if off else {*self._off} - {motor})
+
     def heat(self, duration_s: float) -> None:
         """Let the windings take the losses of the last torques for `duration_s`."""
         load = self._force / (CONTINUOUS * self.limit_nm)
@@ -139,6 +144,9 @@ class Motors:
         self.temperature_c += share * (target_c - self.temperature_c)
 
     def _apply(self) -> None:
+        if self._off:
+            self._command[:4, self._off] = 0.0
+            self._command[4, self._off] = self._damping[self._off]
         q_des, qd_des, tau_ff, kp, kd = self._command
         ctrl = self._ctrl
         np.multiply(kp, q_des, out=ctrl)

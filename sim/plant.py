@@ -8,24 +8,39 @@ import mujoco
 import numpy as np
 
 from robot.drivers.motors import MotorCommand, MotorState
-from robot.errors import DriverError
+from robot.errors import ConfigError, DriverError
+from robot.messages import Message
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
+from sim.atlas import start_pose
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
-from sim.scene import TIMESTEP_S, compile_scene
+from sim.oracle import POSE_ERROR_M, Oracle
 from sim.placing import placed
+from sim.scene import TIMESTEP_S, compile_scene
 from sim.schema import World
-from sim.atlas import start_pose
+from sim.sensing import Sensing
 
 NEVER = 1 << 62
+
+
+def _steps(duration_s: float) -> int:
+    return max(1, round(duration_s / TIMESTEP_S))
 
 
 class Plant:
     """One robot in one world. Same world, robot, seed and calls: same states, bit for bit.
 
-    `step` advances whole milliseconds; `write` and `read` are the two ends of the motor bus.
-    The motors damp until the first command, and again when none came for 20 ms.
+    `step` advances whole milliseconds; `write` and `read` are the two ends of the motor bus, and
+    `sense` gives what the other sensors have due. The motors damp until the first command, and
+    again when none came for 20 ms.
+
+    Attributes:
+        world: the world, every object with its spot.
+        robot: the robot's description.
+        model, data: the simulation; only `sim`, tests and views touch them.
+        motors: the motors' firmware.
+        sensing: sensors and oracle.
     """
 
     def __init__(
@@ -36,6 +51,7 @@ class Plant:
         seed: int,
         posture: str = "nominal",
         noisy: bool = True,
+        pose_error_m: float = POSE_ERROR_M,
     ) -> None:
         """Build the scene and stand the robot on its soles at the world's start.
 
@@ -45,32 +61,41 @@ class Plant:
             seed: of everything random.
             posture: named posture that it starts in.
             noisy: whether motors and body sensors have noise.
+            pose_error_m: how far from the truth the oracle sights objects.
 
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
+            ConfigError: if a place is too full for the objects that want a random spot.
         """
-        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2)]
+        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
         self.world = placed(world, seeds[0])
         self.robot = robot
         self.model = compile_scene(self.world, robot)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
         self._body = BodySensors(
-            self.model, self.data, robot, motors=self.motors,
-            rng=seeds[1] if noisy else None,
+            self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None
         )
-        self._steps = 0
+        self.sensing = Sensing(
+            self.model, self.data, self.world, robot=robot, rng=seeds[2], pose_error_m=pose_error_m
+        )
+        self._step = 0
         self._watchdog_step = NEVER
-        self._heat_step = round(HEAT_PERIOD_S / TIMESTEP_S)
-        self._push_until = NEVER
-        self._base = self.model.body(robot.base_body).id
-        self._torso = self.model.body(robot.torso_body).id
+        self._heat_step = _steps(HEAT_PERIOD_S)
+        self._pulls: list[tuple[int, int, Array]] = []  # until which step, body, force
+        self._pull_step = NEVER
+        self._base = int(self.model.body(robot.base_body).id)
         self.stand(start_pose(world), posture=posture)
 
     @property
     def time_s(self) -> float:
         """Simulated time since the start."""
-        return self._steps * TIMESTEP_S
+        return self._step * TIMESTEP_S
+
+    @property
+    def oracle(self) -> Oracle:
+        """The truth, for tests and benchmarks."""
+        return self.sensing.oracle
 
     def stand(self, X_WS: SE3, *, posture: str = "nominal") -> None:
         """Put the robot, at rest, with its soles' midpoint at X_WS (x, y, yaw)."""
@@ -92,12 +117,16 @@ class Plant:
             DriverError: if a value is not finite or a shape is wrong (nothing changes).
         """
         sent = self.motors.write(command)
-        self._watchdog_step = self._steps + round(WATCHDOG_S / TIMESTEP_S)
+        self._watchdog_step = self._step + _steps(WATCHDOG_S)
         return sent
 
     def read(self) -> MotorState:
         """Measure motors, IMU, ankles and wrists now."""
         return self._body.measure(self.time_s)
+
+    def sense(self, now_s: float | None = None) -> list[tuple[str, Message]]:
+        """Topics and messages of depth, lidar and oracle that are due (by the plant's time)."""
+        return self.sensing.due(self.time_s if now_s is None else now_s)
 
     def step(self, count: int = 1) -> None:
         """Advance `count` milliseconds.
@@ -105,12 +134,12 @@ class Plant:
         Raises:
             DriverError: if the physics diverged (states are no longer numbers).
         """
-        end = self._steps + count
-        while self._steps < end:
-            pause = min(end, self._watchdog_step, self._heat_step, self._push_until)
-            if pause > self._steps:
-                mujoco.mj_step(self.model, self.data, pause - self._steps)
-                self._steps = pause
+        end = self._step + count
+        while self._step < end:
+            pause = min(end, self._watchdog_step, self._heat_step, self._pull_step)
+            if pause > self._step:
+                mujoco.mj_step(self.model, self.data, pause - self._step)
+                self._step = pause
             self._due()
         if not math.isfinite(self.data.qacc[0]):
             raise DriverError(f"the simulated physics diverged at {self.time_s:.3f} s")
@@ -119,24 +148,51 @@ class Plant:
         self, impulse_n_s: float, direction_rad: float, *, duration_s: float = 0.1, body: str = ""
     ) -> None:
         """Push a body (the torso) horizontally, in a direction of the world, from now on."""
-        target = self.model.body(body).id if body else self._torso
         force_n = impulse_n_s / duration_s
-        self.data.xfrc_applied[:] = 0.0
-        self.data.xfrc_applied[target, 0] = force_n * math.cos(direction_rad)
-        self.data.xfrc_applied[target, 1] = force_n * math.sin(direction_rad)
-        self._push_until = self._steps + max(1, round(duration_s / TIMESTEP_S))
+        force = (force_n * math.cos(direction_rad), force_n * math.sin(direction_rad), 0.0)
+        self.pull(body or self.robot.torso_body, force, duration_s=duration_s)
+
+    def pull(self, body: str, force_n: tuple[float, ...], *, duration_s: float) -> None:
+        """Let a force [N], in the world's axes, act on a body's centre of mass from now on."""
+        until = self._step + _steps(duration_s)
+        self._pulls.append((until, int(self.model.body(body).id), np.array(force_n)))
+        self._apply_pulls()
+
+    def put(self, body: str, X_WO: SE3) -> None:
+        """Put a body that is free, or a person, somewhere else, at rest.
+
+        Raises:
+            ConfigError: if the body stands fast.
+        """
+        model, data = self.model, self.data
+        index = int(model.body(body).id)
+        mocap, joint = int(model.body_mocapid[index]), int(model.body_jntadr[index])
+        if mocap >= 0:
+            data.mocap_pos[mocap], data.mocap_quat[mocap] = X_WO.p, X_WO.quat_wxyz
+        elif joint >= 0 and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
+            q, v = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
+            data.qpos[q : q + 7] = (*X_WO.p, *X_WO.quat_wxyz)
+            data.qvel[v : v + 6] = 0.0
+        else:
+            raise ConfigError(f"{body!r} stands fast; make it movable in the world file")
 
     def _due(self) -> None:
-        """Do what is due at this step: watchdog, heat, end of a push."""
-        if self._steps >= self._watchdog_step:
+        """Do what is due at this step: watchdog, heat, end of a pull."""
+        if self._step >= self._watchdog_step:
             self.motors.damp()
             self._watchdog_step = NEVER
-        if self._steps >= self._heat_step:
+        if self._step >= self._heat_step:
             self.motors.heat(HEAT_PERIOD_S)
-            self._heat_step += round(HEAT_PERIOD_S / TIMESTEP_S)
-        if self._steps >= self._push_until:
-            self.data.xfrc_applied[:] = 0.0
-            self._push_until = NEVER
+            self._heat_step += _steps(HEAT_PERIOD_S)
+        if self._step >= self._pull_step:
+            self._apply_pulls()
+
+    def _apply_pulls(self) -> None:
+        self._pulls = [pull for pull in self._pulls if pull[0] > self._step]
+        self._pull_step = min((pull[0] for pull in self._pulls), default=NEVER)
+        self.data.xfrc_applied[:] = 0.0
+        for _, body, force in self._pulls:
+            self.data.xfrc_applied[body, :3] += force
 
 
 def _close_couplings(model: mujoco.MjModel, qpos: Array) -> None:

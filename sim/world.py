@@ -7,12 +7,11 @@ from pathlib import Path
 
 from robot import config
 from robot.errors import ConfigError, Problem
-from robot.messages import WorldMap
 from sim import atlas, checks
 from sim.placing import variation
 from sim.schema import Room, World
 
-__all__ = ["World", "available", "empty", "load", "map_of", "variation", "world_map"]
+__all__ = ["World", "available", "empty", "load", "variation", "world_map"]
 
 world_map = atlas.world_map
 
@@ -44,11 +43,6 @@ def load(name_or_path: str) -> World:
     if problems:
         raise ConfigError(sorted(problems, key=lambda problem: problem.line or 0))
     return world
-
-
-def map_of(name_or_path: str) -> WorldMap:
-    """The prior map of a world by name or path; raises ConfigError as `load` does."""
-    return world_map(load(name_or_path))
 
 
 def empty() -> World:

@@ -1,0 +1,95 @@
+"""What the plant sends by itself: sensors and oracle messages, each at its own rate."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import mujoco
+import msgspec
+import numpy as np
+
+from robot.bus import topics
+from robot.messages import Message
+from robot.model.description import RobotDescription
+from sim.atlas import world_map
+from sim.oracle import Oracle
+from sim.rays import Rays
+from sim.schema import World
+from sim.sensors import DepthCamera, PlanarLidar
+
+ORACLE_HZ = 10.0
+MAP_HZ = 1.0
+
+
+class _Source:
+    """One topic: how its message is made, and when the next one is due."""
+
+    def __init__(self, topic: str, rate_hz: float, make: Callable[[float], Message]) -> None:
+        self.topic, self.make = topic, make
+        self.period_s = 1.0 / rate_hz
+        self.due_s = 0.0
+        self.silent_until_s = -math.inf
+
+
+class Sensing:
+    """All sensors of one plant.
+
+    Attributes:
+        oracle: truth, and the oracle messages made of it.
+        camera, lidar: the emulated sensors.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        world: World,
+        *,
+        robot: RobotDescription,
+        rng: np.random.Generator,
+        pose_error_m: float,
+    ) -> None:
+        """Build every sensor; each draws its noise from its own child of `rng`."""
+        seeds = rng.spawn(3)
+        self._model, self._data = model, data
+        self.camera = DepthCamera(model, data, robot, rng=seeds[0])
+        self.lidar = PlanarLidar(model, data, robot, rng=seeds[1])
+        self.oracle = Oracle(
+            model, data, world, robot=robot, rays=Rays(model, data, body=self.camera.rays.body),
+            rng=seeds[2], pose_error_m=pose_error_m,
+        )  # fmt: skip
+        prior = world_map(world)
+        sensors = robot.sensors
+        self._sources = [
+            _Source(topics.DEPTH.name, sensors.camera.rate_hz, self.camera.capture),
+            _Source(topics.LIDAR.name, sensors.lidar.rate_hz, self.lidar.scan),
+            _Source(topics.ORACLE_FIX.name, ORACLE_HZ, self.oracle.fix),
+            _Source(topics.ORACLE_SIGHTINGS.name, ORACLE_HZ, self.oracle.sightings),
+            _Source(
+                topics.ORACLE_MAP.name, MAP_HZ,
+                lambda stamp_s: msgspec.structs.replace(prior, stamp_s=stamp_s),
+            ),
+        ]  # fmt: skip
+
+    def topics(self) -> list[str]:
+        """Every topic that the plant sends."""
+        return [source.topic for source in self._sources]
+
+    def silence(self, topic: str, until_s: float) -> None:
+        """Let a sensor say nothing until then."""
+        for source in self._sources:
+            if source.topic == topic:
+                source.silent_until_s = until_s
+
+    def due(self, now_s: float) -> list[tuple[str, Message]]:
+        """The messages due by now, with their topics."""
+        ready = [source for source in self._sources if now_s >= source.due_s - 1e-9]
+        if ready:  # positions are those of the last step until this brings them up to date
+            mujoco.mj_kinematics(self._model, self._data)
+        found: list[tuple[str, Message]] = []
+        for source in ready:
+            source.due_s = max(source.due_s + source.period_s, now_s)
+            if now_s >= source.silent_until_s:
+                found.append((source.topic, source.make(now_s)))
+        return found

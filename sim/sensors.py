@@ -1,0 +1,102 @@
+"""Depth camera and planar lidar, emulated with rays."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+
+from robot.messages import DepthImage, LidarScan
+from robot.model.description import RobotDescription
+from robot.se3 import Array
+from sim.rays import Rays
+
+# Every second pixel of the camera, in both directions: a ray costs about half a microsecond, so
+# 80 x 60 take 2.5 ms where 160 x 120 take 10.
+DEPTH_STRIDE = 2
+# 1 sigma grows with the square of the depth: an active stereo camera has 2 mm at 1 m.
+DEPTH_NOISE_PER_M = 0.002
+LIDAR_NOISE_M = 0.01
+
+
+class DepthCamera:
+    """The head's depth camera."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        robot: RobotDescription,
+        *,
+        rng: np.random.Generator,
+    ) -> None:
+        """Lay out the rays, one through each pixel's middle."""
+        camera = robot.sensors.camera
+        self._rng = rng
+        self._site = data.site(camera.site)
+        self._range_m, self._fovy_rad = camera.range_m, camera.fovy_rad
+        self.width, self.height = camera.width // DEPTH_STRIDE, camera.height // DEPTH_STRIDE
+        focal = self.height / 2 / math.tan(camera.fovy_rad / 2)
+        u, v = np.meshgrid(
+            (np.arange(self.width) + 0.5 - self.width / 2) / focal,
+            (np.arange(self.height) + 0.5 - self.height / 2) / focal,
+        )
+        rays_C = np.stack([u, v, np.ones_like(u)], axis=-1).reshape(-1, 3)
+        self._rays_C = rays_C / np.linalg.norm(rays_C, axis=1, keepdims=True)
+        self.rays = Rays(model, data, body=int(model.site_bodyid[model.site(camera.site).id]))
+
+    def capture(self, stamp_s: float) -> DepthImage:
+        """One frame."""
+        directions = self._rays_C @ self._site.xmat.reshape(3, 3).T
+        reach_m = self._range_m / float(self._rays_C[:, 2].min())
+        distances, _ = self.rays.cast(self._site.xpos, directions, range_m=reach_m)
+        depth = distances * self._rays_C[:, 2]
+        noise = self._rng.standard_normal(len(depth), dtype=np.float32)
+        depth += DEPTH_NOISE_PER_M * depth * depth * noise
+        depth[(distances < 0.0) | (depth > self._range_m)] = 0.0
+        return DepthImage(
+            stamp_s=stamp_s,
+            width=self.width,
+            height=self.height,
+            fovy_rad=self._fovy_rad,
+            depth_m=depth.astype(np.float32).tobytes(),
+        )
+
+
+class PlanarLidar:
+    """The planar lidar; what hits the robot itself is filtered out, as a driver does."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        robot: RobotDescription,
+        *,
+        rng: np.random.Generator,
+    ) -> None:
+        """Lay out the beams, counter-clockwise from -pi in the site's plane."""
+        lidar = robot.sensors.lidar
+        self._rng = rng
+        self._site = data.site(lidar.site)
+        self._range_m = lidar.range_m
+        self._step_rad = 2.0 * math.pi / lidar.beams
+        angles = -math.pi + self._step_rad * np.arange(lidar.beams)
+        self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
+        self._rays = Rays(model, data, body=int(model.site_bodyid[model.site(lidar.site).id]))
+        root = model.body(robot.base_body).id
+        self._own: Array = model.body_rootid[model.geom_bodyid] == root
+
+    def scan(self, stamp_s: float) -> LidarScan:
+        """One turn."""
+        directions = self._beams @ self._site.xmat.reshape(3, 3).T
+        ranges, geoms = self._rays.cast(self._site.xpos, directions, range_m=self._range_m)
+        missed = (geoms < 0) | self._own[geoms]
+        ranges += LIDAR_NOISE_M * self._rng.standard_normal(len(ranges))
+        ranges[missed] = math.inf
+        return LidarScan(
+            stamp_s=stamp_s,
+            angle_min_rad=-math.pi,
+            angle_step_rad=self._step_rad,
+            ranges_m=tuple(ranges.tolist()),
+        )
