@@ -336,7 +336,8 @@ class WorldState(Message, frozen=True, kw_only=True):
     """The world model: localisation and everything tracked.
 
     `X_WN` takes the controller's odometry frame to the world: `X_WB = X_WN @ X_NB`.
-    `blocked_m` is the free distance [m] ahead of the robot seen by the lidar, inf if unknown.
+    `fix_age_s` is the age of the last fix that was believed; `jumps` counts how often the estimate
+    of X_WN had to be thrown over. `unmapped` is what the lidar sees and the map does not explain.
     """
 
     X_WN: SE3
@@ -344,4 +345,5 @@ class WorldState(Message, frozen=True, kw_only=True):
     fix_age_s: float
     tracks: tuple[Track, ...]
     unmapped: tuple[Obstacle, ...] = ()
+    jumps: int = 0
     source: Source = "oracle"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, Generic, Protocol, Self, TypeVar
 
@@ -21,7 +22,7 @@ class Subscription(Protocol[M_co]):
         """The newest message, None before the first."""
         ...
 
-    def take(self) -> list[M_co]:
+    def take(self) -> Sequence[M_co]:
         """What came since the last `take`, oldest first; the oldest are lost beyond the queue."""
         ...
 

@@ -1,0 +1,49 @@
+"""The `fast` runtime: everything in one process, as fast as the machine goes, repeatable."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robot.bringup import entry
+from robot.bringup.lockstep import Lockstep
+from robot.bus.bus import LocalBus
+from robot.control.loop import ControlLoop
+from robot.model import description
+from robot.perception.node import PerceptionNode
+
+PLANT = "sim.plant:Plant"
+
+
+class FastRuntime(Lockstep):
+    """A robot in a world under a simulated clock; same arguments and calls, same run."""
+
+    def __init__(
+        self,
+        world: Any,
+        robot: str = "juno",
+        *,
+        seed: int = 0,
+        bus: LocalBus | None = None,
+        plant: str = PLANT,
+    ) -> None:
+        """Build every part; nothing moves before `advance`.
+
+        Args:
+            world: name or path of a world, or a world already loaded (and varied).
+            robot: name or path of a robot description.
+            seed: of everything random.
+            bus: to carry the messages; a new one by default.
+            plant: `module:class` of the plant.
+
+        Raises:
+            ConfigError: if world, robot or plant cannot be used.
+        """
+        bus = bus or LocalBus()
+        body = description.load(robot)
+        loaded = entry.world(world) if isinstance(world, str) else world
+        super().__init__(
+            entry.attribute(plant)(loaded, body, seed=seed),
+            ControlLoop(body),
+            PerceptionNode(bus, body),
+            bus=bus,
+        )

@@ -1,0 +1,148 @@
+"""Plant, controller and perception in one thread under a simulated clock, in a fixed order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+from robot.bus import topics
+from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.drivers.motors import MotorCommand, MotorState
+from robot.drivers.simulated import SimulatedMotors
+from robot.errors import DriverError, Failure, failure
+from robot.link import BusLink
+from robot.messages import BodyCommand, BodyState, Message
+
+CONTROL_PERIOD_MS = 2
+STATE_PERIOD_MS = 20
+
+
+class Plant(Protocol):
+    """Reality's stand-in: `step` advances whole milliseconds, `sense` gives what is due."""
+
+    def read(self) -> MotorState:
+        """Measure the motors and the body's own sensors."""
+        ...
+
+    def write(self, command: MotorCommand) -> MotorCommand:
+        """Command every motor."""
+        ...
+
+    def step(self, count: int = 1) -> None:
+        """Advance; raises DriverError if the physics diverged."""
+        ...
+
+    def sense(self, now_s: float) -> Iterable[tuple[str, Message]]:
+        """Names of topics and messages of the sensors that are due."""
+        ...
+
+
+class Controller(Protocol):
+    """The body's controller: see `robot.control.loop.ControlLoop`."""
+
+    def handle(self, command: BodyCommand) -> None:
+        """Take one command."""
+        ...
+
+    def tick(self, state: MotorState) -> MotorCommand:
+        """One period of the motor bus."""
+        ...
+
+    def state(self) -> BodyState:
+        """What it believes."""
+        ...
+
+
+class Perception(Protocol):
+    """Reads its topics from the bus and publishes the world state."""
+
+    def step(self) -> None:
+        """Work off what came."""
+        ...
+
+
+class Lockstep:
+    """The `fast` order of events; the same parts and calls give the same run, bit for bit.
+
+    Every 2 ms: commands, read, controller, write, physics. Every 20 ms, before the physics: body
+    state, then what the sensors have due, then perception if they had anything.
+
+    Attributes:
+        plant: the plant; tests and benchmarks reach it, the product does not.
+        clock: the simulated clock.
+        link: the executive's handle on the body.
+    """
+
+    def __init__(
+        self, plant: Plant, controller: Controller, perception: Perception, *, bus: LocalBus
+    ) -> None:
+        self.plant: Any = plant
+        self.clock = SimulatedClock()
+        self.link = BusLink(bus, self.clock)
+        self._bus = bus
+        self._controller = controller
+        self._perception = perception
+        self._commands = bus.subscribe(topics.BODY_COMMAND)
+        self._motors = SimulatedMotors(plant)
+        self._plant = plant
+        self._time_ms = 0
+        self._failure: Failure | None = None
+
+    def __enter__(self) -> Self:
+        """Open the motors."""
+        self._motors.__enter__()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Damp the motors and close the bus."""
+        self._motors.__exit__(kind, error, trace)
+        self._bus.close()
+
+    def failure(self) -> Failure | None:
+        """Why the run cannot go on, None while it can."""
+        return self._failure
+
+    def advance(self, duration_s: float) -> None:
+        """Let `duration_s` pass, to the nearest control period.
+
+        When the plant is lost, `failure` says so and only the clock goes on.
+        """
+        periods = round(duration_s * 1000.0 / CONTROL_PERIOD_MS)
+        end_ms = self._time_ms + periods * CONTROL_PERIOD_MS
+        if self._failure is None:
+            try:
+                self._run_until(end_ms)
+            except DriverError as error:
+                self._failure = failure("plant_lost", str(error), time_s=self._time_ms / 1000.0)
+        self._time_ms = end_ms
+        self.clock.set(end_ms / 1000.0)
+
+    def _run_until(self, end_ms: int) -> None:
+        commands, motors, controller = self._commands, self._motors, self._controller
+        step = self._plant.step
+        while self._time_ms < end_ms:
+            for command in commands.take():
+                controller.handle(command)
+            motors.write(controller.tick(motors.read()))
+            if self._time_ms % STATE_PERIOD_MS == 0:
+                self._report()
+            step(CONTROL_PERIOD_MS)
+            self._time_ms += CONTROL_PERIOD_MS
+
+    def _report(self) -> None:
+        """Publish what is due at this instant."""
+        now_s = self._time_ms / 1000.0
+        self.clock.set(now_s)
+        self._bus.publish(topics.BODY_STATE, self._controller.state())
+        sensed = list(self._plant.sense(now_s))
+        for name, message in sensed:
+            self._bus.publish(topics.named(name), message)
+        if sensed:
+            self._perception.step()

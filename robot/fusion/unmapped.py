@@ -1,0 +1,135 @@
+"""What the lidar hits that the map does not explain: a chair that was moved, a person."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot.messages import LidarScan, Obstacle, Shape
+from robot.se3 import SE3, Array
+
+NEAR_MAP_M = 0.10
+NEAR_MAP_SHARE = 0.03
+MIN_HEIGHT_M, MAX_HEIGHT_M = 0.2, 1.6
+CLUSTER_GAP_M = 0.25
+MIN_POINTS = 3
+MAX_RANGE_M = 6.0
+SAME_M = 0.35
+SCANS_TO_BELIEVE = 3
+FORGET_S = 2.0
+PADDING_M = 0.05
+HEIGHT_M = 1.2
+
+
+@dataclass
+class _Cluster:
+    """A group of unexplained hits: its extent in W [m], when and how often it was seen."""
+
+    low: Array
+    high: Array
+    seen_s: float
+    scans: int
+    number: int
+
+    @property
+    def centre(self) -> Array:
+        return 0.5 * (self.low + self.high)
+
+
+class UnmappedObstacles:
+    """Clusters of unexplained hits, kept while they are seen again and again."""
+
+    def __init__(self, *, body_radius_m: float) -> None:
+        self._body_radius_m = body_radius_m
+        self._boxes: Array = np.zeros((0, 6))
+        self._clusters: list[_Cluster] = []
+        self._count = 0
+
+    def know(self, obstacles: tuple[Obstacle, ...]) -> None:
+        """Take the map: footprints of every shape, as (x, y, cos, sin, half x, half y)."""
+        rows: list[tuple[float, ...]] = []
+        for obstacle in obstacles:
+            for shape in obstacle.shapes:
+                X_WS = obstacle.X_WO @ shape.X_BodyShape
+                yaw = X_WS.yaw_rad
+                half = (0.5 * shape.size_m[0], 0.5 * shape.size_m[1])
+                rows.append((X_WS.p[0], X_WS.p[1], math.cos(yaw), math.sin(yaw), *half))
+        self._boxes = np.array(rows, dtype=np.float64).reshape(-1, 6)
+
+    def see(self, scan: LidarScan, X_WLidar: SE3) -> None:
+        """Take one scan from a lidar at X_WLidar."""
+        groups = _groups(self._unexplained(scan, X_WLidar))
+        for points in groups:
+            self._merge(points.min(axis=0), points.max(axis=0), scan.stamp_s)
+        self._clusters = [one for one in self._clusters if scan.stamp_s - one.seen_s < FORGET_S]
+
+    def obstacles(self) -> tuple[Obstacle, ...]:
+        """What is believed, as boxes on the floor."""
+        return tuple(
+            _box(cluster) for cluster in self._clusters if cluster.scans >= SCANS_TO_BELIEVE
+        )
+
+    def _unexplained(self, scan: LidarScan, X_WLidar: SE3) -> Array:
+        """Hits [m] in W that neither map nor floor nor the robot itself explain, shape (k, 2)."""
+        ranges = np.array(scan.ranges_m)
+        angles = scan.angle_min_rad + scan.angle_step_rad * np.arange(len(ranges))
+        keep = np.isfinite(ranges) & (ranges < MAX_RANGE_M)
+        keep &= ranges > self._body_radius_m + PADDING_M
+        ranges, angles = ranges[keep], angles[keep]
+        beams = np.stack(
+            [ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=1
+        )
+        points = beams @ X_WLidar.rotation().T + np.array(X_WLidar.p)
+        keep = (points[:, 2] > MIN_HEIGHT_M) & (points[:, 2] < MAX_HEIGHT_M)
+        keep &= self._strange(points, NEAR_MAP_M + NEAR_MAP_SHARE * ranges)
+        return points[keep, :2]
+
+    def _strange(self, points: Array, margin_m: Array) -> NDArray[np.bool_]:
+        """Which points lie in or near no footprint of the map, shape (k,)."""
+        x, y, c, s, half_x, half_y = (column[None, :] for column in self._boxes.T)
+        dx, dy = points[:, 0:1] - x, points[:, 1:2] - y
+        along, across = np.abs(c * dx + s * dy), np.abs(c * dy - s * dx)
+        margin = margin_m[:, None]
+        return np.all((along > half_x + margin) | (across > half_y + margin), axis=1)
+
+    def _merge(self, low: Array, high: Array, stamp_s: float) -> None:
+        """Move a known cluster to where it is now, or begin a new one."""
+        centre = 0.5 * (low + high)
+        for cluster in self._clusters:
+            if cluster.seen_s < stamp_s and np.linalg.norm(cluster.centre - centre) < SAME_M:
+                cluster.low, cluster.high = low, high
+                cluster.seen_s = stamp_s
+                cluster.scans += 1
+                return
+        self._count += 1
+        self._clusters.append(_Cluster(low, high, stamp_s, 1, self._count))
+
+
+def _groups(points: Array) -> list[Array]:
+    """Split hits in beam order where neighbours are far apart; small groups are noise.
+
+    A group that the scan's ends cut in two stays two; both are reported.
+    """
+    if len(points) == 0:
+        return []
+    gaps = np.linalg.norm(np.diff(points, axis=0), axis=1) > CLUSTER_GAP_M
+    parts = np.split(points, np.flatnonzero(gaps) + 1)
+    return [part for part in parts if len(part) >= MIN_POINTS]
+
+
+def _box(cluster: _Cluster) -> Obstacle:
+    x, y = cluster.centre.tolist()
+    dx, dy = (cluster.high - cluster.low + 2.0 * PADDING_M).tolist()
+    shape = Shape(
+        kind="box", size_m=(dx, dy, HEIGHT_M), X_BodyShape=SE3((0.0, 0.0, 0.5 * HEIGHT_M))
+    )
+    return Obstacle(
+        id=f"unmapped_{cluster.number}",
+        name="something in the way",
+        X_WO=SE3((x, y, 0.0)),
+        shapes=(shape,),
+        movable=True,
+    )

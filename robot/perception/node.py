@@ -1,0 +1,144 @@
+"""Perception: topics in, world state out. The same object runs in `fast` and `live`."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+
+from robot.bus import topics
+from robot.bus.bus import Bus, Subscription
+from robot.fusion.history import BodyHistory
+from robot.fusion.localisation import Localiser
+from robot.fusion.unmapped import UnmappedObstacles
+from robot.fusion.world_model import WorldModel
+from robot.messages import (
+    DepthImage,
+    LidarScan,
+    Message,
+    PoseFix,
+    Sightings,
+    WorldMap,
+    WorldState,
+)
+from robot.model.body import BodyModel
+from robot.model.description import RobotDescription
+from robot.se3 import SE3
+
+PERIOD_S = 0.1
+PATIENCE_S = 0.3
+MAX_SKEW_S = 0.06
+
+
+class PerceptionNode:
+    """Turns fixes, sightings, depth and lidar into the world model.
+
+    A message waits until the body state of its own time has come (at most `PATIENCE_S`), so that
+    head and base stood where it is believed that they stood. Time is the newest stamp.
+    """
+
+    def __init__(self, bus: Bus, description: RobotDescription) -> None:
+        """Subscribe; compile the body for the poses of camera and lidar.
+
+        Raises:
+            DescriptionError: if description and MJCF disagree.
+        """
+        sensors = description.sensors
+        self._bus = bus
+        self._states = bus.subscribe(topics.BODY_STATE)
+        self._map = bus.subscribe(topics.ORACLE_MAP)
+        self._known: WorldMap | None = None
+        self._inputs: list[Subscription[Message]] = [
+            bus.subscribe(topics.ORACLE_FIX),
+            bus.subscribe(topics.DEPTH),
+            bus.subscribe(topics.ORACLE_SIGHTINGS),
+            bus.subscribe(topics.LIDAR),
+        ]
+        self._waiting: list[Message] = []
+        self._depth: DepthImage | None = None
+        self._body = BodyModel(description)
+        self._data = self._body.data()
+        self._camera = self._body.site_id(sensors.camera.site)
+        self._lidar = self._body.site_id(sensors.lidar.site)
+        self._history = BodyHistory()
+        self._localiser = Localiser(self._history)
+        self._world = WorldModel(camera_range_m=sensors.camera.range_m)
+        self._unmapped = UnmappedObstacles(body_radius_m=description.body_radius_m)
+        self._now_s = -math.inf
+        self._published_s = -math.inf
+
+    def step(self) -> None:
+        """Work off what came; publish the world state at most every `PERIOD_S`."""
+        self._learn_map()
+        for state in self._states.take():
+            self._history.add(state)
+            self._now_s = max(self._now_s, state.stamp_s)
+        for messages in self._inputs:
+            self._waiting += messages.take()
+        waiting, self._waiting = self._waiting, []
+        for message in waiting:
+            self._now_s = max(self._now_s, message.stamp_s)
+            if self._history.covers(message.stamp_s):
+                self._take(message)
+            elif self._now_s - message.stamp_s < PATIENCE_S:
+                self._waiting.append(message)
+        if self._now_s - self._published_s > PERIOD_S - 1e-6:
+            self._publish()
+
+    def _learn_map(self) -> None:
+        world_map = self._map.latest
+        if world_map is not None and world_map is not self._known:
+            self._known = world_map
+            self._world.know(world_map.objects)
+            self._unmapped.know(world_map.obstacles)
+
+    def _take(self, message: Message) -> None:
+        if isinstance(message, PoseFix):
+            self._localiser.add(message)
+        elif isinstance(message, DepthImage):
+            self._depth = message
+        elif math.isinf(self._localiser.fixed_s):
+            return  # nothing can be placed in the world yet
+        elif isinstance(message, Sightings):
+            X_WC = self._site_in_world(self._camera, message.stamp_s)
+            if X_WC is not None:
+                self._world.see(message, X_WC, self._depth_at(message.stamp_s))
+        elif isinstance(message, LidarScan) and self._known is not None:
+            X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
+            if X_WLidar is not None:
+                self._unmapped.see(message, X_WLidar)
+
+    def _depth_at(self, stamp_s: float) -> DepthImage | None:
+        depth = self._depth
+        return depth if depth and abs(depth.stamp_s - stamp_s) <= MAX_SKEW_S else None
+
+    def _site_in_world(self, site: int, stamp_s: float) -> SE3 | None:
+        """Where a site of the body was at a stamp, by forward kinematics from the base."""
+        X_NB, joints = self._history.base_at(stamp_s), self._history.joints_at(stamp_s)
+        if X_NB is None or joints is None:
+            return None
+        self._body.write_base(self._data, X_NB)
+        self._body.write_joints(self._data, np.array(joints))
+        mujoco.mj_kinematics(self._body.model, self._data)
+        return self._localiser.X_WN @ self._body.site_pose(self._data, site)
+
+    def _publish(self) -> None:
+        """Say what is believed, once the robot knows where it is."""
+        newest, localiser = self._history.newest, self._localiser
+        if newest is None or math.isinf(localiser.fixed_s):
+            return
+        self._published_s = self._now_s
+        self._bus.publish(
+            topics.WORLD_STATE,
+            WorldState(
+                stamp_s=self._now_s,
+                X_WN=localiser.X_WN,
+                X_WB=localiser.X_WN @ newest.X_NB,
+                fix_age_s=self._now_s - localiser.fixed_s,
+                tracks=self._world.tracks(),
+                unmapped=self._unmapped.obstacles(),
+                jumps=localiser.jumps,
+                source=localiser.source,
+            ),
+        )
