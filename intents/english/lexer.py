@@ -44,7 +44,8 @@ _WHOLE = {
     "dont": ("do", "not"), "gimme": ("give", "me"),
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
-    "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",), "hte": ("the",), "adn": ("and",), "nad": ("and",),
+    "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),
+    "hte": ("the",), "adn": ("and",), "nad": ("and",),
     "thats": ("that", "is"), "till": ("until",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),

@@ -4,6 +4,8 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
+from rapidfuzz import fuzz, process
+
 from intents.english.lexer import singular, tokenize
 from intents.english.lexicon import SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
@@ -96,6 +98,12 @@ class NameIndex:
     def partial(self, word: str) -> tuple[Name, ...]:
         """The longer names that a word begins or ends: "table" in "dining table"."""
         return self._parts.get(singular(word), ())
+
+    def nearest(self, said: str, kinds: tuple[str, ...]) -> list[str]:
+        """Up to three names of these kinds that are written most like what was said."""
+        known = sorted({n.name for names in self._names.values() for n in names if n.kind in kinds})
+        found = process.extract(said, known, scorer=fuzz.WRatio, limit=3, score_cutoff=60)
+        return [name for name, _, _ in found] or known[:3]
 
 
 def _spellings(vocabulary: Vocabulary) -> list[tuple[Name, str]]:

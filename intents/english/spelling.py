@@ -7,7 +7,7 @@ from rapidfuzz.distance import OSA
 from intents.english import lexicon
 from intents.english.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.names import NameIndex, index_of
-from intents.english.verbs import SENSES
+from intents.english.verbs import FIRST_WORDS, SENSES, base_form
 from intents.vocabulary import Vocabulary
 
 _PHRASES = (
@@ -62,6 +62,9 @@ class Speller:
     def correct(self, word: str) -> list[str]:
         """The words that were meant: usually the word itself; "thecup" is two words."""
         if word in self._known or word in COMMON_NOUNS or not word.isalpha():
+            return [word]
+        past = word.removesuffix("d"), word.removesuffix("ed")
+        if base_form(word) in FIRST_WORDS or any(w in FIRST_WORDS for w in past):
             return [word]
         return self._parts(word) or [self._nearest(word)]
 

@@ -91,7 +91,7 @@ SPELLINGS: dict[str, str] = {
         "say to,state to,provide,i wonder"
     ),
     "answer": (
-        "answer,respond,respond to,reply,reply to,answer to,give an answer to,take,solve,"
+        "answer,respond,respond to,reply,reply to,answer to,give an answer to,solve,"
         "give an answer,answer back,provide an answer to,field,ask,ask for,get asked,"
         "listen to,help with,give a response to,resolve"
     ),
@@ -167,7 +167,7 @@ SPELLINGS: dict[str, str] = {
         "cancel,abort,cancel that,cancel it,never mind,nevermind,forget it,forget that,"
         "forget about it,forget about that,give up,abandon,abort the mission,"
         "cancel the mission,cancel the task,abort the task,abandon the mission,"
-        "abandon the task,cancel everything,drop it,undo that,abort that,abort it,"
+        "abandon the task,cancel everything,undo that,abort that,abort it,"
         "call it off,forget everything,give it up,cancel this"
     ),
     "report": (

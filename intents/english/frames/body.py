@@ -1,0 +1,122 @@
+"""Postures, balance and gestures of the robot itself."""
+
+from intents.english.clauses import Clause
+from intents.english.frames.slots import Slots
+from intents.english.noun_phrases import NounPhrase
+from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.trouble import Misfit, NotUnderstood
+from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, Side
+
+_LEGS = ("leg", "legs", "foot", "feet")
+_OTHER: dict[str, Side] = {"left": "right", "right": "left"}
+
+
+def _limb(slots: Slots, *roles: str) -> NounPhrase | None:
+    """A part of the body among the complements."""
+    for complement in slots.rest:
+        if complement.phrases and complement.role in roles and complement.phrase.noun == "body":
+            slots.rest.remove(complement)
+            return complement.phrase
+    return None
+
+
+def _side(word: str) -> Side | None:
+    return "left" if word == "left" else "right" if word == "right" else None
+
+
+def _balance(slots: Slots, mode: BalanceMode, side: Side | None = None) -> list[Goal]:
+    duration = slots.measure("time")
+    slots.direction("up", "down", "forward", "around")
+    slots.done()
+    return [Balance(mode=mode, side=side, duration_s=duration)]
+
+
+def stand(clause: Clause, scope: Scope) -> list[Goal]:
+    """Stand up; stand on one leg; balance on the left foot for ten seconds."""
+    slots = Slots(clause, scope)
+    limb = _limb(slots, "at", "to", "with")
+    if limb is None:
+        place = slots.take("at")
+        if place:
+            slots.done()
+            return [GoTo(place=to_place(place.phrase, scope))]
+        return _balance(slots, "stand")
+    if limb.said not in _LEGS:
+        raise NotUnderstood(f"I can stand on one leg or on both, not on my {limb.said}")
+    both = limb.count in (2, "all") or (limb.said in ("legs", "feet") and not limb.side)
+    return _balance(slots, "stand" if both else "one_leg", _side(limb.side))
+
+
+def lift_leg(clause: Clause, scope: Scope) -> list[Goal]:
+    """Lift your left foot: stand on the right leg."""
+    slots = Slots(clause, scope)
+    limb = _limb(slots, "")
+    if limb is None:
+        raise Misfit("that is no part of my body")
+    slots.direction("up")
+    if limb.said in _LEGS:
+        return _balance(slots, "one_leg", _OTHER.get(limb.side))
+    if limb.said.rstrip("s") in ("arm", "hand"):
+        slots.done()
+        return [Gesture(kind="_".join(w for w in ("raise", limb.side, "arm") if w))]
+    raise NotUnderstood(f"I cannot raise my {limb.said}")
+
+
+def squat(clause: Clause, scope: Scope) -> list[Goal]:
+    """Squat for five seconds."""
+    return _balance(Slots(clause, scope), "squat")
+
+
+def sit(clause: Clause, scope: Scope) -> list[Goal]:
+    """Sit down; sit on the chair."""
+    slots = Slots(clause, scope)
+    place = slots.take("at")
+    down = _balance(slots, "sit")
+    return [GoTo(place=to_place(place.phrase, scope)), *down] if place else down
+
+
+def lean(clause: Clause, scope: Scope) -> list[Goal]:
+    """Lean to the left; bend forward for three seconds."""
+    slots = Slots(clause, scope)
+    said = slots.direction("left", "right", "forward", "backward")
+    side: Side = "forward"
+    for known in ("left", "right", "backward"):
+        side = known if said == known else side
+    if _limb(slots, "") is not None:
+        return _balance(slots, "squat")
+    return _balance(slots, "lean", side)
+
+
+_KINDS = (
+    ("thumbs", "thumbs_up"), ("shake your head", "shake_head"), ("shake head", "shake_head"),
+    ("shake hands", "shake_hands"), ("high five", "high_five"), ("wave", "wave"), ("nod", "nod"),
+    ("point", "point"), ("clap", "clap"), ("shrug", "shrug"), ("danc", "dance"), ("bow", "bow"),
+    ("curtsy", "bow"), ("cross your arms", "cross_arms"), ("raise both", "raise_both_arms"),
+    ("raise your arms", "raise_both_arms"), ("raise your hands", "raise_both_arms"),
+    ("raise your left", "raise_left_arm"), ("raise your right", "raise_right_arm"),
+    ("raise", "raise_arm"),
+)  # fmt: skip
+
+
+def gesture(clause: Clause, scope: Scope) -> list[Goal]:
+    """Wave; point at the cup; nod; give a thumbs up."""
+    slots = Slots(clause, scope)
+    kind = next((kind for word, kind in _KINDS if word in clause.verb), clause.verb)
+    _limb(slots, "", "with")
+    slots.direction("up", "down", "left", "right", "forward")
+    target = slots.take("to", "at") or slots.take("")
+    slots.measure("time")
+    slots.done()
+    return [Gesture(kind=kind, at=_target(target.phrase, scope) if target else None)]
+
+
+def _target(phrase: NounPhrase, scope: Scope) -> str | None:
+    """What a gesture is for, as a name."""
+    if phrase.noun == "operator":
+        return OPERATOR
+    if is_person(phrase, scope):
+        return to_person(phrase, scope).name
+    if phrase.name("place", "room") or phrase.noun in ("there", "here"):
+        return to_place(phrase, scope)
+    query = to_object(phrase, scope)
+    return " ".join(w for w in (query.color, query.name or query.category) if w) or None

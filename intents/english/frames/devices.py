@@ -1,0 +1,81 @@
+"""Opening, closing and switching."""
+
+from intents.english.clauses import Clause, Complement
+from intents.english.frames.slots import Slots
+from intents.english.lexer import singular
+from intents.english.lexicon import words
+from intents.english.referents import Scope
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.goals import Close, Goal, Open, Switch
+
+_OPENABLE = words(
+    "door drawer fridge refrigerator freezer cabinet cupboard window hand gripper box bottle jar "
+    "lid curtain blind gate microwave oven dishwasher closet wardrobe tap bag suitcase case shutter "
+    "hands fingers locker container envelope can book machine valve faucet"
+)
+_SWITCHABLE = words(
+    "light lamp tv television radio machine fan heater heating oven stove computer pc laptop cleaner "
+    "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
+    "dryer toaster speaker stereo device chandelier"
+)
+
+
+def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> list[str]:
+    """The names of what is meant: of the vocabulary, or something any home may have."""
+    names: list[str] = []
+    for phrase in said.phrases:
+        if phrase.noun == "pronoun":
+            name = scope.object.name if scope.object else scope.place
+            if not name:
+                raise Unclear(f"What shall I {act}?")
+            names.append(name)
+            continue
+        name = phrase.name("object", "place", "room")
+        head = singular(phrase.said.split()[-1]) if phrase.said else ""
+        if name and phrase.exact:
+            names.append(name)
+        elif head in generic:
+            room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
+            whole = f"{room} {phrase.said}" if room and room not in phrase.said else phrase.said
+            names.append(whole if phrase.noun != "body" else head)
+        else:
+            raise NotUnderstood(f"I cannot {act} “{phrase.said}”")
+    return names
+
+
+def open_(clause: Clause, scope: Scope) -> list[Goal]:
+    """Open the fridge; open your hand."""
+    return [Open(what=w) for w in _opened(clause, scope, "open")]
+
+
+def close(clause: Clause, scope: Scope) -> list[Goal]:
+    """Close the drawer."""
+    return [Close(what=w) for w in _opened(clause, scope, "close")]
+
+
+def _opened(clause: Clause, scope: Scope, act: str) -> list[str]:
+    slots = Slots(clause, scope)
+    said = slots.take("")
+    if said is None:
+        raise Unclear(f"What shall I {act}?")
+    slots.take_person("for")
+    slots.done()
+    return _what(said, scope, _OPENABLE, act)
+
+
+def switch(clause: Clause, scope: Scope) -> list[Goal]:
+    """Turn on the lamp; switch the washing machine off."""
+    slots = Slots(clause, scope)
+    said = slots.take("", "at")
+    particles = clause.particles() | set(clause.verb.split())
+    on = bool(particles & {"on", "up", "activate", "enable", "start", "light"})
+    off = bool(particles & {"off", "down", "deactivate", "disable", "kill", "extinguish"})
+    if said is not None and said.role == "at":
+        on, off = said.how == "on", said.how != "on"
+    if on == off:
+        raise Misfit("on or off?")
+    if said is None:
+        raise Unclear(f"What shall I switch {'on' if on else 'off'}?")
+    slots.direction("up", "down")
+    slots.done()
+    return [Switch(what=w, on=on) for w in _what(said, scope, _SWITCHABLE, "switch")]

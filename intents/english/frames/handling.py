@@ -1,0 +1,208 @@
+"""Taking, putting, bringing and giving."""
+
+from collections.abc import Callable
+
+from msgspec.structs import replace
+
+from intents.english.clauses import Clause, Complement
+from intents.english.frames import motion
+from intents.english.frames.slots import Slots, detach_place, need
+from intents.english.noun_phrases import Locative
+from intents.english.referents import ME, Scope, is_person, is_spot, to_person, to_place
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.goals import (
+    OPERATOR,
+    Bring,
+    ForEach,
+    Give,
+    Goal,
+    ObjectQuery,
+    Person,
+    Pick,
+    Place,
+)
+
+_THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
+
+
+def pick(clause: Clause, scope: Scope) -> list[Goal]:
+    """Pick up the cup; take the cup from the desk."""
+    slots = Slots(clause, scope)
+    if slots.take_person("to", "for", "") is not None:
+        raise Misfit("that is to bring something")
+    objects = slots.objects()
+    if not objects and scope.object:
+        objects = [scope.object]
+    need(objects, "What shall I pick up?")
+    at = slots.loose_place()
+    slots.done()
+    return [Pick(object=replace(o, at=o.at or at)) for o in objects]
+
+
+def take(clause: Clause, scope: Scope) -> list[Goal]:
+    """Take or get: to bring if there is a receiver, to place if there is a destination."""
+    roles = [c.role for c in clause.complements if c.phrases]
+    has_receiver = any(
+        c.phrases and c.role in ("", "for") and is_person(c.phrase, scope)
+        for c in clause.complements
+    )
+    if not roles and clause.measure("length"):
+        return motion.go(clause, scope)
+    if "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
+        return [_put_down(goal) for goal in bring(clause, scope)]
+    return pick(clause, scope)
+
+
+def _put_down(goal: Goal) -> Goal:
+    """To take something to a place is to put it there."""
+    if isinstance(goal, Bring) and isinstance(goal.to, str):
+        return Place(object=goal.object, on=goal.to)
+    return goal
+
+
+def bring(clause: Clause, scope: Scope) -> list[Goal]:
+    """Bring me a drink from the cabinet; bring the cup to the desk."""
+    slots = Slots(clause, scope)
+    to = _receiver(slots)
+    if to is None:
+        to = _near_destination(slots)
+    objects = slots.objects()
+    need(objects, "What shall I bring?")
+    at = slots.loose_place()
+    slots.direction("backward")
+    slots.done()
+    return [
+        _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
+    ]
+
+
+def _receiver(slots: Slots) -> Person | str | None:
+    """Who or where to, without a preposition or with "to"."""
+    scope = slots.scope
+    goal = slots.take("to", "into")
+    if goal is None:
+        person = slots.take_person("", "for")
+        here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
+        if here:
+            slots.rest.remove(here)
+        return person or (ME if here else None)
+    if is_person(goal.phrase, scope) or goal.phrase.noun in ("operator", "here"):
+        slots.take_person("for")
+        return to_person(goal.phrase, scope) if goal.phrase.noun != "here" else ME
+    if goal.phrase.noun == "unknown":
+        return _unknown_receiver(goal, scope)
+    place = to_place(goal.phrase, scope, objects=True)
+    return ME if place == OPERATOR else place
+
+
+def _unknown_receiver(goal: Complement, scope: Scope) -> str:
+    if goal.phrase.determiner:
+        return to_place(goal.phrase, scope)
+    raise NotUnderstood(f"I know no person or place called “{goal.phrase.said}”")
+
+
+def _near_destination(slots: Slots) -> str | None:
+    """Carry the vase up to the piano."""
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    if bare and bare.phrase.places and bare.phrase.places[-1].how == "near":
+        place = detach_place(bare.phrase)
+        return to_place(place.of, slots.scope) if place and is_spot(place.of) else None
+    return None
+
+
+def give(clause: Clause, scope: Scope) -> list[Goal]:
+    """Give it to Julia; give me the vase from the piano (which is to bring)."""
+    slots = Slots(clause, scope)
+    to = _receiver(slots) or ME
+    if isinstance(to, str):
+        raise Misfit(f"I can give things to people, not to the {to}")
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    held = bare is None or bare.phrase.noun == "pronoun"
+    objects = slots.objects() or [scope.object or ObjectQuery(held=True)]
+    at = slots.loose_place()
+    slots.done()
+    if held:
+        return [Give(object=replace(o, at=None), to=to) for o in objects]
+    return [_each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to)) for o in objects]
+
+
+def want(clause: Clause, scope: Scope) -> list[Goal]:
+    """I want the leftmost object; can I have a drink."""
+    slots = Slots(clause, scope)
+    objects = slots.objects()
+    need(objects, "What shall I bring?")
+    slots.take_person("for")
+    slots.done()
+    return [_each(o, lambda q: Bring(object=q, to=ME)) for o in objects]
+
+
+def put(clause: Clause, scope: Scope) -> list[Goal]:
+    """Put the cup on the shelf."""
+    slots = Slots(clause, scope)
+    spot = _destination(slots)
+    objects = slots.objects()
+    if not objects:
+        objects = [scope.object or ObjectQuery(held=True)]
+    if spot is None and _throws(clause):
+        spot = ("in", _trash(scope))
+    down = clause.sense == "drop" or "down" in clause.particles()
+    if spot is None and not down:
+        raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
+    slots.done()
+    return [_each(o, lambda q: _place(q, spot)) for o in objects]
+
+
+def _throws(clause: Clause) -> bool:
+    return clause.verb.split()[0].startswith(_THROW) or "rid" in clause.verb
+
+
+def _trash(scope: Scope) -> str:
+    known = scope.index.exact("trash can") or scope.index.exact("trash")
+    if not known:
+        raise Unclear("Where shall I throw it?")
+    return known[0].name
+
+
+def _place(query: ObjectQuery, spot: tuple[str, str] | None) -> Place:
+    if spot is None:
+        return Place(object=query)
+    how, where = spot
+    return Place(object=query, in_=where) if how == "in" else Place(object=query, on=where)
+
+
+def _destination(slots: Slots) -> tuple[str, str] | None:
+    """Whether on or in, and which place."""
+    goal = slots.take("to", "into")
+    if goal:
+        how = "in" if goal.role == "into" else "on"
+        return _spot(Locative("in" if how == "in" else "on", goal.phrase), slots.scope)
+    at = slots.take("at")
+    if at:
+        return _spot(Locative(at.how, at.phrase), slots.scope)
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    place = detach_place(bare.phrase) if bare else None
+    return _spot(place, slots.scope) if place else None
+
+
+def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
+    if is_person(place.of, scope):
+        raise Misfit("I can put things on or in places; to people I give them")
+    if place.how not in ("on", "in", None, "near", "above"):
+        raise NotUnderstood(
+            f"I can put things on or in a place, not {place.how.replace('_', ' ')} one"
+        )
+    near_object = place.how == "near" and not is_spot(place.of) and place.of.name("object")
+    if near_object:
+        raise NotUnderstood("I can put things on or in a place, not next to another object")
+    where = to_place(place.of, scope, objects=True)
+    if where == OPERATOR:
+        raise Unclear("Where shall I put it?")
+    return ("in" if place.how == "in" else "on"), where
+
+
+def _each(query: ObjectQuery, goal_of: Callable[[ObjectQuery], Goal]) -> Goal:
+    """The goal with an object, or once with each of all objects."""
+    if query.count != "all" or query.held:
+        return goal_of(query)
+    one = replace(query, count=None)
+    return ForEach(object=one, goals=(goal_of(ObjectQuery(held=True)),))

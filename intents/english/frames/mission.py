@@ -1,0 +1,58 @@
+"""Stopping, pausing and reporting: about the mission and the robot, not about the world."""
+
+from intents.english.clauses import Clause
+from intents.english.frames.slots import Slots
+from intents.english.referents import Scope
+from intents.english.trouble import Misfit
+from intents.goals import Cancel, Goal, Pause, Report, ReportTopic, Resume, Stop, Wait
+
+
+def stop(clause: Clause, scope: Scope) -> list[Goal]:
+    """Stop, with whatever is said after it."""
+    del clause, scope
+    return [Stop()]
+
+
+def pause(clause: Clause, scope: Scope) -> list[Goal]:
+    """Pause; with a duration it is to wait."""
+    slots = Slots(clause, scope)
+    duration = slots.measure("time")
+    slots.done()
+    return [Pause() if duration is None else Wait(duration_s=duration)]
+
+
+def resume(clause: Clause, scope: Scope) -> list[Goal]:
+    """Go on."""
+    if clause.complements:
+        raise Misfit("I can only go on with what I was doing")
+    del scope
+    return [Resume()]
+
+
+def cancel(clause: Clause, scope: Scope) -> list[Goal]:
+    """Give up the mission."""
+    if any(c.phrases and c.phrase.noun not in ("pronoun",) for c in clause.complements):
+        raise Misfit("I can only cancel what I am doing")
+    del scope
+    return [Cancel()]
+
+
+_TOPICS: tuple[tuple[str, ReportTopic], ...] = (
+    ("see", "seeing"), ("surroundings", "seeing"), ("holding", "holding"), ("health", "health"),
+    ("battery", "health"), ("check", "health"), ("location", "location"),
+    ("position", "location"), ("where", "location"),
+)  # fmt: skip
+
+
+def report(clause: Clause, scope: Scope) -> list[Goal]:
+    """Report your status, your health, what you see."""
+    slots = Slots(clause, scope)
+    said = " ".join([clause.verb, *(c.phrase.said for c in slots.rest if c.phrases)])
+    about = ("status", "health", "position", "location", "state", "battery")
+    slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said in about)]
+    slots.take_person("to", "")
+    slots.done()
+    topic: ReportTopic = "status"
+    for word, named in reversed(_TOPICS):
+        topic = named if word in said else topic
+    return [Report(topic=topic)]

@@ -1,0 +1,174 @@
+"""Going, turning, waiting, looking."""
+
+from math import pi
+
+from msgspec.structs import replace
+
+from intents.english.clauses import Clause
+from intents.english.frames.slots import Slots, is_person, need
+from intents.english.measures import STEP_M
+from intents.english.noun_phrases import NounPhrase
+from intents.english.referents import Scope, to_object, to_person, to_place
+from intents.english.trouble import Misfit
+from intents.goals import (
+    OPERATOR,
+    Displacement,
+    Find,
+    Goal,
+    GoTo,
+    LookAt,
+    Wait,
+)
+
+_FULL_TURN = 2 * pi
+_BY = ("forward", "backward", "left", "right")
+
+
+def go(clause: Clause, scope: Scope) -> list[Goal]:
+    """Go to the kitchen; walk two metres forward; come here."""
+    slots = Slots(clause, scope)
+    target = slots.take("to", "into", "at", "through") or slots.take("")
+    source = slots.take("from")
+    distance = slots.measure("length")
+    direction = slots.direction(*_BY)
+    slots.direction("around", "up", "down")
+    second = slots.take("at", "")
+    if target and second and target.phrase.noun in ("here", "there"):
+        target = second
+    elif second:
+        raise Misfit(f"“{second.phrase.said}” is one place too many")
+    if target is None and (distance is not None or direction or clause.vague()):
+        slots.done()
+        return [_step(direction or _implied(clause), distance, vague=clause.vague())]
+    if target is None and clause.verb.startswith(("come", "return", "get back", "go back")):
+        slots.done()
+        return [GoTo(place=OPERATOR)]
+    if target is None and clause.vague() is False and source is None:
+        need(None, "Where shall I go?")
+    if target is None or source is not None:
+        raise Misfit("I need to know where to go to")
+    slots.done()
+    return [_towards(clause, scope, target.phrase)]
+
+
+def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
+    if phrase.noun == "operator" or (clause.verb.startswith("come") and phrase.noun == "here"):
+        return GoTo(place=OPERATOR)
+    if is_person(phrase, scope):
+        return Find(person=to_person(phrase, scope))
+    if phrase.name("object") and not phrase.name("place", "room"):
+        if phrase.noun == "name" and clause.verb in ("move", "run", "drive"):
+            raise Misfit("that is to bring something somewhere")
+        return Find(object=to_object(phrase, scope))
+    return GoTo(place=to_place(phrase, scope))
+
+
+def _implied(clause: Clause) -> str:
+    return "backward" if clause.verb.startswith(("back", "return", "go back")) else "forward"
+
+
+def _step(direction: str, distance: float | None, *, vague: bool) -> GoTo:
+    """A walk of some distance; a step where none was said, less for "a bit"."""
+    length = distance if distance is not None else STEP_M / 2 if vague else STEP_M
+    signed = round(-length if direction in ("backward", "right") else length, 4)
+    if direction in ("left", "right"):
+        return GoTo(by=Displacement(left_m=signed))
+    return GoTo(by=Displacement(forward_m=signed))
+
+
+def leave(clause: Clause, scope: Scope) -> list[Goal]:
+    """Leave the apartment: go to the exit."""
+    slots = Slots(clause, scope)
+    target = slots.take("", "from", "through")
+    exit_to = slots.take("to")
+    slots.done()
+    if exit_to:
+        return [GoTo(place=to_place(exit_to.phrase, scope))]
+    if target and target.phrase.name("object"):
+        raise Misfit("that is to put something down")
+    if target and "exit" not in clause.verb and target.phrase.places:
+        raise Misfit("that is to put something down")
+    way_out = next((n for w in ("exit", "door", "entrance") for n in scope.index.exact(w)), None)
+    return [GoTo(place=way_out.name if way_out else "exit")]
+
+
+def turn(clause: Clause, scope: Scope) -> list[Goal]:
+    """Turn left; turn ninety degrees to the right; turn around; face the table."""
+    slots = Slots(clause, scope)
+    angle = slots.measure("angle")
+    direction = slots.direction("left", "right", "around", "backward", "cw", "ccw")
+    second = slots.direction("left", "right", "cw", "ccw")
+    target = slots.take("to", "at") or slots.take("")
+    slots.done()
+    if target:
+        return [_look(target.phrase, scope)]
+    if clause.verb.endswith(("around", "round")):
+        direction = direction or "around"
+    if not direction and angle is None and clause.verb == "face":
+        raise Misfit("face what?")
+    if angle is None:
+        half = direction in ("around", "backward")
+        whole = clause.verb.startswith("spin") or not direction
+        angle = _FULL_TURN if whole else pi if half else pi / 2
+    sign = -1.0 if "right" in (direction, second) or "cw" in (direction, second) else 1.0
+    return [GoTo(by=Displacement(turn_rad=round(sign * angle, 6)))]
+
+
+def look(clause: Clause, scope: Scope) -> list[Goal]:
+    """Look at the table; inspect the sink; look left."""
+    slots = Slots(clause, scope)
+    target = slots.take("", "at", "to", "into", "through")
+    direction = slots.direction("left", "right", "up", "down", "forward", "backward", "around")
+    if target is None:
+        need(direction, "What shall I look at?")
+        slots.done()
+        return [LookAt(place={"forward": "ahead", "backward": "behind"}.get(direction, direction))]
+    slots.done()
+    return [_look(target.phrase, scope)]
+
+
+def _look(phrase: NounPhrase, scope: Scope) -> LookAt:
+    if is_person(phrase, scope) or phrase.noun == "operator":
+        return LookAt(person=to_person(phrase, scope))
+    if phrase.name("place", "room") and not phrase.name("object"):
+        return LookAt(place=to_place(phrase, scope))
+    if phrase.noun in ("here", "there"):
+        return LookAt(place=to_place(phrase, scope))
+    return LookAt(object=to_object(phrase, scope, spots=True))
+
+
+def find(clause: Clause, scope: Scope) -> list[Goal]:
+    """Find the cup; look for Julia in the kitchen; search the bedroom for my phone."""
+    slots = Slots(clause, scope)
+    sought = slots.take("for")
+    searched = slots.take("") if sought else None
+    if sought is None:
+        sought = slots.take("", "through")
+    need(sought, "What shall I look for?")
+    if sought is None:
+        return []
+    area = searched or slots.take("at", "from", "into")
+    at = to_place(area.phrase, scope) if area else None
+    slots.take_person("for")
+    slots.done()
+    return [_find(phrase, scope, at) for phrase in sought.phrases]
+
+
+def _find(phrase: NounPhrase, scope: Scope, at: str | None) -> Find:
+    if is_person(phrase, scope):
+        person = to_person(phrase, scope)
+        return Find(person=replace(person, at=person.at or at))
+    query = to_object(phrase, scope, spots=True)
+    return Find(object=replace(query, at=query.at or at))
+
+
+def wait(clause: Clause, scope: Scope) -> list[Goal]:
+    """Wait five seconds; wait here; stay at the door for a minute."""
+    slots = Slots(clause, scope)
+    duration = slots.measure("time")
+    place = slots.take("at", "")
+    slots.done()
+    pause: list[Goal] = [Wait(duration_s=duration)]
+    if place is None or place.phrase.noun in ("here", "there"):
+        return pause
+    return [GoTo(place=to_place(place.phrase, scope)), *pause]

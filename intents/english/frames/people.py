@@ -1,0 +1,80 @@
+"""Following, guiding, meeting and greeting."""
+
+from msgspec.structs import replace
+
+from intents.english.clauses import Clause
+from intents.english.frames.slots import Slots, need
+from intents.english.referents import ME, Scope, to_place
+from intents.english.trouble import Misfit
+from intents.goals import OPERATOR, Follow, Goal, Greet, Guide, Meet, Person
+
+
+def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
+    """Whom it is about, with where they are; the last one spoken of if nobody is named."""
+    people = slots.persons()
+    if not people:
+        person = slots.take_person(*roles)
+        people = [person] if person else [slots.scope.person] if slots.scope.person else []
+    need(people, question)
+    at = slots.source() or slots.loose_place()
+    return [replace(p, at=p.at or at) for p in people]
+
+
+def _destination(slots: Slots) -> str | None:
+    """Where to; "back" and "here" are to the operator."""
+    goal = slots.take("to", "into", "through")
+    if goal:
+        return to_place(goal.phrase, slots.scope)
+    here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
+    if here:
+        slots.rest.remove(here)
+        return OPERATOR
+    return OPERATOR if slots.direction("backward") else None
+
+
+def follow(clause: Clause, scope: Scope) -> list[Goal]:
+    """Follow Liam from the desk to the office."""
+    slots = Slots(clause, scope)
+    to = _destination(slots)
+    people = _someone(slots, "Whom shall I follow?", "at", "with")
+    slots.direction("forward", "around")
+    slots.done()
+    return [Follow(person=p, to=to) for p in people]
+
+
+def guide(clause: Clause, scope: Scope) -> list[Goal]:
+    """Guide Julia from the desk to the exit."""
+    slots = Slots(clause, scope)
+    to = _destination(slots)
+    if any(c.phrases and c.role == "" and not c.phrase.is_person for c in slots.rest):
+        bare = slots.take("")
+        if bare and bare.phrase.noun != "pronoun":
+            raise Misfit(f"“{bare.phrase.said}” is not a person I could guide")
+        if bare:
+            slots.rest.insert(0, bare)
+    people = _someone(slots, "Whom shall I guide?", "with")
+    slots.direction("forward", "around", "up", "down")
+    slots.done()
+    return [Guide(person=p, to=to) for p in people]
+
+
+def meet(clause: Clause, scope: Scope) -> list[Goal]:
+    """Meet Liam at the desk."""
+    slots = Slots(clause, scope)
+    people = _someone(slots, "Whom shall I meet?", "with", "to")
+    slots.done()
+    return [Meet(person=p) for p in people]
+
+
+def greet(clause: Clause, scope: Scope) -> list[Goal]:
+    """Say hello to Julia; introduce yourself."""
+    slots = Slots(clause, scope)
+    people = slots.persons()
+    other = slots.take_person("to", "for", "with")
+    if people and other:
+        raise Misfit("I can introduce myself, not people to one another")
+    if not people:
+        people = [other or scope.person or Person()]
+    at = slots.source() or slots.loose_place()
+    slots.done()
+    return [Greet(person=p if p == ME else replace(p, at=p.at or at)) for p in people]

@@ -1,0 +1,110 @@
+"""The complements of a clause, handed out one by one; what no frame asks for is an error."""
+
+from msgspec.structs import replace
+
+from intents.english.clauses import Clause, Complement
+from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.referents import Scope, is_person, is_spot, to_object, to_person, to_place
+from intents.english.trouble import Misfit, Unclear
+from intents.goals import ObjectQuery, Person
+
+
+class Slots:
+    """The complements of a clause that are still to be understood."""
+
+    def __init__(self, clause: Clause, scope: Scope) -> None:
+        self.clause = clause
+        self.scope = scope
+        self.rest: list[Complement] = list(clause.complements)
+
+    def take(self, *roles: str) -> Complement | None:
+        """The first complement with one of these roles; "" is a bare noun phrase."""
+        for complement in self.rest:
+            if complement.phrases and complement.role in roles:
+                self.rest.remove(complement)
+                return complement
+        return None
+
+    def take_person(self, *roles: str) -> Person | None:
+        """The first complement with one of these roles that is a person."""
+        for complement in self.rest:
+            fits = complement.phrases and complement.role in roles
+            if fits and is_person(complement.phrase, self.scope):
+                self.rest.remove(complement)
+                return to_person(complement.phrase, self.scope)
+        return None
+
+    def measure(self, kind: str) -> float | None:
+        """The quantity of a kind, in SI."""
+        for complement in self.rest:
+            if complement.measure and complement.measure.kind == kind:
+                self.rest.remove(complement)
+                return complement.measure.value
+        return None
+
+    def direction(self, *wanted: str) -> str:
+        """The first direction said, of those wanted."""
+        for complement in self.rest:
+            if complement.direction in wanted:
+                self.rest.remove(complement)
+                return complement.direction or ""
+        return ""
+
+    def objects(self, *, spots: bool = False) -> list[ObjectQuery]:
+        """The bare noun phrases as objects, with "from" and loose places as where they are."""
+        bare = self.take("")
+        if bare is None:
+            return []
+        found = [to_object(p, self.scope, spots=spots) for p in bare.phrases]
+        at = self.source()
+        return [replace(o, at=o.at or at) for o in found] if at else found
+
+    def source(self) -> str | None:
+        """The place after "from"."""
+        source = self.take("from")
+        return to_place(source.phrase, self.scope, objects=True) if source else None
+
+    def loose_place(self) -> str | None:
+        """A place that is not attached to a noun: "at the desk, find ..."."""
+        at = self.take("at")
+        return to_place(at.phrase, self.scope) if at else None
+
+    def persons(self) -> list[Person]:
+        """The bare noun phrases as people."""
+        bare = self.take("")
+        return [to_person(p, self.scope) for p in bare.phrases] if bare else []
+
+    def done(self) -> None:
+        """All that was said has been understood.
+
+        Raises:
+            Misfit: It has not.
+        """
+        for complement in self.rest:
+            if complement.phrases:
+                said = complement.phrase.said
+                raise Misfit(f"I do not see what “{said}” has to do with “{self.clause.verb}”")
+            if complement.measure:
+                kind = {"length": "distance", "time": "duration"}.get(
+                    complement.measure.kind, complement.measure.kind
+                )
+                if kind != "times":
+                    raise Misfit(f"I do not know what a {kind} means for “{self.clause.verb}”")
+
+
+def detach_place(phrase: NounPhrase) -> Locative | None:
+    """Take the last place off a noun phrase: put [the cup] [on the table]."""
+    return phrase.places.pop() if phrase.places else None
+
+
+def need(value: object, question: str) -> None:
+    """Ask, where something is missing.
+
+    Raises:
+        Unclear: It is.
+    """
+    if not value:
+        raise Unclear(question)
+
+
+__all__ = ["Slots", "detach_place", "is_person", "is_spot", "need"]

@@ -1,0 +1,375 @@
+"""Noun phrases: "the three largest red cups on the table in the kitchen".
+
+A noun phrase is read in three parts: what stands before the noun (how many, which, what colour),
+the noun (a name of the vocabulary, a word like "thing" or "person", or a word not known), and what
+follows it (see :mod:`intents.english.postmodifiers`). Nothing is decided here about what the
+phrase is for; :mod:`intents.english.referents` turns it into an object, a person or a place.
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from intents.english import lexicon
+from intents.english.lexer import QUOTE
+from intents.english.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
+from intents.english.measures import NUMBER_WORDS, UNIT_WORDS, number
+from intents.english.names import Match, Name
+from intents.english.text import Text
+from intents.english.verbs import verbs_at
+from intents.goals import Clothing, How, Superlative
+
+Noun = Literal[
+    "name", "object", "person", "place", "one", "body", "pronoun", "operator", "here", "there",
+    "unknown",
+]  # fmt: skip
+
+
+@dataclass(slots=True)
+class Locative:
+    """Where something is: a preposition and what follows it; ``how`` None is plain "at"."""
+
+    how: How | None
+    of: "NounPhrase"
+
+
+@dataclass(slots=True)
+class NounPhrase:
+    """What was said of a thing, a person or a place, in words ``start`` to ``end``.
+
+    Attributes:
+        noun: What kind of noun it has; "name" means ``names`` holds names of the vocabulary.
+        said: The noun as it was said.
+        exact: The noun is a whole name, not a part of one.
+        names: What the noun can stand for; several names of one kind mean that it is ambiguous.
+        side: "left" or "right", of the body or of several things.
+        places: Where it is, in the order said.
+    """
+
+    start: int
+    end: int
+    noun: Noun = "unknown"
+    said: str = ""
+    exact: bool = True
+    names: tuple[Name, ...] = ()
+    determiner: str = ""
+    color: str | None = None
+    size: str | None = None
+    superlative: Superlative | None = None
+    count: int | Literal["all"] | None = None
+    gender: Literal["male", "female"] | None = None
+    posture: Literal["sitting", "standing", "lying"] | None = None
+    gesture: str | None = None
+    wearing: Clothing | None = None
+    side: str = ""
+    level: str = ""
+    places: list[Locative] = field(default_factory=list[Locative])
+
+    @property
+    def is_person(self) -> bool:
+        """It can only be a person."""
+        marked = self.gender or self.gesture or self.wearing
+        return self.noun in ("person", "operator") or bool(marked) or self.name("person") != ""
+
+    def name(self, *kinds: str) -> str:
+        """The first name of these kinds, or an empty string."""
+        return next((n.name for kind in kinds for n in self.names if n.kind == kind), "")
+
+    def all_names(self, *kinds: str) -> list[str]:
+        """All names of these kinds."""
+        return list(dict.fromkeys(n.name for n in self.names if n.kind in kinds))
+
+
+_NO_NOUN = lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
+
+
+def is_content(text: Text, at: int) -> bool:
+    """Whether a word can be part of a noun: no function word, number or sign."""
+    word = text.word(at)
+    return word[0].isalpha() and word not in _NO_NOUN
+
+
+def noun_phrase(text: Text, start: int) -> NounPhrase | None:
+    """The noun phrase that begins at a word, as long as it goes."""
+    from intents.english.postmodifiers import read_postmodifiers
+
+    phrase = _pronoun(text, start) or _full(text, start)
+    if phrase is None:
+        return None
+    read_postmodifiers(text, phrase)
+    return phrase
+
+
+def _pronoun(text: Text, start: int) -> NounPhrase | None:
+    """Me, it, them, here: a phrase of one word."""
+    word = text.word(start)
+    if word in lexicon.OPERATOR_WORDS and not text.name_at(start):
+        return NounPhrase(start, start + 1, noun="operator", said=word)
+    if word in ("the", "your") and text.word(start + 1) in ("operator", "user"):
+        return NounPhrase(start, start + 2, noun="operator", said="operator")
+    if word in ("here", "there", "back"):
+        noun: Noun = "there" if word == "there" else "here"
+        return NounPhrase(start, start + 1, noun=noun, said=word)
+    if word in ("over", "right") and text.word(start + 1) in ("here", "there"):
+        noun = "here" if text.word(start + 1) == "here" else "there"
+        return NounPhrase(start, start + 2, noun=noun, said=noun)
+    if word not in lexicon.PRONOUNS:
+        return None
+    determines = word in DETERMINERS and is_content(text, start + 1)
+    if determines and (not verbs_at(text.words, start + 1) or text.name_at(start + 1)):
+        return None
+    if word == "this" and number(text.words, start + 1):
+        return None
+    end = start + 2 if text.word(start + 1) in ("both", "all") else start + 1
+    return NounPhrase(start, end, noun="pronoun", said=word)
+
+
+def _full(text: Text, start: int) -> NounPhrase | None:
+    phrase = NounPhrase(start, start)
+    at = _read_quantity(text, phrase, start)
+    at = _read_adjectives(text, phrase, at)
+    end = _read_noun(text, phrase, at)
+    if end is None and at > start:
+        end = _elliptic(text, phrase, at)
+    if end is None:
+        return None
+    phrase.end = end
+    return _owned(text, phrase)
+
+
+def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """A phrase without a noun: "the blue", "the largest", "all of them", "two"."""
+    if text.word(at) == "of":
+        return at if phrase.count else None
+    told_apart = phrase.color or phrase.size or phrase.superlative or phrase.level
+    if phrase.determiner and told_apart:
+        phrase.noun, phrase.said = "one", "one"
+        return at
+    return None
+
+
+def _owned(text: Text, phrase: NounPhrase) -> NounPhrase | None:
+    """Julia's cup, the kitchen's table: the owner is passed over, a room says where."""
+    from intents.english.properties import is_property
+
+    if text.word(phrase.end) != "'s" or not is_content(text, phrase.end + 1):
+        return phrase
+    if is_property(text, phrase.end + 1):
+        return phrase
+    owned = _full(text, phrase.end + 1)
+    if owned is None:
+        return phrase
+    owned.start = phrase.start
+    if phrase.name("room", "place") and owned.noun == "name":
+        owned.places.append(Locative("in", phrase))
+    return owned
+
+
+def _read_quantity(text: Text, phrase: NounPhrase, at: int) -> int:
+    """All, both, every, the, my, three: up to where adjectives begin."""
+    while True:
+        word = text.word(at)
+        if word in ALL:
+            phrase.count = 2 if word == "both" else "all"
+            at += 1
+        elif word in DETERMINERS:
+            phrase.determiner = word
+            at += 1
+        elif word == "of" and phrase.count and text.word(at + 1) in DETERMINERS | {"them"}:
+            at += 1
+        else:
+            amount = None if text.name_at(at) else number(text.words, at)
+            ordinary = amount and amount.value == int(amount.value) and amount.value < 1000
+            if not ordinary or amount is None or text.word(amount.end) in UNIT_WORDS:
+                return at
+            if word == "one" and not is_content(text, amount.end):
+                return at
+            phrase.count = int(amount.value) if amount.value > 1 else None
+            phrase.determiner = phrase.determiner or "a"
+            at = amount.end
+
+
+def _read_adjectives(text: Text, phrase: NounPhrase, at: int) -> int:
+    """Colours, sizes, superlatives and the like, up to the noun."""
+    while True:
+        end = _read_adjective(text, phrase, at)
+        if end is None:
+            return at
+        at = end
+
+
+def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    word, match = text.word(at), text.name_at(at)
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most and (match is None or match.end <= most[1]):
+        phrase.superlative = most[0]
+        return most[1]
+    if match and (match.end > at + 1 or not is_content(text, at + 1)):
+        return None
+    if word in COLORS and not (match and verbs_at(text.words, at + 1)):
+        phrase.color = COLORS[word]
+        return at + 1
+    if match:
+        return None
+    return _read_common_adjective(text, phrase, at)
+
+
+def _read_common_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    word, followed = text.word(at), is_content(text, at + 1)
+    if word in SIZES and (followed or phrase.determiner) and word != "light":
+        phrase.size = SIZES[word]
+        return at + 1
+    if word in LEVELS and followed:
+        phrase.level = word
+        phrase.side = word if word in ("left", "right") else ""
+        return at + 1
+    amount = number(text.words, at)
+    if amount and followed and amount.value > 1 and amount.value == int(amount.value):
+        phrase.count = int(amount.value)
+        return amount.end
+    end = _read_person_adjective(text, phrase, at)
+    if end:
+        return end
+    if word in lexicon.EMPTY_ADJECTIVES and followed:
+        return at + 1
+    return None
+
+
+def _read_person_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Sitting, waving, male - before a person."""
+    word = text.word(at)
+    posture = text.lookup(lexicon.POSTURES, at)
+    end = posture[1] if posture else at + 1
+    if text.word(end) not in lexicon.PERSON_NOUNS | set(GENDERS):
+        return None
+    if posture:
+        phrase.posture = posture[0]
+    elif word == "waving":
+        phrase.gesture = "waving"
+    elif word in GENDERS:
+        phrase.gender = GENDERS[word]
+    elif word in ("young", "old", "tall", "short", "nice", "kind", "other"):
+        pass
+    else:
+        return None
+    return end
+
+
+def _read_noun(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The noun itself; None if there is none."""
+    word, match = text.word(at), text.name_at(at)
+    if match and match.end > at + 1:
+        return _read_name(text, phrase, match, at)
+    phrase.said = word
+    if word in GENDERS or word in lexicon.PERSON_NOUNS:
+        phrase.noun, phrase.gender = "person", GENDERS.get(word) or phrase.gender
+        if word in lexicon.EVERYONE:
+            phrase.count = "all"
+        return at + 1
+    if word in lexicon.OBJECT_NOUNS:
+        phrase.noun = "object"
+        return _something(text, phrase, at)
+    if match:
+        return _read_name(text, phrase, match, at)
+    if word in lexicon.ONES:
+        phrase.noun = "one"
+        return at + 1
+    if word in lexicon.BODY_NOUNS and phrase.determiner + phrase.side != "":
+        phrase.noun = "body"
+        return at + 1
+    if word in lexicon.PLACE_NOUNS and phrase.determiner:
+        phrase.noun = "place"
+        return at + 1
+    return _read_unknown(text, phrase, at)
+
+
+def _something(text: Text, phrase: NounPhrase, at: int) -> int:
+    """Something to drink is a drink, where there are drinks."""
+    purpose = {"drink": "drink", "eat": "food"}.get(text.word(at + 2), "")
+    if text.word(at + 1) == "to" and purpose:
+        named = text.index.exact(f"something to {text.word(at + 2)}") or text.index.exact(purpose)
+        phrase.noun, phrase.names = ("name", named) if named else ("unknown", ())
+        phrase.said = f"something to {text.word(at + 2)}"
+        return at + 3
+    if text.word(at) in ("everything",):
+        phrase.count = "all"
+    return at + 1
+
+
+def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
+    """A name, or a compound of names: the last one counts, a room before it says where."""
+    phrase.noun, phrase.names, phrase.said = (
+        "name",
+        match.names,
+        " ".join(text.words[at : match.end]),
+    )
+    end = match.end
+    _prefix_level(text, phrase)
+    if match.of("person") or text.word(end) == QUOTE:
+        return end
+    follower = text.name_at(end)
+    if follower and not follower.of("person"):
+        outer = NounPhrase(at, end, noun="name", said=phrase.said, names=match.names)
+        last = _read_name(text, phrase, follower, end)
+        if outer.name("room", "place") and not phrase.name("room"):
+            phrase.places.insert(0, Locative("in", outer))
+        return last
+    if text.word(end) in lexicon.OBJECT_NOUNS | lexicon.CONTAINERS:
+        return end + 1
+    if is_content(text, end) and not verbs_at(text.words, end) and not _names_person(text, end):
+        return _read_unknown_compound(text, phrase, at, end)
+    return end
+
+
+def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) -> int:
+    """A name before a word not known: "kitchen table" where there are only other tables."""
+    modifier = NounPhrase(at, end, noun="name", said=phrase.said, names=phrase.names)
+    phrase.names = ()
+    last = _read_unknown(text, phrase, end) or end
+    if phrase.names and modifier.name("room"):
+        phrase.places.insert(0, Locative("in", modifier))
+    else:
+        phrase.noun, phrase.names = "unknown", ()
+    phrase.said = " ".join(text.words[at:last])
+    return last
+
+
+def _names_person(text: Text, at: int) -> bool:
+    match = text.name_at(at)
+    person_word = text.word(at) in lexicon.PERSON_NOUNS or text.word(at) in GENDERS
+    return person_word or bool(match and match.of("person"))
+
+
+def _prefix_level(text: Text, phrase: NounPhrase) -> None:
+    """The upper shelf, where the world has an "upper shelf" or a "top shelf"."""
+    for level in LEVELS.get(phrase.level, ()):
+        for spelling in (f"{level} {phrase.said}", f"{phrase.said} {level}"):
+            named = text.index.exact(spelling)
+            if named:
+                phrase.names, phrase.level, phrase.side = named, "", ""
+                phrase.said = spelling
+                return
+
+
+def _read_unknown(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Words not known, up to a name that they describe ("mobile phone") or to their end."""
+    end = at
+    while end < at + 4 and is_content(text, end) and not _names_person(text, end):
+        fresh = end > at or not (phrase.determiner or phrase.color or phrase.size or phrase.level)
+        if fresh and verbs_at(text.words, end):
+            break
+        match = text.name_at(end)
+        if match and end > at and match.of("object", "place", "room"):
+            phrase.said = " ".join(text.words[at : match.end])
+            return _read_name(text, phrase, match, end)
+        end += 1
+    if end == at:
+        return None
+    phrase.noun, phrase.said = "unknown", " ".join(text.words[at:end])
+    _prefix_level(text, phrase)
+    if not phrase.names:
+        phrase.names, phrase.exact = text.index.partial(text.words[end - 1]), False
+    if phrase.names and end == at + 1:
+        phrase.noun = "name"
+    else:
+        phrase.names = ()
+    return end

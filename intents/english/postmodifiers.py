@@ -1,0 +1,229 @@
+"""What follows the noun: where it is, relative clauses, postures, gestures, clothes."""
+
+from intents.english import lexicon
+from intents.english.lexer import COMMA, singular
+from intents.english.lexicon import COLORS, DETERMINERS, LOCATIVES, POSTURES
+from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
+from intents.english.text import Text
+from intents.goals import Clothing
+
+_RELATIVE = lexicon.words("that which who whose")
+_RELATIVE_FILLERS = lexicon.words(
+    "is are was were has have currently now being there should be will can you i see find we "
+    "stands sits lies"
+) - {"stands", "sits", "lies"}  # fmt: skip
+_LYING_AROUND = lexicon.words(
+    "located placed situated found kept stored resting positioned put left sitting standing lying "
+    "laying hanging stays stands sits lies rests"
+)
+_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
+
+
+def read_postmodifiers(text: Text, phrase: NounPhrase) -> None:
+    """Read on from the noun; moves ``phrase.end``."""
+    while True:
+        end = _measured_out(text, phrase, phrase.end)
+        end = end or _modifier(text, phrase, phrase.end) or _relative(text, phrase, phrase.end)
+        if end is None:
+            return
+        phrase.end = end
+
+
+def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """A bottle *of water*, one *of the cups*, the couch *of the bedroom*."""
+    if text.word(at) != "of":
+        return None
+    inner = noun_phrase(text, at + 1)
+    if inner is None or inner.is_person:
+        return None
+    counted = phrase.noun in ("one", "object") or not phrase.said
+    said = singular(phrase.said.split()[-1]) if phrase.said else ""
+    if counted or (said in lexicon.CONTAINERS and (inner.names or not phrase.names)):
+        phrase.noun, phrase.names, phrase.said = inner.noun, inner.names, inner.said
+        phrase.color, phrase.size = phrase.color or inner.color, phrase.size or inner.size
+        phrase.places += inner.places
+        phrase.superlative = phrase.superlative or inner.superlative
+        return inner.end
+    if said in lexicon.CONTAINERS:
+        return inner.end
+    if inner.name("room"):
+        phrase.places.append(Locative("in", inner))
+        return inner.end
+    return None
+
+
+def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Who is waving; that weighs the least; which you see on the table."""
+    if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
+        at += 1
+    if text.word(at) not in _RELATIVE:
+        return None
+    at += 1
+    first = at
+    while text.word(at) in _RELATIVE_FILLERS:
+        at += 1
+    weight = {"least": "lightest", "most": "heaviest"}.get(text.word(at + 2))
+    if text.word(at) == "weighs" and weight:
+        phrase.superlative = "lightest" if weight == "lightest" else "heaviest"
+        return at + 3
+    end = _modifier(text, phrase, at) or _predicate(text, phrase, at)
+    if end:
+        return end
+    return at if text.words[first:at] and text.word(at - 1) in ("see", "find", "there") else None
+
+
+def _predicate(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """What can be said after "that is": red, the largest."""
+    at += text.word(at) in DETERMINERS
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most:
+        phrase.superlative = most[0]
+        return most[1] + (text.word(most[1]) in lexicon.ONES)
+    if text.word(at) in COLORS:
+        phrase.color = COLORS[text.word(at)]
+        return at + 1
+    return None
+
+
+def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    word = text.word(at)
+    if not word[0].isalpha() or (phrase.noun == "operator" and word != "in"):
+        return None
+    if phrase.noun in ("person", "pronoun") or phrase.is_person:
+        end = _of_person(text, phrase, at)
+        if end:
+            return end
+    if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
+        return _locative(text, phrase, at + 1)
+    if word in ("named", "called"):
+        inner = noun_phrase(text, at + 1)
+        if inner and inner.names:
+            phrase.noun, phrase.names, phrase.said = "name", inner.names, inner.said
+            return inner.end
+    if word == "with" and phrase.name("object", "category") and not phrase.is_person:
+        inner = noun_phrase(text, at + 1)
+        return inner.end if inner and inner.noun == "unknown" else None
+    return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """On the left, furthest to the right - and not "on the left of the cup"."""
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    begun = at
+    if most:
+        at = most[1]
+        if text.word(at) == "to":
+            at += 1
+    elif text.word(at) in ("on", "at", "to"):
+        at += 1
+    else:
+        return None
+    at += text.word(at) == "the"
+    at += text.word(at) == "far"
+    side = _LEFT_RIGHT.get(text.word(at))
+    follows = text.word(at + 1)
+    if follows in ("side", "hand"):
+        at += 1
+        follows = text.word(at + 1)
+    if side is None or follows in ("of", "to", "leg", "foot", "arm", "hand"):
+        return None
+    if text.word(begun) == "to" or phrase.noun in ("pronoun", "place", "body"):
+        return None
+    phrase.superlative = "leftmost" if side == "leftmost" else "rightmost"
+    return at + 1
+
+
+def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """In the kitchen, left of the cup."""
+    found = text.lookup(LOCATIVES, at)
+    if found is None or phrase.noun in ("body", "here", "there"):
+        return None
+    how, end = found
+    inner = noun_phrase(text, end)
+    if inner is None or inner.noun in ("body",) or inner.end == end:
+        return None
+    is_spot = phrase.noun == "name" and not phrase.name("object", "category", "person")
+    if is_spot and how in ("on", "in", None) and not inner.name("room") and how != "in":
+        return None
+    phrase.places.append(Locative(how, inner))
+    return inner.end
+
+
+def _of_person(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Postures, gestures and clothes."""
+    posture = text.lookup(POSTURES, at)
+    if posture:
+        phrase.posture = posture[0]
+        return posture[1]
+    gesture = _gesture(text, at)
+    if gesture:
+        phrase.gesture, end = gesture
+        return end
+    clothing = _clothing(text, at)
+    if clothing:
+        phrase.wearing, end = clothing
+        return end
+    return None
+
+
+def _gesture(text: Text, at: int) -> tuple[str, int] | None:
+    """Waving; raising their left arm; pointing to the right; with the left hand up."""
+    word, end = text.word(at), at + 1
+    if word in ("waving", "waves", "wave"):
+        return "waving", _past_limb(text, end)
+    if word in ("pointing", "points", "point"):
+        end += text.word(end) in ("to", "at", "towards", "toward")
+        end += text.word(end) in DETERMINERS
+        side = text.word(end)
+        if side not in ("left", "right"):
+            return None
+        return f"pointing {side}", end + 1 + (text.word(end + 1) in ("side", "direction"))
+    raising = word in ("raising", "raises", "raised", "lifting", "raise", "lifts")
+    if not raising and word not in ("with", "has", "having", "holding", "whose"):
+        return None
+    end += text.word(end) == "up"
+    end += text.word(end) in DETERMINERS
+    side, limb = text.word(end), text.word(end + 1)
+    if side not in ("left", "right") or limb not in ("arm", "hand"):
+        return None
+    after = _past_limb(text, end)
+    up = {("raised",): 0, ("up",): 0, ("in", "the", "air"): 0, ("lifted",): 0, ("up", "high"): 0}
+    lifted = text.lookup(up, after + (text.word(after) == "is"))
+    if not raising and not lifted:
+        return None
+    return f"raising {side} arm", lifted[1] if lifted else after
+
+
+def _past_limb(text: Text, at: int) -> int:
+    """Skip "their left hand", "at you"."""
+    end = at + (text.word(at) in DETERMINERS)
+    end += text.word(end) in ("left", "right")
+    if text.word(end) in ("hand", "arm", "hands", "arms"):
+        return end + 1
+    if text.word(at) in ("at", "to") and text.word(at + 1) in ("you", "me", "us"):
+        return at + 2
+    return at
+
+
+def _clothing(text: Text, at: int) -> tuple[Clothing, int] | None:
+    """Wearing a red shirt; in blue; with the black jacket."""
+    word, end = text.word(at), at + 1
+    if word == "dressed":
+        end += text.word(end) in ("in", "with")
+    elif word == "has" and text.word(end) == "on":
+        end += 1
+    elif word not in ("wearing", "wears", "wear", "in", "with"):
+        return None
+    firm = word in ("wearing", "wears", "wear", "dressed")
+    end += text.word(end) in DETERMINERS
+    color = COLORS.get(text.word(end))
+    end += color is not None
+    end += text.word(end) in ("colored", "coloured")
+    item = singular(text.word(end))
+    if item == "t" and text.word(end + 1) in ("shirt", "shirts"):
+        return Clothing(color=color, item="t shirt"), end + 2
+    if item in lexicon.CLOTHES:
+        return Clothing(color=color, item=item), end + 1
+    if firm and text.word(end)[0].isalpha() and text.word(end) not in lexicon.FUNCTION_WORDS:
+        return Clothing(color=color, item=item), end + 1
+    return (Clothing(color=color), end) if color else None

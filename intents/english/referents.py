@@ -1,0 +1,228 @@
+"""Noun phrases become objects, people and places; pronouns become what they stand for."""
+
+from dataclasses import dataclass
+from typing import cast
+
+from msgspec.structs import replace
+
+from intents.english.names import NameIndex
+from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
+from intents.goals import OPERATOR, Count, Find, Goal, LookAt, ObjectQuery, Person, Relation, Tell
+
+ME = Person(who="operator")
+_OBJECTS = ("object", "category")
+_SPOTS = ("place", "room")
+
+
+@dataclass(slots=True)
+class Scope:
+    """What pronouns stand for: the last object, person and place spoken of."""
+
+    index: NameIndex
+    object: ObjectQuery | None = None
+    person: Person | None = None
+    place: str | None = None
+    person_is_last: bool = False
+
+    def copy(self) -> "Scope":
+        """A scope that can be given up again."""
+        return Scope(self.index, self.object, self.person, self.place, self.person_is_last)
+
+    def mention(self, what: ObjectQuery | Person | str | None) -> None:
+        """Remember what has just been spoken of."""
+        if isinstance(what, ObjectQuery):
+            if what != ObjectQuery(held=True):
+                self.object, self.person_is_last = what, False
+        elif isinstance(what, Person):
+            if what.who != "operator":
+                self.person, self.person_is_last = what, True
+        elif what is not None and what != OPERATOR:
+            self.place = what
+
+    def mention_goal(self, goal: Goal) -> None:
+        """Remember what a goal speaks of; what it moves is no longer where it was."""
+        stays = isinstance(goal, Find | Count | Tell | LookAt)
+        for slot in ("object", "person", "place", "on", "in_", "to"):
+            value = cast("ObjectQuery | Person | str | None", getattr(goal, slot, None))
+            if value is None:
+                continue
+            if isinstance(value, ObjectQuery | Person):
+                self.mention(value.at)
+                value = value if stays else replace(value, at=None)
+            self.mention(value)
+        for nested in ("goals", "then", "else_"):
+            for inner in cast("tuple[Goal, ...]", getattr(goal, nested, ())):
+                self.mention_goal(inner)
+
+
+def is_person(phrase: NounPhrase, scope: Scope) -> bool:
+    """Whether a phrase speaks of a person rather than of a thing."""
+    if phrase.noun == "pronoun":
+        personal = phrase.said in ("him", "her", "he", "she")
+        plural = phrase.said in ("them", "they") and scope.person is not None
+        return personal or (plural and (scope.person_is_last or scope.object is None))
+    return phrase.is_person
+
+
+def is_spot(phrase: NounPhrase) -> bool:
+    """Whether a phrase names a place or room and nothing else."""
+    if phrase.noun in ("here", "there", "place"):
+        return True
+    return phrase.noun == "name" and not phrase.name(*_OBJECTS, "person")
+
+
+def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> ObjectQuery:
+    """The object that a phrase describes; with ``spots`` furniture counts as well.
+
+    Raises:
+        Misfit: It is no object.
+        NotUnderstood: It is not in the vocabulary.
+        Unclear: Several names of the vocabulary fit.
+    """
+    at, relation = _where(phrase, scope)
+    if phrase.noun == "pronoun":
+        known = scope.object or ObjectQuery(held=True)
+        return replace(known, at=at or known.at, relation=relation or known.relation)
+    if phrase.noun in ("operator", "person", "body", "here", "there", "place") or phrase.is_person:
+        raise Misfit(f"“{phrase.said}” is not an object")
+    name, category = _object_name(phrase, scope, spots)
+    superlative = phrase.superlative
+    if phrase.side and superlative is None:
+        superlative = "leftmost" if phrase.side == "left" else "rightmost"
+    return ObjectQuery(
+        name=name or None,
+        category=category or None,
+        color=phrase.color,
+        size=phrase.size,
+        superlative=superlative,
+        count=phrase.count,
+        at=at,
+        relation=relation,
+    )
+
+
+def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, str]:
+    """Name and category, of which at most one is not empty."""
+    if phrase.noun == "one" and scope.object:
+        return scope.object.name or "", scope.object.category or ""
+    if phrase.noun in ("object", "one"):
+        return "", ""
+    kinds = (*_OBJECTS, *_SPOTS) if spots else _OBJECTS
+    names = phrase.all_names(*kinds)
+    if phrase.noun == "unknown" or not names:
+        raise NotUnderstood(_unknown("object", phrase, scope, _OBJECTS))
+    if len(names) > 1 and not phrase.exact:
+        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names))
+    name = phrase.name("object", *(_SPOTS if spots else ()))
+    return (name, "") if name else ("", phrase.name("category"))
+
+
+def to_person(phrase: NounPhrase, scope: Scope) -> Person:
+    """The person that a phrase describes.
+
+    Raises:
+        Misfit: It is no person.
+        NotUnderstood: Nobody of that name is known.
+        Unclear: A pronoun stands for nobody.
+    """
+    if phrase.noun == "operator":
+        return ME
+    at, _ = _where(phrase, scope)
+    if phrase.noun in ("pronoun", "one"):
+        if scope.person is None:
+            raise Unclear("Who is meant?")
+        return replace(scope.person, at=at or scope.person.at)
+    if phrase.noun == "unknown" and not phrase.determiner:
+        raise NotUnderstood(_unknown("person", phrase, scope, ("person",)))
+    if not phrase.is_person:
+        raise Misfit(f"“{phrase.said}” is not a person")
+    return Person(
+        name=phrase.name("person") or None,
+        gender=phrase.gender,
+        posture=phrase.posture,
+        gesture=phrase.gesture,
+        wearing=phrase.wearing,
+        superlative=phrase.superlative,
+        count=phrase.count,
+        at=at,
+    )
+
+
+def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
+    """The place that a phrase names; with ``objects`` a box or a bowl will do.
+
+    Raises:
+        Misfit: It is no place.
+        NotUnderstood: It is not in the vocabulary.
+        Unclear: Several places fit.
+    """
+    if phrase.noun in ("here", "operator"):
+        return OPERATOR
+    if phrase.noun in ("there", "pronoun"):
+        if scope.place is None:
+            raise Unclear("Where is that?")
+        return scope.place
+    if phrase.noun == "place" and phrase.places:
+        return to_place(phrase.places[0].of, scope, objects=objects)
+    names = phrase.all_names(*_SPOTS) or (phrase.all_names("object") if objects else [])
+    if not names or phrase.level:
+        if phrase.is_person:
+            raise Misfit(f"“{phrase.said}” is not a place")
+        raise NotUnderstood(_unknown("place", phrase, scope, _SPOTS))
+    if len(names) > 1 and not phrase.exact:
+        inside = [n for n in names if any(p.of.name("room") in n for p in phrase.places)]
+        if phrase.places and len(inside) == 1:
+            return inside[0]
+        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names))
+    return names[0]
+
+
+def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | None]:
+    """The most precise place, and where it is relative to an object."""
+    rooms: list[str] = []
+    spots: list[str] = []
+    relation = None
+    for place in phrase.places:
+        named = _relation(place, scope)
+        if named:
+            relation = named
+            rooms += _rooms(place.of)
+            if place.of.places:
+                inner, _ = _where(place.of, scope)
+                spots += [inner] if inner else []
+        else:
+            name = to_place(place.of, scope)
+            (rooms if place.of.name("room") == name else spots).append(name)
+    return next(iter(spots + rooms), None), relation
+
+
+def _rooms(phrase: NounPhrase) -> list[str]:
+    return [p.of.name("room") for p in phrase.places if p.of.name("room")]
+
+
+def _relation(place: Locative, scope: Scope) -> Relation | None:
+    """Where it is relative to something that is not simply a place to be at."""
+    spot = place.of.noun in ("here", "there", "operator", "place") or bool(place.of.name(*_SPOTS))
+    if place.of.noun == "pronoun":
+        spot = scope.place is not None
+    unknown = place.of.noun == "unknown"
+    if unknown or place.of.is_person or (spot and place.how in (None, "on", "in", "near")):
+        return None
+    of = to_object(place.of, scope, spots=True)
+    return Relation(how=place.how or "near", of=replace(of, at=None))
+
+
+def _unknown(kind: str, phrase: NounPhrase, scope: Scope, kinds: tuple[str, ...]) -> str:
+    """Say what is not known, and the nearest names that are."""
+    said = f"{phrase.level} {phrase.said}".strip()
+    near = scope.index.nearest(phrase.said, kinds)
+    hint = f"; nearest: {listing(near)}" if near else ""
+    other = {"object": ("place", "room"), "place": ("object",), "person": ()}[kind]
+    if phrase.name(*other):
+        return f"“{said}” is not {'an' if kind == 'object' else 'a'} {kind} I can use here{hint}"
+    return f"I know no {kind} called “{said}”{hint}"
+
+
+def _the(names: list[str]) -> str:
+    return listing([f"the {name}" for name in names])

@@ -1,0 +1,195 @@
+"""Saying, telling and answering: verbs whose complement is words, not things."""
+
+from msgspec.structs import replace
+
+from intents.english import lexicon
+from intents.english.clauses import connector_end
+from intents.english.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.noun_phrases import NounPhrase, noun_phrase
+from intents.english.questions import Reading, question, small_talk
+from intents.english.referents import ME, Scope, is_person, to_person, to_place
+from intents.english.text import Text
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.verbs import verbs_at
+from intents.goals import Answer, Count, Goal, Person, Say, Tell
+
+_TO = lexicon.words("to for with")
+_ABOUT = lexicon.phrases(
+    "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
+)
+_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
+
+
+def content_end(text: Text, at: int) -> int:
+    """Where words to be said end: at a full stop, or where another command begins."""
+    end = at
+    while end < len(text) and text.word(end) != FULL_STOP:
+        aside = text.word(end) in ("she", "he", "they") and text.word(end + 1) in ("is", "are")
+        if aside and end > at + 1 and text.word(end - 1) not in lexicon.WH:
+            return end
+        after = connector_end(text, end) if text.word(end) != COMMA else end + 1
+        if after and text.word(end) == COMMA:
+            after = connector_end(text, after) or after
+        if after and end > at and verbs_at(text.words, after):
+            return end
+        end += 1
+    return end
+
+
+def _listener(text: Text, at: int, scope: Scope) -> NounPhrase | None:
+    """The person at a word, if one is there."""
+    if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
+        return None
+    phrase = noun_phrase(text, at)
+    return phrase if phrase and is_person(phrase, scope) else None
+
+
+def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person | None, int]:
+    """The person after the last "to", and where the words before it end."""
+    for to in range(end - 2, at - 1, -1):
+        if text.word(to) in _TO:
+            phrase = _listener(text, to + 1, scope)
+            if phrase and phrase.end >= end:
+                return to_person(phrase, scope), to
+    return None, end
+
+
+def say(text: Text, at: int, scope: Scope) -> Reading:
+    """Say something about yourself to the waving person; say "hello"."""
+    if text.word(at) == QUOTE:
+        end = content_end(text, at)
+        to, _ = _last_listener(text, at + 1, end, scope)
+        return [Say(what=text.tokens[at].raw, to=to)], end if to else at + 1
+    to = None
+    if text.word(at) in _TO:
+        first = _listener(text, at + 1, scope)
+        if first:
+            to, at = to_person(first, scope), first.end
+    asked = question(text, at, scope)
+    if asked and isinstance(asked[0][0], Count):
+        return _to_listener(text, asked, scope)
+    at += text.word(at) == "that"
+    end = content_end(text, at)
+    stop = end
+    if to is None:
+        to, stop = _last_listener(text, at, end, scope)
+    stop, here = _place_of_speech(text, at, stop, scope)
+    if stop <= at and text.word(at) != QUOTE:
+        if to is None:
+            raise Unclear("What shall I say?")
+        return [Say(what="something", to=to)], end
+    if here and to is None:
+        to = Person(at=here)
+    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
+    return [Say(what=what, to=to)], end
+
+
+def _place_of_speech(text: Text, at: int, end: int, scope: Scope) -> tuple[int, str | None]:
+    """Say the time *in the kitchen*: the place where it is to be said."""
+    for start in range(at + 1, end):
+        place = text.lookup(lexicon.LOCATIVES, start)
+        if place and place[0] in (None, "in"):
+            phrase = noun_phrase(text, place[1])
+            if phrase and phrase.end == end and phrase.name("room", "place"):
+                return start, to_place(phrase, scope)
+    return end, None
+
+
+def _to_listener(text: Text, reading: Reading, scope: Scope) -> Reading:
+    """Read on after a question: ... to the person at the sofa."""
+    goals, end = reading
+    if text.word(end) == "to":
+        phrase = _listener(text, end + 1, scope)
+        if phrase:
+            person = to_person(phrase, scope)
+            return [_addressed(g, person) for g in goals], phrase.end
+    return reading
+
+
+def _addressed(goal: Goal, person: Person) -> Goal:
+    return replace(goal, to=person) if isinstance(goal, Count | Tell | Say) else goal
+
+
+def tell(text: Text, at: int, scope: Scope) -> Reading:
+    """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
+    to: Person | None = None
+    if text.word(at) in _TO and text.word(at) != "for":
+        at += 1
+    first = _listener(text, at, scope)
+    if first and text.word(first.end) != "'s":
+        to, at = to_person(first, scope), first.end
+        at += text.word(at) == COMMA
+    at = text.phrase_end(_ABOUT, at) or at
+    at = text.phrase_end(_ABOUT, at) or at
+    asked = question(text, at, scope, to)
+    if asked and (to is None or to == ME or not isinstance(asked[0][0], Say)):
+        return _to_listener(text, asked, scope)
+    if to is not None and to != ME:
+        return _said_to(text, at, to, scope)
+    end = content_end(text, at)
+    listener, stop = _last_listener(text, at, end, scope)
+    if to is None and listener and listener != ME:
+        return [Say(what=text.raw(at, stop), to=listener)], end
+    talk = small_talk(text, at, stop)
+    if talk is None:
+        raise NotUnderstood(f"“{text.raw(at, end)}” is nothing I can find out" if end > at else
+                            "I do not know what to tell")  # fmt: skip
+    return [Say(what=talk.what, to=to)], end
+
+
+def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:
+    """Tell Julia what day it is."""
+    end = content_end(text, at)
+    if end == at:
+        raise Unclear("What shall I tell?")
+    stop, here = _place_of_speech(text, at, end, scope)
+    if here and to.at is None:
+        to = replace(to, at=here)
+    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
+    return [Say(what=what, to=to)], end
+
+
+def answer(text: Text, at: int, scope: Scope) -> Reading:
+    """Answer the question of the person; answer a quiz; answer "what is the time?"."""
+    asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
+    person = None
+    at += text.word(at) in ("to", "with")
+    first = _listener(text, at, scope)
+    if first:
+        person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
+    start = at
+    while text.word(at) in lexicon.DETERMINERS | {"any", "one", "to", "all", "of", "questions"}:
+        at += 1
+    if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
+        what = "quiz" if text.word(at).startswith("quiz") else "question"
+        at += text.word(at) in _QUESTION_WORDS
+        person, end = _asker(text, at, scope, person)
+        return [Answer(what=what, person=person)], end
+    if asks:
+        raise Misfit("ask what?")
+    return [Answer(what="question", person=person)], _read_out(text, start)
+
+
+def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Person | None, int]:
+    """Of the person in the kitchen; asked by Julia; you will be asked."""
+    skipped = lexicon.words("asked posed given that you will be are is which being they he she ask "
+                            "asks may have has from of by for to on in at about with")  # fmt: skip
+    where = text.lookup(lexicon.LOCATIVES, at)
+    if where and where[0] in (None, "in", "on", "near"):
+        phrase = noun_phrase(text, where[1])
+        if phrase and phrase.name("room", "place") and person is None:
+            return Person(at=to_place(phrase, scope)), phrase.end
+    end = at
+    while text.word(end) in skipped:
+        end += 1
+    phrase = _listener(text, end, scope) if end > at else None
+    if phrase and person is None:
+        return to_person(phrase, scope), phrase.end
+    return person, (phrase.end if phrase else end)
+
+
+def _read_out(text: Text, at: int) -> int:
+    """The question itself is read out: up to the end of its sentence."""
+    while at < len(text) and text.word(at) != FULL_STOP:
+        at += 1
+    return at

@@ -1,0 +1,243 @@
+"""Descriptions to ids: which of the things in the world is meant.
+
+What is there is given as plain :class:`Entity` values; this module knows no world model.
+Ambiguous and Unknown are values, with a question or the nearest names.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+
+import msgspec
+from msgspec.structs import replace
+from rapidfuzz import fuzz, process
+
+from intents.english.lexer import singular
+from intents.english.trouble import listing
+from intents.goals import Goal, ObjectQuery, Superlative
+
+
+class Entity(msgspec.Struct, frozen=True, kw_only=True):
+    """A thing in the world.
+
+    Attributes:
+        id: What the executive calls it.
+        size_m: Extents in x, y, z [m].
+        at: Place it is at, or empty.
+        room: Room it is in, or empty.
+        p_WO: Position in the world [m].
+        held: It is in the robot's hand.
+    """
+
+    id: str
+    name: str
+    category: str = ""
+    color: str = ""
+    size_m: tuple[float, float, float] | None = None
+    mass_kg: float | None = None
+    at: str = ""
+    room: str = ""
+    p_WO: tuple[float, float, float] | None = None
+    held: bool = False
+
+
+class Grounded(msgspec.Struct, frozen=True):
+    """Exactly one thing is meant (or, where several were asked for, exactly these)."""
+
+    id: str
+    ids: tuple[str, ...] = ()
+
+
+class Ambiguous(msgspec.Struct, frozen=True):
+    """Several things are meant; the question tells them apart.
+
+    Attributes:
+        candidates: Their ids.
+        labels: What tells each from the others, in the same order.
+    """
+
+    candidates: tuple[str, ...]
+    labels: tuple[str, ...]
+    question: str
+
+
+class Unknown(msgspec.Struct, frozen=True):
+    """Nothing fits.
+
+    Attributes:
+        what: The description in words.
+        nearest: Descriptions of things that come near.
+    """
+
+    what: str
+    nearest: tuple[str, ...] = ()
+
+    @property
+    def reason(self) -> str:
+        """The finding, for people."""
+        hint = f"; there is {listing(self.nearest)}" if self.nearest else ""
+        return f"there is no {self.what}{hint}"
+
+
+Grounding = Grounded | Ambiguous | Unknown
+
+_Measure = Callable[[Entity], float | None]
+
+
+def _volume(e: Entity) -> float | None:
+    return e.size_m[0] * e.size_m[1] * e.size_m[2] if e.size_m else None
+
+
+_RANKS: dict[Superlative, tuple[_Measure, int]] = {
+    "largest": (_volume, 1),
+    "smallest": (_volume, -1),
+    "heaviest": (lambda e: e.mass_kg, 1),
+    "lightest": (lambda e: e.mass_kg, -1),
+    "thickest": (lambda e: min(e.size_m) if e.size_m else None, 1),
+    "thinnest": (lambda e: min(e.size_m) if e.size_m else None, -1),
+    "tallest": (lambda e: e.size_m[2] if e.size_m else None, 1),
+    "shortest": (lambda e: e.size_m[2] if e.size_m else None, -1),
+    "highest": (lambda e: e.p_WO[2] if e.p_WO else None, 1),
+    "lowest": (lambda e: e.p_WO[2] if e.p_WO else None, -1),
+}
+"""Superlatives that need no point of view; the others are given as ``ranks``."""
+
+
+def ground(
+    query: ObjectQuery,
+    entities: Iterable[Entity],
+    *,
+    ranks: dict[Superlative, _Measure] | None = None,
+) -> Grounding:
+    """Which entity a description means.
+
+    Args:
+        query: The description; a count asks for several.
+        entities: What is known to be there.
+        ranks: How to measure superlatives that depend on where the robot stands (leftmost,
+            nearest); the largest measure wins.
+    """
+    known = list(entities)
+    fitting = [e for e in known if _fits(e, query)]
+    if not fitting:
+        return Unknown(describe(query), _nearest(query, known))
+    if query.superlative:
+        fitting = _most(fitting, query.superlative, ranks or {})
+    if query.size and len(fitting) > 1:
+        fitting = _sized(fitting, query.size)
+    if query.count == "all" or (query.count and len(fitting) >= query.count):
+        chosen = fitting if query.count == "all" else fitting[: query.count]
+        return Grounded(chosen[0].id, tuple(e.id for e in chosen))
+    if len(fitting) == 1:
+        return Grounded(fitting[0].id, (fitting[0].id,))
+    return _ambiguous(query, fitting)
+
+
+def _fits(entity: Entity, query: ObjectQuery) -> bool:
+    """Whether an entity is as described, leaving aside comparisons with others."""
+    near = query.at is None or query.at in (entity.at, entity.room) or entity.held
+    return (
+        (query.name is None or _alike(entity.name, query.name))
+        and (query.category is None or _alike(entity.category, query.category))
+        and (query.color is None or entity.color == query.color)
+        and near
+        and (not query.held or entity.held or query.name is not None)
+    )
+
+
+def _alike(one: str, other: str) -> bool:
+    return singular(one.lower()) == singular(other.lower())
+
+
+def _most(
+    entities: list[Entity], superlative: Superlative, ranks: dict[Superlative, _Measure]
+) -> list[Entity]:
+    """Those that are most so; all of them if that cannot be measured."""
+    measure, sign = (ranks[superlative], 1) if superlative in ranks else _RANKS.get(
+        superlative, (lambda _: None, 1)
+    )  # fmt: skip
+    measured = [(sign * value, e) for e in entities if (value := measure(e)) is not None]
+    if not measured:
+        return entities
+    best = max(value for value, _ in measured)
+    return [e for value, e in measured if value == best]
+
+
+def _sized(entities: list[Entity], size: str) -> list[Entity]:
+    """Of several, the big one is the largest and the small one the smallest."""
+    wanted: dict[str, Superlative] = {
+        "big": "largest", "small": "smallest", "tall": "tallest", "heavy": "heaviest",
+        "light": "lightest", "thin": "thinnest", "thick": "thickest", "short": "shortest",
+    }  # fmt: skip
+    return _most(entities, wanted[size], {}) if size in wanted else entities
+
+
+def _ambiguous(query: ObjectQuery, entities: Sequence[Entity]) -> Ambiguous:
+    """Tell them apart by the first of colour, name, place and size that does."""
+    labels = _labels(entities)
+    noun = query.name or query.category or "thing"
+    question = f"Which {noun}, {listing(labels)}?"
+    return Ambiguous(tuple(e.id for e in entities), tuple(labels), question)
+
+
+def _labels(entities: Sequence[Entity]) -> list[str]:
+    ways: tuple[Callable[[Entity], str], ...] = (
+        lambda e: f"the {e.color} one" if e.color else "",
+        lambda e: f"the {e.name}",
+        lambda e: f"the one at the {e.at}" if e.at else "",
+        lambda e: f"the {e.color} {e.name}" if e.color else "",
+        lambda e: f"the {e.color} one at the {e.at}" if e.color and e.at else "",
+        lambda e: f"the {e.color} {e.name} at the {e.at}" if e.color and e.at else "",
+    )
+    for way in ways:
+        labels = [way(e) for e in entities]
+        if all(labels) and len(set(labels)) == len(labels):
+            return labels
+    return [f"the {describe_entity(e)} ({e.id})" for e in entities]
+
+
+def narrowed(query: ObjectQuery, entity: Entity) -> ObjectQuery:
+    """The description with what tells this entity from others."""
+    return replace(
+        query,
+        name=entity.name,
+        category=None,
+        color=entity.color or query.color,
+        at=entity.at or query.at,
+    )
+
+
+def describe(query: ObjectQuery) -> str:
+    """A description in words: "red cup at the table"."""
+    noun = query.name or query.category or "object"
+    words = [query.superlative, query.size, query.color, noun]
+    place = f" at the {query.at}" if query.at else ""
+    return " ".join(w for w in words if w) + place
+
+
+def describe_entity(entity: Entity) -> str:
+    """An entity in words: "red cup"."""
+    return " ".join(w for w in (entity.color, entity.name) if w)
+
+
+def _nearest(query: ObjectQuery, entities: Sequence[Entity]) -> tuple[str, ...]:
+    """Things of the same name elsewhere or of other colour, else the nearest names."""
+    loose = replace(query, color=None, at=None, size=None, superlative=None, held=False)
+    same = [e for e in entities if _fits(e, loose)] if query.name or query.category else []
+    if same:
+        return tuple(dict.fromkeys(
+            f"a {describe_entity(e)}" + (f" at the {e.at}" if e.at else "") for e in same
+        ))[:3]  # fmt: skip
+    wanted = query.name or query.category or ""
+    names = sorted({describe_entity(e) for e in entities})
+    found = process.extract(wanted, names, scorer=fuzz.WRatio, limit=3)
+    return tuple(f"a {name}" for name, _, _ in found)
+
+
+def queries(goals: Iterable[Goal]) -> list[ObjectQuery]:
+    """The objects that goals want to get hold of, in order, each as it is first described."""
+    found: list[ObjectQuery] = []
+    for goal in goals:
+        if goal.__struct_config__.tag in ("pick", "bring", "place", "give", "look_at"):
+            query = getattr(goal, "object", None)
+            if isinstance(query, ObjectQuery) and not query.held and query not in found:
+                found.append(query)
+    return found

@@ -1,0 +1,76 @@
+"""What becomes of a sentence: goals, a question, or a refusal."""
+
+from typing import Literal
+
+import msgspec
+
+from intents.goals import Goal, ObjectQuery, to_builtins
+
+ParserName = Literal["grammar", "model", "stop"]
+
+
+class Goals(msgspec.Struct, frozen=True, kw_only=True):
+    """It can be carried out as said.
+
+    Attributes:
+        parser: Which parser understood it.
+        reason: How it was understood, where there is something to remark.
+        ms: How long that took [ms].
+    """
+
+    goals: tuple[Goal, ...]
+    parser: ParserName = "grammar"
+    reason: str | None = None
+    ms: float = 0.0
+
+
+class Choice(msgspec.Struct, frozen=True, kw_only=True):
+    """One possible answer to a question: what is said of it, and the query it stands for."""
+
+    label: str
+    query: ObjectQuery | None = None
+
+
+class Question(msgspec.Struct, frozen=True, kw_only=True):
+    """It could be carried out if one thing were known.
+
+    Attributes:
+        question: The question, for people.
+        choices: What can be answered, if the choice is limited.
+        goals: What would be done; ``about`` in it is what the question is about.
+        about: The description that fits several objects.
+        text: What was said.
+    """
+
+    question: str
+    choices: tuple[Choice, ...] = ()
+    goals: tuple[Goal, ...] = ()
+    about: ObjectQuery | None = None
+    text: str = ""
+    parser: ParserName = "grammar"
+    ms: float = 0.0
+
+
+class Refusal(msgspec.Struct, frozen=True, kw_only=True):
+    """It is not for this robot, or it was not understood; ``reason`` says which part and why."""
+
+    reason: str
+    parser: ParserName = "grammar"
+    ms: float = 0.0
+
+
+Outcome = Goals | Question | Refusal
+_KINDS = {Goals: "goals", Question: "question", Refusal: "refusal"}
+
+
+def to_record(text: str, outcome: Outcome) -> dict[str, object]:
+    """The outcome as one record of ``humanoid parse --json``."""
+    return {
+        "text": text,
+        "outcome": _KINDS[type(outcome)],
+        "goals": to_builtins(outcome.goals) if isinstance(outcome, Goals) else [],
+        "question": outcome.question if isinstance(outcome, Question) else None,
+        "reason": None if isinstance(outcome, Question) else outcome.reason,
+        "parser": outcome.parser,
+        "ms": outcome.ms,
+    }
