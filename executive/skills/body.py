@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Literal, TypedDict
 
 from executive.skills.context import SkillContext
-from executive.skills.script import Script, give_up
+from executive.skills.script import GaveUp, Script, give_up
 from robot.messages import (
     Activity,
     BodyCommand,
@@ -56,7 +56,7 @@ class Body:
 
     @property
     def state(self) -> BodyState:
-        """The body's newest state. Gives up when there is none, it is old, or it lies down."""
+        """The body's newest state. Gives up when there is none, it is old, it lies down, or has given up itself."""
         state = self.link.body()
         if state is None:
             raise give_up("sensor_silent", "the body has not reported its state yet")
@@ -65,6 +65,8 @@ class Body:
             raise give_up("sensor_silent", "the body stopped reporting its state", age_s=age_s)
         if state.mode == "fallen":
             raise give_up("fallen", f"the robot fell while {self.phase or 'standing'}")
+        if state.mode == "damping" and state.failure is not None:
+            raise GaveUp(state.failure)
         return state
 
     @property

@@ -99,13 +99,15 @@ class Follower:
         self.speed_m_s = speed_m_s
         self._legs = _legs(start, waypoints)
         self._along_m = 0.0
+        self._turned_rad = 0.0
         self._turning = False
         self.total_m = max(self.remaining_m, 1e-9)
 
     @property
     def remaining_m(self) -> float:
         """What is still to be walked; a turn counts `METRES_PER_RADIAN`."""
-        return sum(_cost_m(leg) for leg in self._legs) - self._along_m
+        left_m = sum(_cost_m(leg) for leg in self._legs) - self._along_m
+        return left_m - METRES_PER_RADIAN * self._turned_rad
 
     @property
     def done(self) -> bool:
@@ -151,7 +153,10 @@ class Follower:
         while self._legs:
             leg = self._legs[0]
             if isinstance(leg, Turn):
-                if abs(wrap_angle(leg.to_rad - yaw_rad)) > TURN_DONE_RAD:
+                whole_rad = abs(wrap_angle(leg.to_rad - leg.from_rad))
+                left_rad = abs(wrap_angle(leg.to_rad - yaw_rad))
+                self._turned_rad = max(self._turned_rad, whole_rad - left_rad)
+                if left_rad > TURN_DONE_RAD:
                     return
             else:
                 self._along_m = leg.nearest_m(
@@ -160,7 +165,7 @@ class Follower:
                 if leg.length_m - self._along_m > RUN_DONE_M:
                     return
             self._legs.pop(0)
-            self._along_m = 0.0
+            self._along_m = self._turned_rad = 0.0
 
     def _within_limits(self, forward_m_s: float, left_m_s: float, off_rad: float) -> Twist:
         """Scale a velocity, keeping its direction, until the gait can do it."""

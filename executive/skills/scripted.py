@@ -16,6 +16,9 @@ from executive.skills.script import GaveUp, Script
 from executive.skills.skill import Resource, SkillReport
 from robot.errors import Failure, failure
 
+BEYOND_HELP = ("fallen", "lost_balance", "sensor_silent")
+"""Failures after which the body cannot be brought to rest by commands."""
+
 log = logging.getLogger(__name__)
 
 
@@ -87,8 +90,8 @@ class ScriptedSkill(ABC):
         )
 
     def _fail(self, reason: Failure) -> SkillReport:
-        if self._halting or reason.code in ("fallen", "sensor_silent"):
-            return self._over(self._ended or reason)  # nothing more can be done from here
+        if self._halting or reason.code in BEYOND_HELP:
+            return self._over(self._ended or reason)
         self._leave(reason)
         return self._resume()
 
