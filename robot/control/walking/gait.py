@@ -36,6 +36,11 @@ SETTLE_S = 0.25
 TOUCHDOWN_LOAD = 0.02
 LATE_S = 0.25
 DEADBAND_M = 0.02
+FREEZE_S = 0.08
+TIMING_DEADBAND_S = 0.06
+TIMING_FILTER_S = 0.03
+SHORTEST_SHARE = 0.65
+LONGEST_SHARE = 1.5
 DCM_GAIN_1_S = 4.0
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
@@ -83,6 +88,7 @@ class Gait:
     _plan: DcmPlan = field(init=False)
     _polygon: SupportPolygon = field(init=False)
     _integral: list[float] = field(init=False, default_factory=lambda: [0.0, 0.0])
+    _nominal_s: float = field(init=False, default=0.0)
     _one_leg_s: float = field(init=False, default=0.0)
     _urgent: bool = field(init=False, default=False)
 
@@ -229,6 +235,7 @@ class Gait:
         side = other(self.support)
         self.phase, self.phase_s = "single", 0.0
         self.duration_s = self._one_leg_s or walking.single_support_s
+        self._nominal_s = self.duration_s
         landing = self._landings[0]
         if not self._one_leg_s:
             self._landings = self._look_ahead(landing)
@@ -298,21 +305,54 @@ class Gait:
         self._plan = DcmPlan(segments, terminal, self.omega_1_s)
 
     def _adjust(self, dt_s: float, xi: Point) -> None:
-        """Shift the landing by the DCM error that the stance foot cannot take back in time."""
+        """Shift the landing, and its time, by the DCM error that the stance foot cannot take back.
+
+        The time is the one at which the DCM passes its planned place sideways (Khadiv et al.,
+        "Walking control based on step timing adaptation", 2020, in closed form for one axis).
+        """
         assert self.swing is not None
-        left_s = max(0.0, self.duration_s - self.phase_s)
-        xi_ref, zmp_ref = self._plan.at(min(self.phase_s, self.duration_s))
-        growth = math.exp(self.omega_1_s * left_s)
+        xi_ref, zmp_ref = self._plan.at(self._plan_time())
         command = self._command(xi, xi_ref, zmp_ref)
-        shift = [
-            growth * (xi[k] - xi_ref[k]) - (growth - 1.0) * (command[k] - zmp_ref[k]) * 0.5
-            for k in (0, 1)
-        ]
+        xi_end, _ = self._plan.at(self._nominal_s)
+        if self.duration_s - self.phase_s > FREEZE_S:
+            self._retime(dt_s, xi, xi_end, command)
+        growth = math.exp(self.omega_1_s * max(0.0, self.duration_s - self.phase_s))
+        shift = [0.0, 0.0]
+        for k in (0, 1):
+            zmp = 0.5 * (zmp_ref[k] + command[k])
+            shift[k] = zmp + growth * (xi[k] - zmp) - xi_end[k]
         size = math.hypot(*shift)
         scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
         nominal = self._landings[0]
         wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
         self.swing.aim(self._reachable(wanted), dt_s)
+
+    def _retime(self, dt_s: float, xi: Point, xi_end: Point, command: Point) -> None:
+        """Move the end of the step towards the time at which the DCM is sideways where planned."""
+        assert self.swing is not None
+        support = self.planted[self.support]
+        s = sign_of(other(self.support))
+        now, end, zmp = (
+            s * support.relative(Sole(p[0], p[1], 0.0))[1] for p in (xi, xi_end, command)
+        )
+        shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
+        if now - zmp < 0.005 or end - zmp < 0.005:
+            wanted_s = longest
+        else:
+            wanted_s = self.phase_s + math.log((end - zmp) / (now - zmp)) / self.omega_1_s
+        if abs(wanted_s - self._nominal_s) < TIMING_DEADBAND_S:
+            wanted_s = self._nominal_s
+        wanted_s = max(shortest, min(longest, wanted_s))
+        wanted_s = max(wanted_s, self.phase_s + FREEZE_S)
+        gain = dt_s / (TIMING_FILTER_S + dt_s)
+        self.duration_s += gain * (wanted_s - self.duration_s)
+        self.swing.duration_s = self.duration_s
+
+    def _plan_time(self) -> float:
+        """Where on the plan this phase is: a single support that was retimed is stretched."""
+        if self.phase != "single":
+            return self.phase_s
+        return min(1.0, self.phase_s / self.duration_s) * self._nominal_s
 
     def _reachable(self, landing: Sole) -> Sole:
         """Keep a landing where the swing leg can put it without crossing the other."""
@@ -332,10 +372,7 @@ class Gait:
         return self._polygon.clip((x, y))
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
-        time_s = self.phase_s
-        if self.phase == "single":  # late: do not run on into the next double support
-            time_s = min(time_s, self.duration_s)
-        xi_ref, zmp_ref = self._plan.at(time_s)
+        xi_ref, zmp_ref = self._plan.at(self._plan_time())
         if self.phase == "stand":
             for k in (0, 1):
                 step = self._integral[k] + INTEGRAL_GAIN * dt_s * (xi[k] - xi_ref[k])

@@ -64,39 +64,49 @@ class Swing:
 
     def _quintic(self, dt_s: float, left_s: float) -> None:
         """One tick along the minimum-jerk curve from here to rest at the landing."""
-        t, T = dt_s, left_s
         for k in range(3):
-            p, v, a = self.position[k], self.velocity[k], self.acceleration[k]
-            d = self.landing[k] - p
-            c3 = (20 * d - 12 * v * T - 3 * a * T * T) / (2 * T**3)
-            c4 = (-30 * d + 16 * v * T + 3 * a * T * T) / (2 * T**4)
-            c5 = (12 * d - 6 * v * T - a * T * T) / (2 * T**5)
-            self.position[k] = p + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5))))
-            self.velocity[k] = v + t * (a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))
-            self.acceleration[k] = a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))
+            self.position[k], self.velocity[k], self.acceleration[k] = minimum_jerk(
+                self.position[k],
+                self.velocity[k],
+                self.acceleration[k],
+                goal=self.landing[k],
+                left_s=left_s,
+                dt_s=dt_s,
+            )
 
     def _height(self, dt_s: float) -> None:
         """Up to the apex, down to the floor, and on at a slow constant speed if it is late."""
         lift_s = min(LONGEST_LIFT_S, LIFT_SHARE * self.duration_s)
         drop_s = min(LONGEST_LIFT_S, (1.0 - LIFT_SHARE) * self.duration_s)
-        drop_from_s = self.duration_s - drop_s
-        if self.time_s < lift_s:
-            self.z, self.vz, self.az = self._blend(self.time_s / lift_s, lift_s)
-        elif self.time_s < drop_from_s:
-            self.z, self.vz, self.az = self.height_m, 0.0, 0.0
-        elif self.time_s < self.duration_s:
-            z, vz, az = self._blend((self.time_s - drop_from_s) / drop_s, drop_s)
-            scale = 1.0 + PRESS_M / self.height_m
-            self.z, self.vz, self.az = self.height_m - scale * z, -scale * vz, -scale * az
+        before_s = self.time_s - dt_s
+        if before_s < lift_s - dt_s:
+            goal, left_s = self.height_m, lift_s - before_s
+        elif before_s < self.duration_s - drop_s - dt_s:
+            goal, left_s = self.height_m, 0.1
+        elif before_s < self.duration_s - dt_s:
+            goal, left_s = -PRESS_M, self.duration_s - before_s
         else:
             self.z -= LATE_DESCENT_M_S * dt_s
             self.vz, self.az = -LATE_DESCENT_M_S, 0.0
-
-    def _blend(self, share: float, duration_s: float) -> tuple[float, float, float]:
-        """Minimum-jerk 0 -> height."""
-        s, h = share, self.height_m
-        return (
-            h * (10 * s**3 - 15 * s**4 + 6 * s**5),
-            h * (30 * s**2 - 60 * s**3 + 30 * s**4) / duration_s,
-            h * (60 * s - 180 * s**2 + 120 * s**3) / duration_s**2,
+            return
+        self.z, self.vz, self.az = minimum_jerk(
+            self.z, self.vz, self.az, goal=goal, left_s=left_s, dt_s=dt_s
         )
+
+
+def minimum_jerk(
+    p: float, v: float, a: float, *, goal: float, left_s: float, dt_s: float
+) -> tuple[float, float, float]:
+    """State after `dt_s` on the quintic from (p, v, a) to rest at `goal` in `left_s`.
+
+    Replanned every tick it stays smooth however goal and time change (Flash & Hogan, 1985).
+    """
+    d, t, T = goal - p, dt_s, left_s
+    c3 = (20 * d - 12 * v * T - 3 * a * T * T) / (2 * T**3)
+    c4 = (-30 * d + 16 * v * T + 3 * a * T * T) / (2 * T**4)
+    c5 = (12 * d - 6 * v * T - a * T * T) / (2 * T**5)
+    return (
+        p + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5)))),
+        v + t * (a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5))),
+        a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5)),
+    )
