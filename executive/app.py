@@ -17,7 +17,7 @@ from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Skill
 from executive.trees.root import BuildTask, Tree
-from robot.errors import Failure
+from robot.errors import Failure, failure
 
 RATE_HZ = 20.0
 
@@ -86,6 +86,11 @@ class Executive:
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end the task with `cancelled`; takes several ticks."""
         self._operator.set(STOP, why)
+
+    def abandon(self, reason: Failure | None, now_s: float) -> None:
+        """End the task at once, without bringing anything to rest (None: as a person wants it)."""
+        reason = reason or failure("cancelled", "stopped at once on request; the motors damp")
+        self._finish(reason, now_s)
 
     def _finish(self, reason: Failure | None, now_s: float) -> None:
         took_s = round(now_s - (self._begun_s or 0.0), 4)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
+from intents.grounding import Entity
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
 
@@ -14,28 +15,19 @@ SMALL, BIG = 0.75, 1.33
 
 
 class Knowledge:
-    """A map, looked up by the names people use."""
+    """A map, looked up by the names people use (any case)."""
 
     def __init__(self, world_map: WorldMap) -> None:
-        """Index the map."""
+        """Look things up in `world_map`."""
         self.map = world_map
-        self._furniture = {item.id: item.name for item in world_map.obstacles}
 
     def vocabulary(self) -> Vocabulary:
         """All names of this world, for the parser."""
-        surfaces = [place for place in self.map.places if not place.floor]
-        floors = [place for place in self.map.places if place.floor]
-        rooms = [place for place in floors if place.id == place.room]
-        spots = [place for place in floors if place.id != place.room]
-        names = {place.name for place in surfaces}
-        grouped = sorted({self._furniture.get(p.of, p.name) for p in surfaces} - names)
+        rooms = [place for place in self.map.places if place.floor and place.id == place.room]
+        others = [place for place in self.map.places if place not in rooms]
         return Vocabulary.of(
             objects=[self._thing(info) for info in self.map.objects],
-            places=[
-                *(Spot(name=name, synonyms=()) for name in grouped),
-                *(Spot(name=place.name, synonyms=place.synonyms) for place in surfaces),
-                *(Spot(name=place.name, synonyms=place.synonyms) for place in spots),
-            ],
+            places=[Spot(name=place.name, synonyms=place.synonyms) for place in others],
             rooms=[Spot(name=place.name, synonyms=place.synonyms) for place in rooms],
             people=[Someone(name=person.name) for person in self.map.people],
             categories=self.map.categories,
@@ -47,10 +39,25 @@ class Knowledge:
             synonyms=info.synonyms,
             category=info.category,
             color=info.color,
-            size=self.size_word(info),
+            size=self._size_word(info),
         )
 
-    def size_word(self, info: ObjectInfo) -> str:
+    def entity(self, info: ObjectInfo) -> Entity:
+        """An object for grounding; where it is has to be seen, so it is left open."""
+        return Entity(
+            id=info.id,
+            name=plain_name(info),
+            category=info.category,
+            color=info.color,
+            size_m=info.shape.size_m,
+            mass_kg=info.mass_kg,
+        )
+
+    def entities(self) -> tuple[Entity, ...]:
+        """Every object for grounding."""
+        return tuple(self.entity(info) for info in self.map.objects)
+
+    def _size_word(self, info: ObjectInfo) -> str:
         """A size word where it tells this object from others of its name."""
         name = plain_name(info)
         alike = [volume(other) for other in self.map.objects if plain_name(other) == name]
@@ -66,16 +73,11 @@ class Knowledge:
         return _first(item for item in self.map.places if item.id == place_id)
 
     def places(self, name: str) -> tuple[Place, ...]:
-        """Every place that a name can mean: one, or the boards of a shelf, or none."""
+        """Every place that a name can mean: none, one, or several of the same name."""
         wanted = name.casefold()
         exact = [p for p in self.map.places if wanted in (p.name.casefold(), p.id.casefold())]
-        if exact:
-            return tuple(exact)
-        furniture = {key for key, title in self._furniture.items() if title.casefold() == wanted}
-        boards = [p for p in self.map.places if p.of and (p.of in furniture or p.of == name)]
-        if boards:
-            return tuple(boards)
-        return tuple(p for p in self.map.places if wanted in map(str.casefold, p.synonyms))
+        others = [p for p in self.map.places if wanted in map(str.casefold, p.synonyms)]
+        return tuple(exact or others)
 
     def person(self, name: str | None) -> PersonInfo | None:
         """A person by name; None stands for the operator: who is called so, or the only one."""

@@ -21,7 +21,7 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         id: What the executive calls it.
         size_m: Extents in x, y, z [m].
-        at: Place it is at, or empty.
+        at: Place it is at, or empty. With neither place nor room it may be anywhere.
         room: Room it is in, or empty.
         p_WO: Position in the world [m].
         held: It is in the robot's hand.
@@ -133,7 +133,8 @@ def ground(
 
 def _fits(entity: Entity, query: ObjectQuery) -> bool:
     """Whether an entity is as described, leaving aside comparisons with others."""
-    near = query.at is None or query.at in (entity.at, entity.room) or entity.held
+    unplaced = not (entity.at or entity.room)
+    near = query.at is None or unplaced or query.at in (entity.at, entity.room) or entity.held
     return (
         (query.name is None or _alike(entity.name, query.name))
         and (query.category is None or _alike(entity.category, query.category))

@@ -239,7 +239,7 @@ def _place(goal: goals.Place, scene: Scene) -> Part:
     target = goal.on or goal.in_
     if target is None:
         raise cannot("invalid_goal", f"put {full_name(info)} where?", suggestion="name a place")
-    return _put(info, goal.object, target, scene, word="on" if goal.on else "in")
+    return _put(info, goal.object, target, scene)
 
 
 def _bring(goal: goals.Bring, scene: Scene) -> Part:
@@ -250,20 +250,17 @@ def _bring(goal: goals.Bring, scene: Scene) -> Part:
         )  # fmt: skip
     if goal.object.count not in (None, 1):
         found = scene.objects(goal.object)
-        parts = [_put(info, goal.object, goal.to, scene, word="to") for info in found]
+        parts = [_put(info, goal.object, goal.to, scene) for info in found]
         return Series(name=f"bring several things to the {goal.to}", parts=tuple(parts))
-    return _put(scene.object(goal.object), goal.object, goal.to, scene, word="to")
+    return _put(scene.object(goal.object), goal.object, goal.to, scene)
 
 
-def _put(
-    info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene, *, word: str
-) -> Part:
+def _put(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene) -> Part:
     """Put an object on a place, after fetching it unless it is in the hand by then."""
     place = _best_surface(info, target, scene)
     name = full_name(info)
     params = PlaceParams(object_id=info.id, place_id=place.id)
-    put = _about(info, f"put {name} {'on' if word == 'to' else word} the {place.name}", params,
-                 carries=True)  # fmt: skip
+    put = _about(info, f"put {name} on the {place.name}", params, carries=True)
     if info.id in scene.held:
         scene.put_down(info.id)
         return put
@@ -276,7 +273,7 @@ COMFORTABLE_HEIGHT_M = 0.8
 
 
 def _best_surface(info: ObjectInfo, target: str, scene: Scene) -> Place:
-    """The board of a shelf that is easiest to reach and high enough for the object."""
+    """Of the surfaces of that name the one that is easiest to reach and high enough."""
     surfaces = _surfaces(scene.places(target))
     if not surfaces:
         text = f"nothing can be put down in the {target}"

@@ -1,0 +1,1 @@
+"""Trees for people and other programs to look at."""

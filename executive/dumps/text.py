@@ -1,0 +1,71 @@
+"""A tree as lines of text: what is done, what is being done, what comes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+import msgspec
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.decorators import Decorator
+
+from executive.trees.idioms import Alternatives
+from executive.trees.recovery import Recover
+
+State = Literal["waiting", "running", "done", "failed"]
+
+_STATES: dict[Status, State] = {
+    Status.INVALID: "waiting",
+    Status.RUNNING: "running",
+    Status.SUCCESS: "done",
+    Status.FAILURE: "failed",
+}
+MARKS: dict[State, str] = {"waiting": "·", "running": "▸", "done": "✓", "failed": "✗"}
+ASCII_MARKS: dict[State, str] = {"waiting": " ", "running": ">", "done": "+", "failed": "x"}
+
+
+class Line(msgspec.Struct, frozen=True):
+    """One node: how deep it stands, its name, its state, and what it says of itself."""
+
+    depth: int
+    name: str
+    state: State
+    note: str = ""
+
+
+def lines(node: Behaviour, depth: int = 0) -> Iterator[Line]:
+    """A subtree in reading order, without the nodes that mean nothing to people."""
+    node = _plain(node)
+    if isinstance(node, Recover) and not node.feedback_message:
+        return
+    note = node.feedback_message if not node.children else ""
+    yield Line(depth, node.name, _STATES[node.status], note)
+    for child in node.children:
+        yield from lines(child, depth + 1)
+
+
+def text(node: Behaviour, *, marks: dict[State, str] = MARKS) -> str:
+    """A subtree as text, one line a node."""
+    return "\n".join(
+        f"{'  ' * line.depth}{marks[line.state]} {line.name}{f': {line.note}' if line.note else ''}"
+        for line in lines(node)
+    )
+
+
+def _plain(node: Behaviour) -> Behaviour:
+    """What stands behind decorators, and behind alternatives of which only one was needed."""
+    while True:
+        if isinstance(node, Decorator):
+            node = node.decorated
+        elif (isinstance(node, Alternatives) and _untried(node)) or (
+            len(node.children) == 1 and node.name == "task"
+        ):
+            node = node.children[0]
+        else:
+            return node
+
+
+def _untried(node: Alternatives) -> bool:
+    """Whether no recovery has been looked for."""
+    return all(not child.feedback_message for child in node.children[1:])

@@ -1,0 +1,175 @@
+"""What people see while the robot works: a live tree on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Protocol, Self
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.text import Text
+
+from executive.app import Executive
+from executive.blackboard import GOAL, HEALTH, HELD, SAID
+from executive.dumps.text import MARKS, State, lines
+from executive.journal import Event
+
+REFRESH_S = 0.1
+_STYLES: dict[State, str] = {
+    "waiting": "dim", "running": "bold yellow", "done": "green", "failed": "red",
+}  # fmt: skip
+
+
+class Progress(Protocol):
+    """Shows an executive at work; a context manager."""
+
+    def update(self) -> None:
+        """Called after every tick."""
+        ...
+
+    def __enter__(self) -> Self:
+        """Begin to show."""
+        ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave the screen in order."""
+        ...
+
+
+class Silent:
+    """Shows nothing (`--json`)."""
+
+    def update(self) -> None:
+        """Show nothing."""
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End."""
+
+
+class Lines(Silent):
+    """One line an event: for pipes, logs and CI."""
+
+    def __init__(self, executive: Executive, console: Console) -> None:
+        """Print the journal's events as they come."""
+        self._console = console
+        executive.journal.listen(self._heard)
+
+    def _heard(self, event: Event) -> None:
+        words = sentence(event)
+        if words:
+            line = f"[{event.t_s:7.2f} s] {words}"
+            self._console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+class LiveTree(Silent):
+    """The tree, redrawn in place."""
+
+    def __init__(
+        self, executive: Executive, console: Console, *, wall_s: Callable[[], float]
+    ) -> None:
+        """Draw on `console`; `wall_s` paces the drawing."""
+        self._executive = executive
+        self._wall_s = wall_s
+        self._drawn_s = self._begun_s = wall_s()
+        self._first_s: float | None = None
+        self._live = Live(console=console, auto_refresh=False, vertical_overflow="crop")
+        self._console = console
+        executive.journal.listen(self._heard)
+
+    def _heard(self, event: Event) -> None:
+        """Warnings scroll by above the tree."""
+        if event.event == "warning":
+            self._live.console.print(f"warning: {event.data['text']}", style="yellow", markup=False)
+
+    def update(self) -> None:
+        """Draw, at most every `REFRESH_S`."""
+        now_s = self._wall_s()
+        if now_s - self._drawn_s >= REFRESH_S:
+            self._drawn_s = now_s
+            self._live.update(self._picture(now_s), refresh=True)
+
+    def _picture(self, wall_s: float) -> Group:
+        board, stage = self._executive.board, self._executive.stage
+        if self._first_s is None:
+            self._first_s, self._begun_s = stage.now_s, wall_s
+        past_s, wall_past_s = stage.now_s - self._first_s, wall_s - self._begun_s
+        factor = past_s / wall_past_s if wall_past_s > 0.5 else 1.0
+        head = Text(board.read(GOAL), style="bold")
+        foot = Text(f"{stage.now_s:6.1f} s  {factor:4.1f} x real time", style="dim")
+        health = board.read(HEALTH)
+        if health.failure is not None:
+            foot.append(f"  {health.failure.cause}", style="red")
+        held = ", ".join(f"{side} hand: {name}" for side, name in board.read(HELD).items())
+        if held:
+            foot.append(f"  {held}")
+        said = board.read(SAID)
+        if said:
+            foot.append(f"  says {said!r}", style="cyan")
+        return Group(head, *self._tree(), foot)
+
+    def _tree(self) -> list[Text]:
+        task = self._executive.tree.task
+        if task is None:
+            return []
+        room = max(6, self._console.size.height - 5)
+        drawn = [
+            Text("  " * line.depth + f"{MARKS[line.state]} {line.name}", style=_STYLES[line.state])
+            + Text(f"  {line.note}" if line.note and line.state != "done" else "", style="dim")
+            for line in lines(task)
+        ]
+        running = [i for i, line in enumerate(lines(task)) if line.state == "running"]
+        first = max(0, min(len(drawn) - room, (running[-1] if running else 0) - room // 2))
+        return drawn[first : first + room]
+
+    def __enter__(self) -> Self:
+        """Take the screen's last lines."""
+        self._live.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave the last picture standing."""
+        self._live.update(self._picture(self._wall_s()), refresh=True)
+        self._live.stop()
+
+
+_SENTENCES: dict[str, str] = {
+    "step": "{step}",
+    "phase": "{step}: {phase}",
+    "done": "{step}: done",
+    "failure": "{step}: failed ({code}): {cause}",
+    "recovery": "{step}: {remedy} ({count})",
+    "no recovery": "{step}: no recovery, {why}",
+    "hold": "standing still: {why}",
+    "abort": "ending the task: {cause}",
+    "stopping": "{step}: stopping",
+    "said": "says: {text}",
+    "warning": "warning: {text}",
+}
+
+
+def sentence(event: Event) -> str:
+    """An event in words, empty for those that are not news to people."""
+    if event.event == "health" and event.data["level"] != "OK":
+        return f"{event.data['level'].lower()}: {event.data['cause']}"
+    pattern = _SENTENCES.get(event.event, "")
+    return pattern.format(**event.data) if pattern else ""

@@ -1,0 +1,86 @@
+"""The folder of a run: what was asked for, the journal, and how it ended."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import msgspec
+
+from executive.app import Outcome
+
+
+class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """What a run was started with: enough to start it again (`run.json`)."""
+
+    text: str
+    world: str
+    robot: str
+    seed: int
+    runtime: str
+    varied: bool = False
+    goals: tuple[dict[str, object], ...] = ()
+
+
+class Summary(msgspec.Struct, frozen=True, kw_only=True):
+    """How a run ended (`summary.json`); wall times stand only here and in `wall.jsonl`.
+
+    `placed` says where things are believed to be; nothing here is the simulator's truth.
+    """
+
+    status: str
+    code: str
+    cause: str
+    suggestion: str
+    exit_status: int
+    simulated_s: float
+    wall_s: float
+    recoveries: int
+    clamped: int
+    refused: int
+    placed: tuple[Placed, ...] = ()
+    late: tuple[str, ...] = ()
+    folder: str = ""
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated seconds a second of wall time."""
+        return self.simulated_s / self.wall_s if self.wall_s > 0.0 else 0.0
+
+
+class Placed(msgspec.Struct, frozen=True, kw_only=True):
+    """Where an object is believed to be at the end."""
+
+    object: str
+    where: str
+    x_m: float
+    y_m: float
+    z_m: float
+
+
+BROKEN = frozenset({"controller_lost", "plant_lost", "internal"})
+"""Codes that mean that the system broke, not the task."""
+
+
+def exit_status(outcome: Outcome) -> int:
+    """0 done, 1 failed, 3 the system broke."""
+    if outcome.failure is None:
+        return 0
+    return 3 if outcome.failure.code in BROKEN else 1
+
+
+def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
+    """A folder name that sorts by time and says what it was about."""
+    slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")[:40].rstrip("-")
+    return base / f"{stamp}-{slug or 'run'}"
+
+
+def save(folder: Path, name: str, value: msgspec.Struct) -> str:
+    """Write a struct as JSON; returns what went wrong, or an empty text."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        data = msgspec.json.format(msgspec.json.encode(value, order="deterministic"))
+        (folder / name).write_bytes(data + b"\n")
+    except OSError as error:
+        return f"{folder / name} cannot be written: {error.strerror}"
+    return ""
