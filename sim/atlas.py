@@ -137,7 +137,9 @@ def walls(room: Room) -> list[Obstacle]:
 
 def _wall_pieces(room: Room, side: str, half_m: float) -> list[tuple[float, float]]:
     """Intervals along a wall that are left when the doors are cut out."""
-    gaps = sorted((d.at_m - d.width_m / 2, d.at_m + d.width_m / 2) for d in room.doors if d.wall == side)
+    gaps = sorted(
+        (d.at_m - d.width_m / 2, d.at_m + d.width_m / 2) for d in room.doors if d.wall == side
+    )
     edges = [-half_m, *(edge for gap in gaps for edge in gap), half_m]
     pieces = zip(edges[::2], edges[1::2], strict=True)
     return [(low, high) for low, high in pieces if high - low > 1e-3]

@@ -82,7 +82,9 @@ def _dress(body: mujoco.MjsBody, item: Object, paint: Paint) -> None:
     film = 0.0004
     if item.category in ("cup", "mug", "glass", "bowl"):
         dark = paint.color("charcoal")
-        body.add_geom(type=CYLINDER, size=[0.85 * x, film, 0], pos=[0, 0, z], material=dark, **LOOKS)
+        body.add_geom(
+            type=CYLINDER, size=[0.85 * x, film, 0], pos=[0, 0, z], material=dark, **LOOKS
+        )
     elif item.category in ("bottle", "can") and item.shape == "cylinder":
         white = paint.color("white")
         label = [x + film, 0.22 * z, 0]

@@ -158,7 +158,9 @@ def _boards(item: Furniture, where: str) -> Iterator[Finding]:
     if len(boards) > len(furniture.ORDINALS):
         yield Finding(f"{where}.boards_m", f"at most {len(furniture.ORDINALS)} boards")
     if any(high - low < 0.10 for low, high in zip(boards, boards[1:], strict=False)):
-        yield Finding(f"{where}.boards_m", "boards are listed from the lowest up, 0.1 m apart or more")
+        yield Finding(
+            f"{where}.boards_m", "boards are listed from the lowest up, 0.1 m apart or more"
+        )
     if item.size_m and boards and max(boards) > item.size_m[2]:
         yield Finding(f"{where}.boards_m", f"a board is above the shelf's {item.size_m[2]:g} m")
 

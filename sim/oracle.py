@@ -23,6 +23,7 @@ FIX_NOISE_RAD = math.radians(0.2)
 POSE_ERROR_M = 0.005
 JITTER_M = 0.0005
 FORGET_S = 1.0  # unseen for longer, an object comes back with another error
+NEAR_M = 0.05
 MIN_POINTS = 2  # of the sample points of an object that must be in plain sight
 # Sample points, in half extents of an object: middle, and a way towards each side.
 SAMPLES = 0.7 * np.array(
@@ -50,6 +51,8 @@ class Oracle:
         self._pose_error_m = pose_error_m
         self._base_q = int(model.jnt_qposadr[model.body_jntadr[model.body(robot.base_body).id]])
         self._camera = robot.sensors.camera
+        tan_y = math.tan(self._camera.fovy_rad / 2)
+        self._tan = (tan_y * self._camera.width / self._camera.height, tan_y)
         self._objects = {
             item.id: _Target(model, f"object/{item.id}", np.array(item.size_m) / 2)
             for item in world.objects
@@ -88,39 +91,41 @@ class Oracle:
         """What is inside the head camera's view, in range and not hidden."""
         camera = self._data.site(self._camera.site)
         X_WC = SE3.from_rotation(camera.xmat.reshape(3, 3), camera.xpos)
+        seen = self._sight({**self._objects, **self._people}, X_WC, stamp_s)
         return Sightings(
             stamp_s=stamp_s,
-            objects=self._sight(self._objects, X_WC, stamp_s),
-            people=self._sight(self._people, X_WC, stamp_s),
+            objects=tuple(item for item in seen if item.id in self._objects),
+            people=tuple(item for item in seen if item.id in self._people),
             source="oracle",
         )
 
-    def _sight(
-        self, targets: dict[str, _Target], X_WC: SE3, stamp_s: float
-    ) -> tuple[Sighting, ...]:
+    def _sight(self, targets: dict[str, _Target], X_WC: SE3, stamp_s: float) -> list[Sighting]:
+        X_CW, eye = X_WC.inverse(), np.array(X_WC.p)
+        poses = {id: target.pose(self._data) for id, target in targets.items()}
+        rays = {
+            id: vectors
+            for id, target in targets.items()
+            if len(vectors := self._in_view(target, poses[id], X_CW) - eye) >= MIN_POINTS
+        }
+        if not rays:
+            return []
+        hits = self._rays.bodies_hit(eye, np.concatenate(list(rays.values())))
         found: list[Sighting] = []
-        X_CW = X_WC.inverse()
-        for id, target in targets.items():
-            X_WO = target.pose(self._data)
-            if self._visible(target, X_WO, X_WC, X_CW):
-                offset = self._offset(id, stamp_s)
-                found.append(Sighting(id=id, X_CO=X_CW @ SE3(_moved(X_WO, offset), X_WO.quat_wxyz)))
-        return tuple(found)
+        for id, vectors in rays.items():
+            hit, hits = hits[: len(vectors)], hits[len(vectors) :]
+            if np.count_nonzero(hit == targets[id].body) >= MIN_POINTS:
+                X_WO = poses[id]
+                sighted = SE3(_moved(X_WO, self._offset(id, stamp_s)), X_WO.quat_wxyz)
+                found.append(Sighting(id=id, X_CO=X_CW @ sighted))
+        return found
 
-    def _visible(self, target: _Target, X_WO: SE3, X_WC: SE3, X_CW: SE3) -> bool:
+    def _in_view(self, target: _Target, X_WO: SE3, X_CW: SE3) -> Array:
+        """The sample points [m], shape (k, 3) in W, that lie inside the camera's view and range."""
         points_W = target.points @ X_WO.rotation().T + np.array(X_WO.p)
-        points_C = points_W @ X_CW.rotation().T + np.array(X_CW.p)
-        depth = points_C[:, 2]
-        tan_y = math.tan(self._camera.fovy_rad / 2)
-        tan_x = tan_y * self._camera.width / self._camera.height
-        inside = (depth > 0.05) & (depth < self._camera.range_m)
-        inside &= np.abs(points_C[:, 0]) < tan_x * depth
-        inside &= np.abs(points_C[:, 1]) < tan_y * depth
-        if np.count_nonzero(inside) < MIN_POINTS:
-            return False
-        eye = np.array(X_WC.p)
-        hit = self._rays.bodies_hit(eye, points_W[inside] - eye)
-        return int(np.count_nonzero(hit == target.body)) >= MIN_POINTS
+        x, y, depth = (points_W @ X_CW.rotation().T + np.array(X_CW.p)).T
+        inside = (depth > NEAR_M) & (depth < self._camera.range_m)
+        inside &= (np.abs(x) < self._tan[0] * depth) & (np.abs(y) < self._tan[1] * depth)
+        return points_W[inside]
 
     def _offset(self, id: str, stamp_s: float) -> Array:
         """The error of an object's sighted position: the same while it stays in view."""

@@ -101,14 +101,14 @@ def _floor(spec: mujoco.MjSpec, world: World, paint: Paint) -> None:
 def _light(spec: mujoco.MjSpec, world: World) -> None:
     """A soft sky, one lamp with shadows, one to fill."""
     visual = spec.visual
-    visual.headlight.ambient = [0.38, 0.38, 0.38]
-    visual.headlight.diffuse = [0.22, 0.22, 0.22]
+    visual.headlight.ambient = [0.44, 0.44, 0.44]
+    visual.headlight.diffuse = [0.24, 0.24, 0.24]
     visual.headlight.specular = [0.05, 0.05, 0.05]
-    visual.quality.shadowsize = 2048
+    visual.quality.shadowsize = 4096
     visual.quality.offsamples = 4
     visual.global_.offwidth, visual.global_.offheight = 1920, 1080
     visual.map.znear, visual.map.zfar = 0.01, 40.0
-    visual.map.shadowclip, visual.map.shadowscale = 1.0, 0.6
+    visual.map.shadowclip, visual.map.shadowscale = 1.6, 0.6
     x_min, y_min, x_max, y_max = world.bounds_m
     x, y = (x_min + x_max) / 2, (y_min + y_max) / 2
     spec.stat.center = [x, y, 0.6]
@@ -116,7 +116,7 @@ def _light(spec: mujoco.MjSpec, world: World) -> None:
     spec.worldbody.add_light(
         name="lamp", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, castshadow=True,
         pos=[x + 1.5, y - 2.0, 5.0], dir=[-0.35, 0.45, -1.0],
-        diffuse=[0.50, 0.49, 0.47], specular=[0.15, 0.15, 0.15], ambient=[0, 0, 0],
+        diffuse=[0.42, 0.41, 0.39], specular=[0.15, 0.15, 0.15], ambient=[0, 0, 0],
     )  # fmt: skip
     spec.worldbody.add_light(
         name="fill", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, castshadow=False,

@@ -118,8 +118,12 @@ class World(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     @property
     def bounds_m(self) -> tuple[float, float, float, float]:
         """Smallest rectangle around all rooms: x_min, y_min, x_max, y_max."""
-        lows = [[at - size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms]
-        highs = [[at + size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms]
+        lows = [
+            [at - size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms
+        ]
+        highs = [
+            [at + size / 2 for at, size in zip(r.at_m, r.size_m, strict=True)] for r in self.rooms
+        ]
         return (
             min(low[0] for low in lows),
             min(low[1] for low in lows),

@@ -1,0 +1,160 @@
+"""Pictures of a simulation without a display, through EGL."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import msgspec
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from robot.errors import ConfigError, Problem
+from robot.se3 import Vector3
+from sim.plant import Plant
+from sim.schema import World
+
+PACKAGES = "libegl1 libgl1-mesa-dri libopengl0"
+Image = NDArray[np.uint8]
+
+
+class View(msgspec.Struct, frozen=True, kw_only=True):
+    """From where to look: at a point of the world, from a distance, along a heading (0 is +x).
+
+    With `camera` the view is that of a camera of the model instead.
+    """
+
+    at: Vector3 = (0.0, 0.0, 0.7)
+    distance_m: float = 4.0
+    heading_deg: float = 125.0
+    down_deg: float = 22.0
+    camera: str = ""
+
+
+def overview(world: World) -> View:
+    """The whole world, from its south-east."""
+    x_min, y_min, x_max, y_max = world.bounds_m
+    size = min(max(x_max - x_min, y_max - y_min), 9.0)
+    at = ((x_min + x_max) / 2, (y_min + y_max) / 2, 0.55)
+    return View(at=at, distance_m=1.12 * size, heading_deg=118.0, down_deg=30.0)
+
+
+def close_up(plant: Plant, *, heading_deg: float = 125.0, distance_m: float = 2.4) -> View:
+    """The robot, wherever it is."""
+    x, y, _ = plant.oracle.X_WB().p
+    return View(at=(x, y, 0.72), distance_m=distance_m, heading_deg=heading_deg, down_deg=16.0)
+
+
+class Renderer:
+    """Draws one model. A context manager: the GL context lives inside the `with`."""
+
+    def __init__(self, model: mujoco.MjModel, *, width: int = 1280, height: int = 720) -> None:
+        """Prepare; nothing is opened before `with`."""
+        self._model, self._width, self._height = model, width, height
+        self._gl: Any = None
+        self._scene = mujoco.MjvScene(model, maxgeom=2000)
+        self._option = mujoco.MjvOption()
+        self._camera = mujoco.MjvCamera()
+        self._rect = mujoco.MjrRect(0, 0, width, height)
+
+    def __enter__(self) -> Self:
+        """Open an EGL context.
+
+        Raises:
+            ConfigError: if EGL is not installed, naming the packages.
+        """
+        self._gl = _context(self._width, self._height)
+        self._gl.make_current()
+        self._context = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._context)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Free the context."""
+        if self._gl is not None:
+            self._context.free()
+            self._gl.free()
+            self._gl = None
+
+    def image(self, data: mujoco.MjData, view: View) -> Image:
+        """One picture, shape (height, width, 3)."""
+        self._aim(view)
+        visible = mujoco.mjtCatBit.mjCAT_ALL.value
+        mujoco.mjv_updateScene(
+            self._model, data, self._option, None, self._camera, visible, self._scene
+        )
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_HAZE] = 0
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = 0
+        mujoco.mjr_render(self._rect, self._scene, self._context)
+        pixels = np.empty((self._height, self._width, 3), dtype=np.uint8)
+        mujoco.mjr_readPixels(pixels, None, self._rect, self._context)
+        return np.flipud(pixels)
+
+    def _aim(self, view: View) -> None:
+        camera = self._camera
+        if view.camera:
+            camera.type = mujoco.mjtCamera.mjCAMERA_FIXED.value
+            camera.fixedcamid = int(self._model.camera(view.camera).id)
+            return
+        camera.type = mujoco.mjtCamera.mjCAMERA_FREE.value
+        camera.lookat[:] = view.at
+        camera.distance = view.distance_m
+        camera.azimuth, camera.elevation = view.heading_deg, -view.down_deg
+
+
+def snapshot(
+    plant: Plant,
+    path: Path | str,
+    *,
+    view: View | None = None,
+    width: int = 1280,
+    height: int = 720,
+) -> None:
+    """Save a picture of the plant as it is now (the whole world by default) as PNG.
+
+    Raises:
+        ConfigError: if EGL is not installed, naming the packages.
+    """
+    with Renderer(plant.model, width=width, height=height) as renderer:
+        save_png(path, renderer.image(plant.data, view or overview(plant.world)))
+
+
+def save_png(path: Path | str, image: Image) -> None:
+    """Write an image, shape (height, width, 3), as PNG (ISO/IEC 15948)."""
+    height, width, _ = image.shape
+    rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)  # each row begins with filter 0
+    rows[:, 1:] = image.reshape(height, 3 * width)
+
+    def chunk(kind: bytes, body: bytes) -> bytes:
+        check = zlib.crc32(kind + body)
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", check)
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = (
+        b"\x89PNG\r\n\x1a\n",
+        chunk(b"IHDR", header),
+        chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)),
+        chunk(b"IEND", b""),
+    )
+    Path(path).write_bytes(b"".join(parts))
+
+
+def _context(width: int, height: int) -> Any:
+    """An EGL context of MuJoCo's own wrapper, or an error that says what to install."""
+    try:
+        from mujoco.egl import GLContext
+
+        return GLContext(width, height)
+    except Exception as error:  # PyOpenGL fails in many ways where EGL is missing
+        cure = f"apt install {PACKAGES}"
+        problem = Problem(f"rendering needs EGL, which is not here: {error}", suggestion=cure)
+        raise ConfigError([problem]) from error
