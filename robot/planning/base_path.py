@@ -1,0 +1,240 @@
+"""Ways to walk around furniture: OMPL in the plane, then corners rounded and headings set.
+
+The body is a circle that holds its arms. A start or goal nearer to furniture than that (in front of
+a table) is left and entered on a short straight line with the heading kept.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robot.errors import Failure, failure
+from robot.model.description import RobotDescription
+from robot.planning import sampling
+from robot.planning.base_block import explain_no_path
+from robot.planning.body import Body
+from robot.planning.floor import Floor
+from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.solids import solids_of
+from robot.se3 import Array, wrap_angle
+
+ESCAPE_M = 1.0
+"""Longest line on which a place near furniture is left or entered [m]."""
+SPACING_M = 0.25
+CUT_M = 0.35
+"""Distance of waypoints, and most that is cut off a corner [m]."""
+CHECKS = 20_000
+TRIES = 3
+TURN_ON_THE_SPOT_RAD = 0.35
+
+
+def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
+    """Waypoints from the start to the goal, or why there are none."""
+    solids = solids_of(request.around)
+    floor = Floor(solids, request.around.map.bounds_m)
+    for stance, code, verb in (
+        (request.start, "start_in_collision", "stands"),
+        (request.goal, "goal_in_collision", "would stand"),
+    ):
+        touch = body.trunk_touch(solids, stance)
+        if touch is not None:
+            x, y, _ = stance
+            return failure(
+                code,
+                f"where the robot {verb}, its {touch.first} touches {touch.second}",
+                x_m=x,
+                y_m=y,
+                blocked_by=touch.second,
+                overlap_m=-touch.distance_m,
+            )
+    robot = body.description
+    radius = robot.body_radius_m
+    for level in (radius + request.clearance_m, radius + 0.3 * request.clearance_m, 0.9 * radius):
+        path = _plan_at(robot, floor, request, level)
+        if path is not None:
+            return path
+    return explain_no_path(floor, request.start, request.goal, needed_m=1.8 * radius)
+
+
+def _plan_at(
+    robot: RobotDescription, floor: Floor, request: BasePathRequest, radius_m: float
+) -> BasePath | None:
+    """A path whose free part keeps `radius_m` clear."""
+    direct = _direct(robot, floor, request, radius_m)
+    if direct is not None:
+        return direct
+    leave = _escape(floor, request.start, radius_m)
+    enter = _escape(floor, request.goal, radius_m)
+    if leave is None or enter is None:
+        return None
+    a, b = np.array(leave[:2]), np.array(enter[:2])
+    labels = floor.regions(radius_m)
+    at = floor.label_at(labels, np.array([a, b]))
+    if at[0] != at[1] and at.all():
+        return None
+    corners = _corners(floor, a, b, radius_m=radius_m, seed=request.seed)
+    if corners is None:
+        return None
+    rounded = _round_off(floor, corners, radius_m)
+    waypoints = _with_headings(rounded, leave[2], enter[2])
+    if math.dist(leave[:2], request.start[:2]) > 1e-9:
+        waypoints.insert(0, leave)
+    if math.dist(enter[:2], request.goal[:2]) > 1e-9:
+        waypoints.append(request.goal)
+    return _finish(floor, request.start, waypoints)
+
+
+def _finish(floor: Floor, start: Stance, waypoints: list[Stance]) -> BasePath:
+    """Add up length and clearance."""
+    stops = [start, *waypoints]
+    length = sum(math.dist(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False))
+    clearance = min(
+        floor.segment_clearance_m(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False)
+    )
+    return BasePath(waypoints=tuple(waypoints), length_m=length, clearance_m=clearance)
+
+
+def _direct(
+    robot: RobotDescription, floor: Floor, request: BasePathRequest, radius_m: float
+) -> BasePath | None:
+    """Stepping straight to a near goal, sideways or backwards, where that is quicker and free."""
+    (x0, y0, yaw0), (x1, y1, yaw1) = request.start, request.goal
+    length = math.hypot(x1 - x0, y1 - y0)
+    turn = abs(wrap_angle(yaw1 - yaw0))
+    if length < 1e-6 and turn < 1e-6:
+        return BasePath(waypoints=(request.goal,), length_m=0.0, clearance_m=0.0)
+    ends = min(floor.clearance_m(x0, y0), floor.clearance_m(x1, y1))
+    if floor.segment_clearance_m((x0, y0), (x1, y1)) < min(radius_m, ends) - 0.01:
+        return None
+    walk = robot.walking
+    heading = math.atan2(y1 - y0, x1 - x0)
+    middle = heading - yaw0 - 0.5 * wrap_angle(yaw1 - yaw0)
+    along, across = length * math.cos(middle), length * abs(math.sin(middle))
+    ahead = along / walk.max_forward_m_s if along > 0 else -along / walk.max_backward_m_s
+    stepping_s = max(ahead + across / walk.max_sideways_m_s, turn / walk.max_turn_rad_s)
+    turns = abs(wrap_angle(heading - yaw0)) + abs(wrap_angle(yaw1 - heading))
+    walking_s = length / walk.max_forward_m_s + turns / walk.max_turn_rad_s
+    if ends < radius_m and turn > TURN_ON_THE_SPOT_RAD:
+        return None
+    if stepping_s > walking_s + 0.5 and not (ends < radius_m and length < 0.5):
+        return None
+    return _finish(floor, request.start, [request.goal])
+
+
+def _escape(floor: Floor, stance: Stance, radius_m: float) -> Stance | None:
+    """The nearest stance with the same heading that has `radius_m` clear, backwards preferred."""
+    x, y, yaw = stance
+    here = floor.clearance_m(x, y)
+    if here >= radius_m:
+        return stance
+    best: tuple[float, Stance] | None = None
+    for turn in np.radians([180, 150, -150, 120, -120, 90, -90, 45, -45, 0]).tolist():
+        c, s = math.cos(yaw + turn), math.sin(yaw + turn)
+        off_back = abs(wrap_angle(turn - math.pi))
+        for length in np.arange(0.05, ESCAPE_M + 0.01, 0.05).tolist():
+            cost = length * (1.0 + 0.4 * off_back)
+            end = (x + length * c, y + length * s)
+            if best is not None and cost >= best[0]:
+                break
+            if floor.clearance_m(*end) < min(here, 0.5 * radius_m) - 0.02:
+                break
+            if floor.clearance_m(*end) >= radius_m:
+                best = (cost, (*end, yaw))
+                break
+    return best[1] if best else None
+
+
+def _corners(floor: Floor, a: Array, b: Array, *, radius_m: float, seed: int) -> Array | None:
+    """Corners of a free polyline, shape (k, 2): straight if possible, else the best of a few."""
+    limit = radius_m - 0.005
+    if floor.segment_clearance_m(tuple(a), tuple(b)) >= limit:
+        return np.array([a, b])
+    x0, y0, x1, y1 = floor.bounds_m
+    best: Array | None = None
+    for attempt in range(TRIES):
+        found = sampling.connect(
+            a,
+            [b],
+            lower=np.array([x0, y0]),
+            upper=np.array([x1, y1]),
+            valid=lambda at: floor.clearance_m(at[0], at[1]) >= limit,
+            resolution=0.02,
+            seed=seed * TRIES + attempt,
+            checks=CHECKS,
+        ).corners
+        if found is not None:
+            found = _pull_tight(floor, found, limit)
+            if best is None or _length(found) < _length(best):
+                best = found
+    return best
+
+
+def _pull_tight(floor: Floor, corners: Array, limit_m: float) -> Array:
+    """Slide every corner towards the line between its neighbours while the lines stay free."""
+    corners = corners.copy()
+    for _ in range(6):
+        for i in range(1, len(corners) - 1):
+            before, after = corners[i - 1], corners[i + 1]
+            target = 0.5 * (before + after)
+            for share in (1.0, 0.5, 0.25, 0.1):
+                moved = corners[i] + share * (target - corners[i])
+                legs = ((before, moved), (moved, after))
+                if all(floor.segment_clearance_m(tuple(p), tuple(q)) >= limit_m for p, q in legs):
+                    corners[i] = moved
+                    break
+    return corners
+
+
+def _length(corners: Array) -> float:
+    return float(np.sum(np.linalg.norm(np.diff(corners, axis=0), axis=1)))
+
+
+def _round_off(floor: Floor, corners: Array, radius_m: float) -> Array:
+    """Cut corners (a parabola between points on both legs) where the cut is free; space evenly."""
+    points: list[Array] = [corners[0]]
+    for i in range(1, len(corners) - 1):
+        before, corner, after = corners[i - 1], corners[i], corners[i + 1]
+        legs = [np.linalg.norm(corner - before), np.linalg.norm(after - corner)]
+        for cut in (CUT_M, 0.5 * CUT_M, 0.25 * CUT_M, 0.0):
+            shares = [min(0.5, cut / max(float(leg), 1e-9)) for leg in legs]
+            p, q = corner + shares[0] * (before - corner), corner + shares[1] * (after - corner)
+            t = np.linspace(0.0, 1.0, 7)[:, None]
+            curve = (1 - t) ** 2 * p + 2 * t * (1 - t) * corner + t**2 * q
+            if cut == 0.0 or np.min(floor.clearances_m(curve)) >= radius_m - 0.01:
+                points += list(curve) if cut > 0.0 else [corner]
+                break
+    points.append(corners[-1])
+    return _spaced(np.array(points))
+
+
+def _spaced(points: Array) -> Array:
+    """Points at about `SPACING_M` along a polyline, its ends included."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    keep = np.concatenate([[True], steps > 1e-9])
+    points, along = points[keep], np.concatenate([[0.0], np.cumsum(steps[steps > 1e-9])])
+    count = max(1, round(along[-1] / SPACING_M))
+    at = np.linspace(0.0, along[-1], count + 1)
+    return np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def _with_headings(points: Array, yaw_start: float, yaw_end: float) -> list[Stance]:
+    """Waypoints after the first point, looking along the path, with turns on the spot."""
+    if len(points) < 2 or _length(points) < 1e-6:
+        x, y = points[-1]
+        return [(float(x), float(y), yaw_end)]
+    legs = np.diff(points, axis=0)
+    heading = np.arctan2(legs[:, 1], legs[:, 0]).tolist()
+    result: list[Stance] = []
+    if abs(wrap_angle(heading[0] - yaw_start)) > TURN_ON_THE_SPOT_RAD:
+        result.append((float(points[0, 0]), float(points[0, 1]), heading[0]))
+    for i in range(1, len(points)):
+        ahead = heading[i] if i < len(heading) else heading[i - 1]
+        yaw = heading[i - 1] + 0.5 * wrap_angle(ahead - heading[i - 1])
+        result.append((float(points[i, 0]), float(points[i, 1]), wrap_angle(yaw)))
+    if abs(wrap_angle(yaw_end - result[-1][2])) > TURN_ON_THE_SPOT_RAD:
+        result.append((result[-1][0], result[-1][1], yaw_end))
+    else:
+        result[-1] = (result[-1][0], result[-1][1], yaw_end)
+    return result

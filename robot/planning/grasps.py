@@ -1,0 +1,223 @@
+"""How a hand can be on a shape: grasp poses, each to be turned about the vertical as it suits.
+
+The hand is a parallel gripper: it approaches along x of G and closes along y, which is kept level,
+so that an upright object stays upright. A tilted approach comes down from above.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from robot.errors import Failure, failure
+from robot.messages import Shape
+from robot.model.description import Hand
+from robot.se3 import SE3, Array, wrap_angle
+
+SLACK_M = 0.012
+"""The object is at least this much narrower than the opened hand [m]."""
+HOLD_DEPTH_M = 0.035
+"""The grasp point is at most this far behind the near face of the object [m]."""
+FINGERTIP_M = 0.030
+"""Reach of the pads past the grasp point [m]."""
+TIP_CLEARANCE_M = 0.022
+"""Between the fingertips and the object at the pre-grasp [m]."""
+MIN_HEIGHT_M = 0.035
+"""Of the grasp point above what the object stands on, approaching level (half a hand, and air)."""
+TILTS_RAD = (0.0, 0.35, 0.70)
+TILT_COST = (0.0, 0.04, 0.12)
+LYING_TILTS_RAD = (1.2, 0.9)
+UPRIGHT_COS = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class HandOption:
+    """A grasp at heading 0; turned by `heading` about the vertical through the reference point.
+
+    Attributes:
+        R0: orientation of G, shape (3, 3).
+        offset: of G from the reference point (the object's origin) [m], shape (3,).
+        headings: which headings it may be turned to [rad] (None: any).
+        X_GO: the object in the grasp frame, up to its symmetry.
+        opening_m: width between the fingers.
+        back_m: length of the approach (or retreat) along x of G.
+        cost: how little it is liked, 0 best.
+    """
+
+    R0: Array
+    offset: Array
+    headings: tuple[float, ...] | None
+    X_GO: SE3
+    opening_m: float
+    back_m: float
+    cost: float
+
+
+def pick_options(shape: Shape, X_WO: SE3, hand: Hand) -> list[HandOption] | Failure:
+    """All grasps of an object as it stands or lies there."""
+    X_WShape = X_WO @ shape.X_BodyShape
+    up = X_WShape.rotation()[2]
+    limit = hand.max_opening_m - SLACK_M
+    if shape.kind == "cylinder" and abs(up[2]) > UPRIGHT_COS:
+        widths = [shape.size_m[0]]
+        found = _standing_cylinder(shape, X_WO, X_WShape, limit)
+    elif shape.kind == "cylinder":
+        widths = [shape.size_m[0]]
+        found = _lying_cylinder(shape, X_WO, X_WShape, limit)
+    else:
+        widths = list(shape.size_m)
+        found = _box(shape, X_WO, X_WShape, limit)
+    if found:
+        return found
+    return failure(
+        "no_grasp",
+        f"it is {min(widths) * 100:.0f} cm wide and the hand opens {limit * 100:.0f} cm for it",
+        width_m=min(widths),
+        opening_m=limit,
+    )
+
+
+def held_option(X_GO: SE3, shape: Shape, *, yaws: tuple[float, ...] | None) -> HandOption:
+    """The one way the hand is on what it holds, the object upright at yaw 0 (or those given)."""
+    X_OG = X_GO.inverse()
+    rotation = X_OG.rotation()
+    lead = math.atan2(rotation[1, 0], rotation[0, 0])
+    level = SE3.from_xy_yaw(0.0, 0.0, -lead)
+    X_G0 = level @ X_OG
+    headings = None if yaws is None else tuple(wrap_angle(yaw + lead) for yaw in yaws)
+    near = 0.5 * max(shape.size_m[:2])
+    return HandOption(
+        R0=X_G0.rotation(),
+        offset=np.array(X_G0.p),
+        headings=headings,
+        X_GO=X_GO,
+        opening_m=0.0,
+        back_m=min(near, HOLD_DEPTH_M + 0.01) + FINGERTIP_M + TIP_CLEARANCE_M,
+        cost=0.0,
+    )
+
+
+def hand_rotation(tilt_rad: float) -> Array:
+    """R0 of a hand that approaches along +x, pitched down by `tilt_rad`, closing level."""
+    c, s = math.cos(tilt_rad), math.sin(tilt_rad)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+
+def _option(
+    X_WO: SE3,
+    centre_W: Array,
+    *,
+    heading: float | None,
+    tilt: float,
+    lift: float,
+    depth: float,
+    width: float,
+    cost: float,
+) -> HandOption:
+    """A grasp whose point is `lift` above the shape's centre, its near face `depth` away."""
+    R0 = hand_rotation(tilt)
+    hold = min(depth, HOLD_DEPTH_M)
+    local = np.array([-(depth - hold), 0.0, lift])
+    turn = 0.0 if heading is None else heading
+    c, s = math.cos(turn), math.sin(turn)
+    Rz = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    origin_to_centre = Rz.T @ (centre_W - np.array(X_WO.p))
+    X_WG = SE3.from_rotation(Rz @ R0, centre_W + Rz @ local)
+    return HandOption(
+        R0=R0,
+        offset=origin_to_centre + local,
+        headings=None if heading is None else (heading,),
+        X_GO=X_WG.inverse() @ X_WO,
+        opening_m=width,
+        back_m=hold / max(0.5, math.cos(tilt)) + FINGERTIP_M + TIP_CLEARANCE_M,
+        cost=cost,
+    )
+
+
+def _lifts(height_m: float) -> list[tuple[float, float]]:
+    """Grasp heights relative to the middle of a standing object, with their costs."""
+    lowest = MIN_HEIGHT_M - 0.5 * height_m
+    highest = 0.5 * height_m - 0.015
+    if highest < lowest:
+        return [(min(highest, 0.0) if highest > -0.5 * height_m else 0.0, 0.1)]
+    wanted = ((0.0, 0.0), (0.02, 0.02), (0.2 * height_m, 0.05))
+    lifts = {round(min(max(lift, lowest), highest), 4): cost for lift, cost in reversed(wanted)}
+    return sorted(lifts.items())
+
+
+def _standing_cylinder(
+    shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float
+) -> list[HandOption]:
+    diameter, _, height = shape.size_m
+    if diameter > limit_m:
+        return []
+    centre = np.array(X_WShape.p)
+    return [
+        _option(
+            X_WO,
+            centre,
+            heading=None,
+            tilt=tilt,
+            lift=lift,
+            depth=0.5 * diameter,
+            width=diameter,
+            cost=tilt_cost + lift_cost,
+        )
+        for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True)
+        for lift, lift_cost in _lifts(height)
+    ]
+
+
+def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
+    """From above, the fingers on both sides of it."""
+    diameter = shape.size_m[0]
+    axis = X_WShape.rotation()[:, 2]
+    if diameter > limit_m:
+        return []
+    along = math.atan2(axis[1], axis[0])
+    return [
+        _option(
+            X_WO,
+            np.array(X_WShape.p),
+            heading=wrap_angle(along + turn),
+            tilt=tilt,
+            lift=0.0,
+            depth=0.5 * diameter,
+            width=diameter,
+            cost=0.2,
+        )
+        for tilt in LYING_TILTS_RAD
+        for turn in (0.0, math.pi)
+    ]
+
+
+def _box(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
+    """On two opposite upright faces that are near enough to each other."""
+    rotation = X_WShape.rotation()
+    vertical = int(np.argmax(np.abs(rotation[2])))
+    level = [axis for axis in range(3) if axis != vertical]
+    height = shape.size_m[vertical]
+    result: list[HandOption] = []
+    for closing, approach in (level, level[::-1]):
+        if shape.size_m[closing] > limit_m:
+            continue
+        direction = rotation[:, approach]
+        yaw = math.atan2(direction[1], direction[0])
+        for turn in (0.0, math.pi):
+            for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True):
+                for lift, lift_cost in _lifts(height):
+                    result.append(
+                        _option(
+                            X_WO,
+                            np.array(X_WShape.p),
+                            heading=wrap_angle(yaw + turn),
+                            tilt=tilt,
+                            lift=lift,
+                            depth=0.5 * shape.size_m[approach],
+                            width=shape.size_m[closing],
+                            cost=tilt_cost + lift_cost,
+                        )
+                    )
+    return result

@@ -1,0 +1,119 @@
+"""Plans for picking up: grasp, stance, posture, and how to carry the thing away."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robot.errors import Failure, failure
+from robot.messages import Side
+from robot.planning import reach
+from robot.planning.body import UPRIGHT, Body
+from robot.planning.floor import Floor
+from robot.planning.grasps import pick_options
+from robot.planning.handling import Choice, Job, search
+from robot.planning.reach import Bases, Targets
+from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
+from robot.planning.solids import solids_of
+from robot.planning.stances import LEANS
+
+LIFTS_M = (0.10, 0.06, 0.04)
+CARRY_AHEAD_M = (0.20, 0.26, 0.32)
+CARRY_ASIDE_M = (0.10, 0.18, 0.26)
+CARRY_UP_M = (0.10, 0.17, 0.24)
+CARRY_TURNS_RAD = (-0.3, 0.2, 0.7)
+CARRY_CLEARANCE_M = 0.02
+
+
+def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
+    """How to pick up an object, or why it cannot be."""
+    around = request.around
+    thing = next((thing for thing in around.objects if thing.id == request.object_id), None)
+    if thing is None:
+        return failure(
+            "object_not_seen", f"it is not known where {request.object_id} is", id=request.object_id
+        )
+    others = tuple(s for s in solids_of(around) if s.id != thing.id)
+    floor = Floor(others, around.map.bounds_m)
+    sides: tuple[Side, ...] = (request.side,) if request.side else ("left", "right")
+    options = pick_options(thing.shape, thing.X_WO, body.description.hands[sides[0]])
+    if isinstance(options, Failure):
+        return options
+    names = {info.id: info.name for info in around.map.objects}
+    job = Job(
+        kind="pick",
+        object_id=thing.id,
+        shape=thing.shape,
+        options=options,
+        references=np.array([thing.X_WO.p]),
+        reference_cost=np.zeros(1),
+        others=others,
+        lifts_m=LIFTS_M,
+        what="the " + names.get(thing.id, thing.id),
+    )
+    choice = search(body, job, floor, sides=sides, start=request.start, seed=request.seed)
+    if isinstance(choice, Failure):
+        return choice
+    carry = carry_posture(body, choice, thing)
+    if carry is None:
+        return failure(
+            "goal_in_collision",
+            f"{job.what} cannot be held upright near the body with this grasp",
+            blocked_by="the body",
+        )
+    return _plan(body, choice, thing, carry)
+
+
+def _plan(body: Body, choice: Choice, thing: ObjectPose, carry: Joints) -> PickPlan:
+    arm = body.arms[choice.side]
+    X_WG = choice.main.pose(0)
+    return PickPlan(
+        side=choice.side,
+        standoff=choice.candidate.standoff_of(0),
+        stance=choice.candidate.stance_of(0),
+        posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
+        ready_rad=arm.joints(choice.q_ready),
+        X_OG=thing.X_WO.inverse() @ X_WG,
+        X_WG_pre=choice.back.pose(0),
+        X_WG_grasp=X_WG,
+        X_WG_lift=choice.up.pose(0),
+        pre_rad=arm.joints(choice.q_back),
+        carry_rad=carry,
+        opening_m=choice.option.opening_m,
+        margin=choice.margin,
+    )
+
+
+def carry_posture(body: Body, choice: Choice, thing: ObjectPose) -> Joints | None:
+    """Joints that hold the object as upright as it stood, near the body and clear of it."""
+    side, arm = choice.side, body.arms[choice.side]
+    sign = 1.0 if side == "left" else -1.0
+    X_SB, q_body = body.standing(UPRIGHT)
+    grid = np.array(
+        [
+            (x, sign * y, z, -sign * turn)
+            for x in CARRY_AHEAD_M
+            for y in CARRY_ASIDE_M
+            for z in CARRY_UP_M
+            for turn in CARRY_TURNS_RAD
+        ]
+    )
+    n = len(grid)
+    R0 = choice.option.R0
+    bases = Bases(np.zeros((n, 3)), np.zeros(n), np.tile(q_body[arm.motors], (n, 1)))
+    targets = Targets(reach.rotations_z(grid[:, 3]) @ R0, grid[:, :3])
+    reached = reach.first_reach(body, arm, bases, targets)
+    liked = reach.margins(arm, reached.q) - 0.8 * np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
+    held = Held(id=thing.id, shape=thing.shape, X_GO=choice.option.X_GO)
+    scene = body.scenes.get((), (side, held))
+    scene.set_clearance(0.0, held_m=CARRY_CLEARANCE_M)
+    hand = body.description.hands[side]
+    q = q_body.copy()
+    q[body.motor(hand.motor)] = choice.option.opening_m / hand.opening_per_motor
+    for i in np.argsort(-liked, kind="stable").tolist():
+        if reached.ok[i]:
+            q[arm.motors] = reached.q[i]
+            scene.pose(X_SB, q)
+            scene.update()
+            if not scene.touches(scene.arm_geoms(side)):
+                return arm.joints(reached.q[i])
+    return None

@@ -1,0 +1,157 @@
+"""Plans for putting down: a free spot, a stance, a posture."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robot.errors import Failure, failure
+from robot.messages import Place, Shape
+from robot.planning.body import Body
+from robot.planning.floor import Floor
+from robot.planning.grasps import held_option
+from robot.planning.handling import Choice, Job, search
+from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
+from robot.planning.solids import solids_of
+from robot.planning.stances import LEANS
+from robot.se3 import SE3, Array
+
+LIFTS_M = (0.05, 0.03, 0.02)
+SPOT_STEP_M = 0.05
+MAX_SPOTS = 16
+EDGE_M = 0.02
+"""Between an object and the edge of what it is put on [m]."""
+GAP_M = 0.04
+"""Between two objects, or an object and the fingers around another [m]."""
+FINGERS_M = 0.070
+"""Half the width of the opened hand [m]."""
+
+
+def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
+    """How to put down what is held, or why it cannot be."""
+    place, shape = request.place, request.held.shape
+    around = request.around
+    if place.floor:
+        return failure("invalid_goal", f"the {place.name} has no surface to put things on")
+    if shape.size_m[2] + LIFTS_M[-1] > place.clearance_m:
+        return failure(
+            "no_free_spot",
+            f"there is {100 * place.clearance_m:.0f} cm above the {place.name}, and the thing is "
+            f"{100 * shape.size_m[2]:.0f} cm high",
+            clearance_m=place.clearance_m,
+            height_m=shape.size_m[2],
+        )
+    objects = tuple(thing for thing in around.objects if thing.id != request.held.id)
+    if request.target is not None:
+        spots, cost = np.array([request.target.p]), np.zeros(1)
+    else:
+        spots, cost = _free_spots(place, shape, objects, request.seed)
+        if not len(spots):
+            return failure(
+                "no_free_spot",
+                f"the {place.name} has no free spot {200 * _radius(shape):.0f} cm wide",
+                width_m=2 * _radius(shape),
+                objects=float(len(objects)),
+            )
+    others = tuple(s for s in solids_of(around) if s.id != request.held.id)
+    names = {info.id: info.name for info in around.map.objects}
+    job = Job(
+        kind="place",
+        object_id=request.held.id,
+        shape=shape,
+        options=[held_option(request.held.X_GO, shape, yaws=_yaws(request))],
+        references=spots,
+        reference_cost=cost,
+        others=others,
+        lifts_m=LIFTS_M,
+        what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
+    )
+    floor = Floor(others, around.map.bounds_m)
+    choice = search(
+        body, job, floor, sides=(request.side,), start=request.start, seed=request.seed
+    )
+    return choice if isinstance(choice, Failure) else _plan(body, choice, request)
+
+
+def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
+    arm = body.arms[choice.side]
+    X_WG = choice.main.pose(0)
+    return PlacePlan(
+        side=choice.side,
+        standoff=choice.candidate.standoff_of(0),
+        stance=choice.candidate.stance_of(0),
+        posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
+        ready_rad=arm.joints(choice.q_ready),
+        X_WO=X_WG @ request.held.X_GO,
+        X_WG_pre=choice.up.pose(0),
+        X_WG_release=X_WG,
+        X_WG_retreat=choice.back.pose(0),
+        pre_rad=arm.joints(choice.q_up),
+        margin=choice.margin,
+    )
+
+
+def _yaws(request: PlaceRequest) -> tuple[float, ...] | None:
+    """Yaws of the object that will do (None: any): a cylinder has none; a box is set square."""
+    if request.held.shape.kind == "cylinder":
+        return None
+    if request.target is not None:
+        yaw = request.target.yaw_rad
+        return (yaw, yaw + math.pi)
+    yaw = request.place.X_WP.yaw_rad
+    return tuple(yaw + k * math.pi / 2 for k in range(4))
+
+
+def _radius(shape: Shape) -> float:
+    """Of the circle around an upright shape, seen from above [m]."""
+    x, y, _ = shape.size_m
+    return 0.5 * x if shape.kind == "cylinder" else 0.5 * math.hypot(x, y)
+
+
+def _free_spots(
+    place: Place, shape: Shape, objects: tuple[ObjectPose, ...], seed: int
+) -> tuple[Array, Array]:
+    """Spots for the object's origin, shape (m, 3), and their costs (m,), best first.
+
+    Spots away from other things and near the middle of the place are liked.
+    """
+    radius = _radius(shape)
+    half = [max(0.0, 0.5 * size - radius - EDGE_M) for size in place.size_m]
+    if min(place.size_m) < 2 * radius:
+        return np.zeros((0, 3)), np.zeros(0)
+    axes = [np.linspace(-h, h, max(1, int(2 * h / SPOT_STEP_M) + 1)) if h else [0.0] for h in half]
+    x, y = (values.ravel() for values in np.meshgrid(*axes, indexing="ij"))
+    z = 0.5 * shape.size_m[2] - shape.X_BodyShape.p[2]
+    local = np.stack([x, y, np.full_like(x, z)], axis=1)
+    spots = local @ place.X_WP.rotation().T + np.array(place.X_WP.p)
+    gap = np.full(len(spots), np.inf)
+    for thing in objects:
+        if abs(thing.X_WO.p[2] - place.X_WP.p[2]) > 0.3:
+            continue
+        distance = np.hypot(spots[:, 0] - thing.X_WO.p[0], spots[:, 1] - thing.X_WO.p[1])
+        gap = np.minimum(gap, distance - _radius(thing.shape))
+    cost = 0.15 * np.hypot(x, y) + 0.6 * np.maximum(0.0, 0.25 - gap)
+    cost = cost + 0.05 * np.random.default_rng(seed).random(len(cost))
+    order = np.argsort(cost, kind="stable")
+    order = order[gap[order] > max(radius, FINGERS_M) + GAP_M]
+    return _spread(spots[order], cost[order])
+
+
+def _spread(spots: Array, cost: Array) -> tuple[Array, Array]:
+    """At most `MAX_SPOTS` of them: the best, then each time the best 8 cm off those chosen."""
+    chosen: list[int] = []
+    for apart in (0.16, 0.08, 0.0):
+        for i in range(len(spots)):
+            if len(chosen) == MAX_SPOTS:
+                break
+            if i not in chosen and all(
+                np.linalg.norm(spots[i] - spots[j]) >= apart for j in chosen
+            ):
+                chosen.append(i)
+    return spots[chosen], cost[chosen]
+
+
+def upright_at(X_WP: SE3, shape: Shape) -> SE3:
+    """X_WO of a shape standing in the middle of a surface."""
+    return X_WP @ SE3((0.0, 0.0, 0.5 * shape.size_m[2] - shape.X_BodyShape.p[2]))

@@ -1,0 +1,55 @@
+"""Everything a plan keeps clear of, as a flat list of boxes and cylinders in the world."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+import numpy as np
+
+from robot.messages import Shape
+from robot.planning.requests import Surroundings
+from robot.se3 import SE3, Array
+
+PERSON_HEIGHT_M = 1.8
+
+
+class Solid(msgspec.Struct, frozen=True, kw_only=True):
+    """A primitive at X_WG (its own frame, in its middle); `size_m` as in `messages.Shape`."""
+
+    id: str
+    kind: Literal["box", "cylinder"]
+    size_m: tuple[float, float, float]
+    X_WG: SE3
+
+    def half_extents_m(self) -> Array:
+        """Half of its extent along the world's axes, shape (3,) [m]."""
+        return np.abs(self.X_WG.rotation()) @ (0.5 * np.array(self.size_m))
+
+    def z_range_m(self) -> tuple[float, float]:
+        """Lowest and highest height [m]."""
+        half = float(self.half_extents_m()[2])
+        return self.X_WG.p[2] - half, self.X_WG.p[2] + half
+
+
+def solids_of(around: Surroundings) -> tuple[Solid, ...]:
+    """All solids but the ignored, in a fixed order."""
+    found: list[Solid] = []
+    for obstacle in (*around.map.obstacles, *around.unmapped):
+        if obstacle.id not in around.ignored:
+            found += [solid(obstacle.id, obstacle.X_WO, shape) for shape in obstacle.shapes]
+    for person in around.map.people:
+        if person.id not in around.ignored:
+            x, y, _ = person.X_WO.p
+            at = SE3((x, y, 0.5 * PERSON_HEIGHT_M))
+            size = (2 * person.radius_m, 2 * person.radius_m, PERSON_HEIGHT_M)
+            found.append(Solid(id=person.id, kind="cylinder", size_m=size, X_WG=at))
+    for thing in around.objects:
+        if thing.id not in around.ignored:
+            found.append(solid(thing.id, thing.X_WO, thing.shape))
+    return tuple(found)
+
+
+def solid(id: str, X_WO: SE3, shape: Shape) -> Solid:
+    """A shape of a body standing at X_WO."""
+    return Solid(id=id, kind=shape.kind, size_m=shape.size_m, X_WG=X_WO @ shape.X_BodyShape)

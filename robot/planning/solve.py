@@ -1,0 +1,43 @@
+"""One door to all planners: a request in, a plan or a failure out."""
+
+from __future__ import annotations
+
+from robot.errors import failure
+from robot.model.description import RobotDescription
+from robot.planning.arm_path import plan_arm
+from robot.planning.base_path import plan_base_path
+from robot.planning.body import Body
+from robot.planning.pick import plan_pick
+from robot.planning.place import plan_place
+from robot.planning.requests import (
+    ArmRequest,
+    BasePathRequest,
+    PickRequest,
+    PlanRequest,
+    PlanResult,
+)
+
+
+class Solver:
+    """Holds the compiled robot; the same request gives the same answer, whatever came before."""
+
+    def __init__(self, description: RobotDescription) -> None:
+        """Compile the robot."""
+        self.body = Body(description)
+
+    def solve(self, request: PlanRequest) -> PlanResult:
+        """Plan; an error in planning itself comes back as an `internal` failure."""
+        try:
+            return self._solve(request)
+        except Exception as error:  # a planner must not take the executive down with it
+            kind = type(request).__name__
+            return failure("internal", f"planning a {kind} broke: {error!r}", request=kind)
+
+    def _solve(self, request: PlanRequest) -> PlanResult:
+        if isinstance(request, BasePathRequest):
+            return plan_base_path(self.body, request)
+        if isinstance(request, ArmRequest):
+            return plan_arm(self.body, request)
+        if isinstance(request, PickRequest):
+            return plan_pick(self.body, request)
+        return plan_place(self.body, request)

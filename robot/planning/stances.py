@@ -1,0 +1,228 @@
+"""Where to stand so that a hand can be somewhere: many candidates, the likeliest first.
+
+A candidate puts the hand at a distance ahead and to the side of the feet that suits the arm, from
+every heading; the floor decides which are free to stand on and to step in to.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from robot.messages import Side
+from robot.planning.floor import Floor
+from robot.planning.grasps import HandOption
+from robot.planning.requests import BodyPosture, Stance
+from robot.se3 import Array
+
+HEADINGS = 24
+NARROW_M = 0.09
+"""Least distance of the stance's middle to any outline: trunk and feet [m]."""
+STEP_IN_M = (0.20, 0.28, 0.36, 0.44, 0.52, 0.60)
+"""Lengths of the last straight steps from the standoff, tried in this order [m]."""
+REACH_M = 0.38
+"""Ahead of the feet; further out the trunk leans, or the arm is stretched [m]."""
+ASIDE_M = (0.06, 0.13, 0.20, 0.27, 0.34)
+BEST_ASIDE_M = 0.20
+TURNS_RAD = (-0.4, 0.0, 0.4)
+SHARE_PER_M = 0.06
+"""Cost of walking a metre."""
+JITTER = 0.12
+"""Random cost that spreads the first candidates."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """A posture, how far ahead it is meant for, and what it costs."""
+
+    pitch_rad: float
+    yaw_rad: float
+    ahead_m: tuple[float, ...]
+    cost: float
+
+    def posture(self, side: Side) -> BodyPosture:
+        """With the shoulder of `side` turned forward."""
+        sign = -1.0 if side == "left" else 1.0
+        return BodyPosture(pitch_rad=self.pitch_rad, yaw_rad=sign * self.yaw_rad)
+
+
+LEANS = (
+    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38), 0.0),
+    Lean(0.25, 0.0, (0.36, 0.40, 0.44), 0.20),
+    Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Candidates:
+    """n ways to stand and to have the hand, best first; arrays of shape (n,) or (n, ...).
+
+    Attributes:
+        stance: x, y, yaw of S, shape (n, 3).
+        standoff_m: how far back the standoff is.
+        heading: of the hand in W.
+        option, reference, lean: indices.
+        left: whether it is the left hand.
+        cost: what they cost.
+    """
+
+    stance: Array
+    standoff_m: Array
+    heading: Array
+    option: np.ndarray
+    reference: np.ndarray
+    lean: np.ndarray
+    left: np.ndarray
+    cost: Array
+
+    def __len__(self) -> int:
+        return len(self.cost)
+
+    def side(self, i: int) -> Side:
+        """The hand of a candidate."""
+        return "left" if self.left[i] else "right"
+
+    def take(self, rows: np.ndarray) -> Candidates:
+        """Some of them."""
+        return Candidates(
+            *(
+                getattr(self, name)[rows]
+                for name in (
+                    "stance", "standoff_m", "heading", "option", "reference", "lean", "left", "cost"
+                )
+            )
+        )  # fmt: skip
+
+    def stance_of(self, i: int) -> Stance:
+        """(x, y, yaw) of the stance."""
+        x, y, yaw = (float(value) for value in self.stance[i])
+        return (x, y, math.remainder(yaw, 2 * math.pi))
+
+    def standoff_of(self, i: int) -> Stance:
+        """(x, y, yaw) of the standoff: straight behind the stance."""
+        x, y, yaw = self.stance_of(i)
+        back = float(self.standoff_m[i])
+        return (x - back * math.cos(yaw), y - back * math.sin(yaw), yaw)
+
+
+def propose(
+    options: list[HandOption],
+    references: Array,
+    floor: Floor,
+    *,
+    sides: tuple[Side, ...],
+    start: Stance,
+    radius_m: float,
+    reference_cost: Array,
+    seed: int,
+) -> tuple[Candidates, int]:
+    """Candidates that can be stood on and stepped in to, and how many there were before.
+
+    Args:
+        options: grasps.
+        references: where the object's origin may be, shape (m, 3).
+        floor: free space.
+        sides: hands to use.
+        start: where the robot is now.
+        radius_m: of the body with its arms, where it turns and walks.
+        reference_cost: cost of each reference, shape (m,).
+        seed: of the spread.
+    """
+    parts = [
+        _local(options, option, references, reference, side, lean)
+        for side in sides
+        for lean in range(len(LEANS))
+        for option in range(len(options))
+        for reference in range(len(references))
+    ]
+    stance, heading, cost = (np.concatenate([part[k] for part in parts]) for k in range(3))
+    tags = np.concatenate([part[3] for part in parts])
+    total = len(cost)
+    walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
+    cost = cost + reference_cost[tags[:, 1]] + SHARE_PER_M * walk
+    cost = cost + JITTER * np.random.default_rng(seed).random(total)
+    clearance = floor.clearances_m(stance[:, :2])
+    cost = cost + 0.5 * np.maximum(0.0, 0.16 - clearance)
+    order = np.argsort(np.where(clearance >= NARROW_M, cost, np.inf), kind="stable")
+    order = order[: int(np.sum(clearance >= NARROW_M))]
+    standoff = _standoffs(stance[order], floor, start, radius_m)
+    order, standoff = order[standoff > 0.0], standoff[standoff > 0.0]
+    found = Candidates(
+        stance=stance[order],
+        standoff_m=standoff,
+        heading=heading[order],
+        option=tags[order, 0],
+        reference=tags[order, 1],
+        lean=tags[order, 2],
+        left=tags[order, 3].astype(bool),
+        cost=cost[order],
+    )
+    return found, total
+
+
+def _local(
+    options: list[HandOption], option: int, references: Array, reference: int, side: Side, lean: int
+) -> tuple[Array, Array, Array, np.ndarray]:
+    """Stances (n, 3), hand headings (n,), costs (n,), tags (n, 4) of one combination."""
+    choice, posture = options[option], LEANS[lean]
+    sign = 1.0 if side == "left" else -1.0
+    ahead, aside, turn = (
+        values.ravel()
+        for values in np.meshgrid(posture.ahead_m, ASIDE_M, TURNS_RAD, indexing="ij")
+    )
+    natural = -sign * (0.75 - 3.0 * aside) * (0.5 if posture.pitch_rad else 1.0)
+    beta = natural + turn
+    if choice.headings is None:
+        yaws = np.arange(HEADINGS) * (2 * math.pi / HEADINGS)
+        yaw = np.repeat(yaws, len(beta))
+        heading = yaw + np.tile(beta, HEADINGS)
+        repeats = HEADINGS
+    else:
+        heading = np.repeat(np.array(choice.headings), len(beta))
+        repeats = len(choice.headings)
+        yaw = heading - np.tile(beta, repeats)
+    ahead, aside, turn = (np.tile(values, repeats) for values in (ahead, aside, turn))
+    ch, sh = np.cos(heading), np.sin(heading)
+    px = references[reference, 0] + ch * choice.offset[0] - sh * choice.offset[1]
+    py = references[reference, 1] + sh * choice.offset[0] + ch * choice.offset[1]
+    c, s = np.cos(yaw), np.sin(yaw)
+    y = sign * aside
+    stance = np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1)
+    cost = (
+        choice.cost
+        + posture.cost
+        + 1.5 * np.maximum(0.0, ahead - REACH_M + 0.06) * (posture.pitch_rad == 0.0)
+        + 0.8 * np.abs(aside - BEST_ASIDE_M)
+        + 0.12 * np.abs(turn)
+    )
+    tags = np.tile([option, reference, lean, int(side == "left")], (len(cost), 1))
+    return stance, heading, cost, tags
+
+
+def _standoffs(stance: Array, floor: Floor, start: Stance, radius_m: float) -> Array:
+    """Length of the last straight steps: the first from a place that can be walked to (0: none)."""
+    labels = floor.regions(radius_m)
+    home = _home(floor, labels, start)
+    result = np.zeros(len(stance))
+    back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
+    for length in STEP_IN_M:
+        rows = np.flatnonzero(result == 0.0)
+        at = stance[rows, :2] + length * back[rows]
+        label = floor.label_at(labels, at)
+        free = (label > 0) & ((label == home) if home else True)
+        free &= floor.clearances_m(at) >= radius_m
+        result[rows[free]] = length
+    return result
+
+
+def _home(floor: Floor, labels: Array, start: Stance) -> int:
+    """Label of the free region nearest to the start (0: none near)."""
+    angles = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+    for radius in np.arange(0.0, 1.01, 0.1).tolist():
+        ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) * radius + start[:2]
+        found = floor.label_at(labels, ring)
+        if found.any():
+            return int(found[found > 0][0])
+    return 0
