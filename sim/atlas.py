@@ -67,17 +67,29 @@ def places(world: World) -> dict[str, Place]:
     """Every place by id: surfaces of furniture, then rooms and spots of the floor."""
     found = [place for item in world.furniture for place in _surfaces(world, item)]
     for room in world.rooms:
-        X_WP = SE3.from_xy_yaw(*room.at_m, 0.0)
         found.append(
-            Place(id=room.id, name=room.title, X_WP=X_WP, size_m=room.size_m, room=room.id,
-                  floor=True, synonyms=room.synonyms)
-        )  # fmt: skip
+            Place(
+                id=room.id,
+                name=room.title,
+                X_WP=SE3.from_xy_yaw(*room.at_m, 0.0),
+                size_m=room.size_m,
+                room=room.id,
+                floor=True,
+                synonyms=room.synonyms,
+            )
+        )
     for spot in world.spots:
-        X_WP = SE3.from_xy_yaw(*spot.at_m, math.radians(spot.yaw_deg))
         found.append(
-            Place(id=spot.id, name=spot.title, X_WP=X_WP, size_m=(SPOT_M, SPOT_M),
-                  room=room_at(world, spot.at_m), floor=True, synonyms=spot.synonyms)
-        )  # fmt: skip
+            Place(
+                id=spot.id,
+                name=spot.title,
+                X_WP=SE3.from_xy_yaw(*spot.at_m, math.radians(spot.yaw_deg)),
+                size_m=(SPOT_M, SPOT_M),
+                room=room_at(world, spot.at_m),
+                floor=True,
+                synonyms=spot.synonyms,
+            )
+        )
     return {place.id: place for place in found}
 
 
@@ -147,26 +159,29 @@ def _wall_pieces(room: Room, side: str, half_m: float) -> list[tuple[float, floa
 
 def _surfaces(world: World, item: Furniture) -> list[Place]:
     X_WO, found = pose_of(item), list[Place]()
-    whole = {"id": item.id, "name": item.title, "synonyms": item.synonyms}
     for surface in furniture.form(item).surfaces:
-        words = _level_words(item, surface.level) if surface.level else whole
+        names = _board_names(item, surface.level) if surface.level else [item.title, *item.synonyms]
         found.append(
-            Place(**words, X_WP=X_WO @ SE3(surface.p), size_m=surface.size_m, of=item.id,
-                  clearance_m=surface.clearance_m, room=room_at(world, item.at_m))
-        )  # fmt: skip
+            Place(
+                id=f"{item.id}_{surface.level}" if surface.level else item.id,
+                name=names[0],
+                synonyms=tuple(names[1:]),
+                X_WP=X_WO @ SE3(surface.p),
+                size_m=surface.size_m,
+                clearance_m=surface.clearance_m,
+                of=item.id,
+                room=room_at(world, item.at_m),
+            )
+        )
     return found
 
 
-def _level_words(item: Furniture, level: str) -> dict[str, object]:
-    """Id, name and synonyms of one board: "lower shelf" of a shelf, "lower board" besides."""
+def _board_names(item: Furniture, level: str) -> list[str]:
+    """What one board is called: "lower shelf" of a shelf first, "bottom board" besides."""
     also = {"lower": ("bottom",), "upper": ("top",), "middle": ("centre", "center")}
     nouns = (item.title, "board") if item.title == "shelf" else (item.title, "shelf", "board")
-    words = [f"{word} {noun}" for word in (level, *also.get(level, ())) for noun in nouns]
-    return {
-        "id": f"{item.id}_{level}",
-        "name": words[0],
-        "synonyms": (*words[1:], *(f"{level} {synonym}" for synonym in item.synonyms)),
-    }
+    names = [f"{word} {noun}" for word in (level, *also.get(level, ())) for noun in nouns]
+    return names + [f"{level} {synonym}" for synonym in item.synonyms]
 
 
 def _object_info(item: Object) -> ObjectInfo:

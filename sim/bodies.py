@@ -7,6 +7,8 @@ collision looks only at what is near.
 
 from __future__ import annotations
 
+from typing import Any
+
 import mujoco
 
 from robot.messages import Obstacle
@@ -22,7 +24,6 @@ BOX = mujoco.mjtGeom.mjGEOM_BOX
 CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
 CAPSULE = mujoco.mjtGeom.mjGEOM_CAPSULE
 SPHERE = mujoco.mjtGeom.mjGEOM_SPHERE
-LOOKS = {"contype": 0, "conaffinity": 0, "mass": 0.0}  # a geom only to look at
 
 
 def add_wall(spec: mujoco.MjSpec, wall: Obstacle, paint: Paint) -> None:
@@ -42,7 +43,7 @@ def add_furniture(spec: mujoco.MjSpec, item: Furniture, paint: Paint) -> None:
     parts = furniture.form(item).parts
     free = furniture.movable(item)
     if free:
-        body.add_freejoint(name=f"furniture/{item.id}")
+        _free(body, f"furniture/{item.id}")
     volume = sum(part.size_m[0] * part.size_m[1] * part.size_m[2] for part in parts)
     own = item.color or furniture.KINDS[item.kind].color
     for part in parts:
@@ -62,7 +63,7 @@ def add_furniture(spec: mujoco.MjSpec, item: Furniture, paint: Paint) -> None:
 def add_object(spec: mujoco.MjSpec, item: Object, X_WO: SE3, paint: Paint) -> None:
     """A free rigid body, its origin O in its middle."""
     body = _body(spec, f"object/{item.id}", X_WO)
-    body.add_freejoint(name=f"object/{item.id}")
+    _free(body, f"object/{item.id}")
     x, y, z = (size / 2 for size in item.size_m)
     body.add_geom(
         name=f"object/{item.id}",
@@ -77,24 +78,27 @@ def add_object(spec: mujoco.MjSpec, item: Object, X_WO: SE3, paint: Paint) -> No
 
 
 def _dress(body: mujoco.MjsBody, item: Object, paint: Paint) -> None:
-    """Thin films on an object that say what it is: the hollow of a cup, cap and label of a bottle."""
-    x, _, z = (size / 2 for size in item.size_m)
+    """Thin films that say what an object is: the hollow of a cup, cap and label of a bottle."""
+    x, y, z = (size / 2 for size in item.size_m)
     film = 0.0004
+    white = paint.color("white")
     if item.category in ("cup", "mug", "glass", "bowl"):
-        dark = paint.color("charcoal")
-        body.add_geom(
-            type=CYLINDER, size=[0.85 * x, film, 0], pos=[0, 0, z], material=dark, **LOOKS
-        )
+        _show(body, CYLINDER, [0.85 * x, film, 0], z, paint.color("charcoal"))
     elif item.category in ("bottle", "can") and item.shape == "cylinder":
-        white = paint.color("white")
-        label = [x + film, 0.22 * z, 0]
-        body.add_geom(type=CYLINDER, size=label, pos=[0, 0, -0.1 * z], material=white, **LOOKS)
-        cap = [0.45 * x, film, 0]
-        body.add_geom(type=CYLINDER, size=cap, pos=[0, 0, z], material=white, **LOOKS)
+        _show(body, CYLINDER, [x + film, 0.22 * z, 0], -0.1 * z, white)
+        _show(body, CYLINDER, [0.45 * x, film, 0], z, white)
     elif item.shape == "box":
-        white = paint.color("white")
-        band = [x + film, item.size_m[1] / 2 + film, 0.12 * z]
-        body.add_geom(type=BOX, size=band, pos=[0, 0, 0.45 * z], material=white, **LOOKS)
+        _show(body, BOX, [x + film, y + film, 0.12 * z], 0.45 * z, white)
+
+
+def _show(
+    body: mujoco.MjsBody, kind: mujoco.mjtGeom, half_m: list[float], z_m: float, material: str
+) -> None:
+    """Add a geom that is only to look at."""
+    body.add_geom(
+        type=kind, size=half_m, pos=[0, 0, z_m], material=material,
+        contype=0, conaffinity=0, mass=0.0,
+    )  # fmt: skip
 
 
 def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
@@ -129,3 +133,8 @@ def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
 
 def _body(spec: mujoco.MjSpec, name: str, pose: SE3) -> mujoco.MjsBody:
     return spec.worldbody.add_body(name=name, pos=pose.p, quat=pose.quat_wxyz)
+
+
+def _free(body: Any, name: str) -> None:
+    """Let a body move."""
+    body.add_freejoint(name=name)

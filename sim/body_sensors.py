@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.drivers.motors import MotorState
 from robot.errors import DescriptionError, Problem
@@ -74,7 +75,7 @@ class BodySensors:
         )
 
 
-def _addresses(model: mujoco.MjModel, description: RobotDescription) -> Array:
+def _addresses(model: mujoco.MjModel, description: RobotDescription) -> NDArray[np.int64]:
     """Indices into sensordata of gyro, accelerometer, then wrenches left, right; 30 of them."""
     imu = description.sensors.imu
     names = [imu.gyro, imu.accelerometer]
@@ -90,7 +91,7 @@ def _addresses(model: mujoco.MjModel, description: RobotDescription) -> Array:
     if problems:
         raise DescriptionError(problems)
     starts = [int(model.sensor(name).adr[0]) for name in names]
-    return np.concatenate([np.arange(start, start + 3) for start in starts])
+    return np.concatenate([np.arange(start, start + 3, dtype=np.int64) for start in starts])
 
 
 def _sigma(model: mujoco.MjModel, description: RobotDescription, motors: Motors) -> Array:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
@@ -52,8 +53,7 @@ def _numbers(world: World) -> Iterator[Finding]:
     for where, item in [*entries, ("$.start", world.start)]:
         for key in item.__struct_fields__:
             value = getattr(item, key)
-            values = value if isinstance(value, tuple) else (value,)
-            numbers = [v for v in values if isinstance(v, float | int) and not isinstance(v, bool)]
+            numbers = _numbers_in(value)
             if not all(map(math.isfinite, numbers)):
                 yield Finding(f"{where}.{key}", f"{key} is not a finite number")
             elif key.endswith("_kg") and not all(0.0 < v <= MAX_OBJECT_KG for v in numbers):
@@ -63,6 +63,11 @@ def _numbers(world: World) -> Iterator[Finding]:
                     yield Finding(f"{where}.{key}", f"{key} must be above 0, up to {MAX_M:g} m")
             elif key == "at_m" and not all(abs(v) <= MAX_M for v in numbers):
                 yield Finding(f"{where}.{key}", f"{key} is farther away than {MAX_M:g} m")
+
+
+def _numbers_in(value: object) -> list[float]:
+    values = cast("tuple[object, ...]", value) if isinstance(value, tuple) else (value,)
+    return [v for v in values if isinstance(v, float | int) and not isinstance(v, bool)]
 
 
 def _words(world: World) -> Iterator[Finding]:
@@ -157,7 +162,7 @@ def _boards(item: Furniture, where: str) -> Iterator[Finding]:
     boards = item.boards_m
     if len(boards) > len(furniture.ORDINALS):
         yield Finding(f"{where}.boards_m", f"at most {len(furniture.ORDINALS)} boards")
-    if any(high - low < 0.10 for low, high in zip(boards, boards[1:], strict=False)):
+    if any(high - low < 0.10 for low, high in itertools.pairwise(boards)):
         yield Finding(
             f"{where}.boards_m", "boards are listed from the lowest up, 0.1 m apart or more"
         )

@@ -1,4 +1,4 @@
-"""What can be done to a running world: pushes, things that move or vanish, sensors that fall silent.
+"""What can be done to a running world: pushes, things that move or vanish, silent sensors.
 
 Faults are values; a benchmark, a test or a person sends one, the plant suffers it. They reach the
 robot through physics and sensors only.

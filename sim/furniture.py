@@ -141,7 +141,7 @@ def _shelf(item: Furniture, size: Vector3) -> Form:
 
 
 def _cabinet(_item: Furniture, size: Vector3) -> Form:
-    depth, width, height = size
+    depth, _, height = size
     body = Part((0, 0, height / 2), size)
     slit = Part((depth / 2, 0, height / 2), (0.002, 0.006, height - 0.06), "charcoal")
     grips = [

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from robot.se3 import Array
 
 GROUPS = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # what is visible; 3 and up is hidden
+STATIC = True  # hit what cannot move, too
 
 
 class Rays:
@@ -30,7 +31,7 @@ class Rays:
         geoms = np.empty(count, dtype=np.int32)
         distances = np.empty(count)
         mujoco.mj_multiRay(
-            self._model, self._data, origin, directions.reshape(-1), GROUPS, True, self.body,
+            self._model, self._data, origin, directions.reshape(-1), GROUPS, STATIC, self.body,
             geoms, distances, None, count, range_m,
         )  # fmt: skip
         beyond = distances > range_m

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import struct
 import zlib
 from pathlib import Path
@@ -151,9 +152,7 @@ def save_png(path: Path | str, image: Image) -> None:
 def _context(width: int, height: int) -> Any:
     """An EGL context of MuJoCo's own wrapper, or an error that says what to install."""
     try:
-        from mujoco.egl import GLContext
-
-        return GLContext(width, height)
+        return importlib.import_module("mujoco.egl").GLContext(width, height)
     except Exception as error:  # PyOpenGL fails in many ways where EGL is missing
         cure = f"apt install {PACKAGES}"
         problem = Problem(f"rendering needs EGL, which is not here: {error}", suggestion=cure)

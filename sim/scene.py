@@ -101,9 +101,9 @@ def _floor(spec: mujoco.MjSpec, world: World, paint: Paint) -> None:
 def _light(spec: mujoco.MjSpec, world: World) -> None:
     """A soft sky, one lamp with shadows, one to fill."""
     visual = spec.visual
-    visual.headlight.ambient = [0.44, 0.44, 0.44]
-    visual.headlight.diffuse = [0.24, 0.24, 0.24]
-    visual.headlight.specular = [0.05, 0.05, 0.05]
+    visual.headlight.ambient[:] = [0.44, 0.44, 0.44]
+    visual.headlight.diffuse[:] = [0.24, 0.24, 0.24]
+    visual.headlight.specular[:] = [0.05, 0.05, 0.05]
     visual.quality.shadowsize = 4096
     visual.quality.offsamples = 4
     visual.global_.offwidth, visual.global_.offheight = 1920, 1080
@@ -111,7 +111,7 @@ def _light(spec: mujoco.MjSpec, world: World) -> None:
     visual.map.shadowclip, visual.map.shadowscale = 1.6, 0.6
     x_min, y_min, x_max, y_max = world.bounds_m
     x, y = (x_min + x_max) / 2, (y_min + y_max) / 2
-    spec.stat.center = [x, y, 0.6]
+    spec.stat.center[:] = [x, y, 0.6]
     spec.stat.extent = max(3.0, min(8.0, 0.6 * max(x_max - x_min, y_max - y_min)))
     spec.worldbody.add_light(
         name="lamp", type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, castshadow=True,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-import mujoco
 import msgspec
+import mujoco
 import numpy as np
 
 from robot.bus import topics

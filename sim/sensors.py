@@ -6,10 +6,10 @@ import math
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.messages import DepthImage, LidarScan
 from robot.model.description import RobotDescription
-from robot.se3 import Array
 from sim.rays import Rays
 
 # Every second pixel of the camera, in both directions: a ray costs about half a microsecond, so
@@ -85,7 +85,7 @@ class PlanarLidar:
         self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
         self._rays = Rays(model, data, body=int(model.site_bodyid[model.site(lidar.site).id]))
         root = model.body(robot.base_body).id
-        self._own: Array = model.body_rootid[model.geom_bodyid] == root
+        self._own: NDArray[np.bool_] = model.body_rootid[model.geom_bodyid] == root
 
     def scan(self, stamp_s: float) -> LidarScan:
         """One turn."""
