@@ -1,4 +1,4 @@
-"""YAML files read into frozen types; every mistake is named by file, line and the nearest valid name."""
+"""YAML files read into frozen types; mistakes are named by file, line and nearest valid name."""
 
 from __future__ import annotations
 
@@ -48,11 +48,12 @@ def read_yaml(path: Path | str) -> Any:
     if re.search(r"(?m)^[^#'\"]*[:\-]\s+\*\w+", text):
         raise _error(path, None, "YAML aliases (*name) are not allowed")
     try:
-        node = YAML(typ="rt").load(text)
+        node = cast(Any, YAML(typ="rt")).load(text)
     except MarkedYAMLError as error:
-        mark = error.problem_mark
+        mark = cast(Any, error).problem_mark
+        problem = cast(Any, error).problem
         line = None if mark is None else int(mark.line) + 1
-        raise _error(path, line, f"not valid YAML: {error.problem}") from None
+        raise _error(path, line, f"not valid YAML: {problem}") from None
     except RecursionError:
         raise _error(path, None, f"nested deeper than {MAX_DEPTH} levels") from None
     if node is None:

@@ -107,15 +107,15 @@ CATALOGUE: dict[str, FailureKind] = {
         "the goal is out of range or contradicts itself", "check the numbers"
     ),
     # planning
-    "no_path": FailureKind("no free path leads to the place", "clear the way or name another place"),
+    "no_path": FailureKind(
+        "no free path leads to the place", "clear the way or name another place"
+    ),
     "start_in_collision": FailureKind(
         "the robot touches something where it stands", "move it into free space"
     ),
     "goal_in_collision": FailureKind("the goal is inside an obstacle", "free the place"),
     "out_of_reach": FailureKind("the hand cannot reach there", "move the object nearer"),
-    "no_grasp": FailureKind(
-        "no grasp holds this shape", "hand over something at most 9 cm wide"
-    ),
+    "no_grasp": FailureKind("no grasp holds this shape", "hand over something at most 9 cm wide"),
     "no_stance": FailureKind(
         "no free place to stand within reach", "clear the floor in front of it"
     ),

@@ -122,9 +122,7 @@ class Payload(Command, frozen=True, kw_only=True):
     mass_kg: float
 
 
-BodyCommand = (
-    Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | Grip | Look | Payload
-)
+BodyCommand = Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | Grip | Look | Payload
 
 
 # --- controller -> everybody -------------------------------------------------------------------
@@ -235,9 +233,7 @@ class Sighting(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Sightings(Message, frozen=True, kw_only=True):
-    """What the head camera sees in one frame; `in_view` names known objects whose last known
-    place was in clear view without being seen is left to the world model.
-    """
+    """What the head camera sees in one frame; what should be seen and is not is the model's."""
 
     objects: tuple[Sighting, ...]
     people: tuple[Sighting, ...] = ()

@@ -11,7 +11,7 @@ import math
 
 import mujoco
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline  # pyright: ignore[reportMissingTypeStubs]
 
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, MoveArm, MoveHand, Side
@@ -83,7 +83,8 @@ class Arm:
         if times[0] == 0.0 and len(times) < 2:
             return "a trajectory needs a point after now"
         low, high = self.lower - 1e-3, self.upper + 1e-3
-        if not (np.isfinite(positions).all() and (positions >= low).all() and (positions <= high).all()):
+        inside = (positions >= low) & (positions <= high)  # False for what is not a number
+        if not inside.all():
             return "a position is outside the joint limits"
         return ""
 
@@ -154,7 +155,6 @@ class Arm:
         twist[:3] += velocity
         jac = self._jac
         mujoco.mj_jacSite(model, data, jac[:3], jac[3:], site)
-        twist -= 0.0
         arm = jac[:, self.dofs]
         damped = arm @ arm.T + DAMPING**2 * np.eye(6)
         rate = arm.T @ np.linalg.solve(damped, twist)

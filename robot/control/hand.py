@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
@@ -83,11 +81,3 @@ class HandControl:
             opening_m_s=gain * float(motors.qd[self.motor]),
             load_n=self.load_n,
         )
-
-
-def wrist_rotation(body: BodyModel, side: Side, data: object) -> Array:
-    """Rotation of the wrist sensor's site in N, shape (3, 3)."""
-    model = body.model
-    sensor = body.description.hands[side].force_sensor
-    site = int(model.sensor(sensor).objid[0])
-    return np.asarray(data.site_xmat[site]).reshape(3, 3)  # type: ignore[attr-defined]

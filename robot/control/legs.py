@@ -7,13 +7,13 @@ import math
 import mujoco
 import numpy as np
 
-from robot.control.walking.footsteps import Sole, Target, Twist, stance_of
+from robot.control.walking.footsteps import Sole, Target, Twist
 from robot.control.walking.gait import Gait, Reference
 from robot.control.whole_body import Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, OneLeg, Side, Stand, Walk, WalkTo
 from robot.model.body import SIDES, BodyModel
-from robot.se3 import SE3, Array, wrap_angle
+from robot.se3 import Array, wrap_angle
 
 GRAVITY_M_S2 = 9.81
 LOWEST_SHARE = 0.68
@@ -58,7 +58,6 @@ class Legs:
         self._expires_s = math.inf
         self._now_s = 0.0
         self._twist_goal = Twist()
-        self._one_leg = False
 
     # --- commands ------------------------------------------------------------------------------
 
@@ -102,7 +101,6 @@ class Legs:
         self._stand_tall()
         self.gait.wish = None
         self.gait.lift(command.side, command.duration_s)
-        self._one_leg = True
         self._start(command.id)
 
     def _start(self, command_id: int) -> None:
@@ -129,7 +127,9 @@ class Legs:
 
     # --- every tick ----------------------------------------------------------------------------
 
-    def update(self, dt_s: float, dynamics: Dynamics, load: list[float], rest_acc: Array) -> tuple[Task, Reference]:
+    def update(
+        self, dt_s: float, dynamics: Dynamics, load: list[float], rest_acc: Array
+    ) -> tuple[Task, Reference]:
         """The task of this tick and the gait's reference behind it."""
         self._now_s += dt_s
         self._ramp(dt_s)
@@ -138,7 +138,7 @@ class Legs:
         omega = math.sqrt(GRAVITY_M_S2 / height)
         self.gait.omega_1_s = omega
         xi = (float(com[0] + velocity[0] / omega), float(com[1] + velocity[1] / omega))
-        measured = {side: self._sole(dynamics, side) for side in SIDES}
+        measured: dict[Side, Sole] = {side: self._sole(dynamics, side) for side in SIDES}
         reference = self.gait.update(dt_s, xi, measured, load)
         self._report()
         return self._task(dynamics, reference, omega, rest_acc), reference
@@ -176,7 +176,6 @@ class Legs:
         turned = float(np.abs(self._waist - self._waist_goal).max()) < 1e-3
         if there and turned:
             self.activity = Activity(id=self.activity.id, status="done")
-            self._one_leg = False
             if isinstance(self.gait.wish, Twist):
                 self.gait.wish = None
                 self._end_walk()
@@ -245,11 +244,6 @@ class Legs:
         acc[3:] = turn_kp * tilt - turn_kd * velocity[3:]
         acc[5] += turn_kd * float(swing.velocity[2]) + float(swing.acceleration[2])
         return acc
-
-    def X_NS(self) -> SE3:
-        """The stance."""
-        stance = stance_of(self.gait.planted["left"], self.gait.planted["right"])
-        return SE3.from_xy_yaw(stance.x, stance.y, stance.yaw)
 
 
 def _towards(value: float, goal: float, step: float) -> float:

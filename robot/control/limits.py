@@ -33,7 +33,8 @@ class Limits:
         self._last_good: MotorCommand | None = None
         self._middle: Array = 0.5 * (body.lower_rad + body.upper_rad)
         half = 0.5 * (body.upper_rad - body.lower_rad)
-        self._inverse: Array = 1.0 / np.array([half, body.velocity_limit_rad_s, body.torque_limit_nm])
+        limits = (half, body.velocity_limit_rad_s, body.torque_limit_nm)
+        self._inverse: Array = 1.0 / np.array(limits)
         self._share: Array = np.zeros_like(self._inverse)
 
     def reset(self) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+import mujoco
 import numpy as np
 
 from robot.control.arm import Arm
@@ -15,7 +16,7 @@ from robot.control.hand import HandControl
 from robot.control.head import Head
 from robot.control.legs import Legs
 from robot.control.limits import Limits
-from robot.control.walking.footsteps import Sole
+from robot.control.walking.footsteps import Sole, stance_of
 from robot.control.walking.gait import Reference
 from robot.control.whole_body import WholeBody
 from robot.drivers.motors import MotorCommand, MotorState
@@ -80,23 +81,24 @@ class ControlLoop:
     def _start(self, state: MotorState) -> None:
         """Find the odometry frame: the stance is its origin, the floor its z = 0."""
         body, data = self.body, self.dynamics.data
-        X_NB = SE3((0.0, 0.0, 0.0), self._upright(state))
-        body.write_base(data, X_NB)
+        X_AB = SE3((0.0, 0.0, 0.0), self._upright(state))
+        body.write_base(data, X_AB)
         body.write_joints(data, state.q)
         self.dynamics.kinematics()
-        soles = [body.site_pose(data, body.sole_site[side]) for side in SIDES]
-        yaw = math.atan2(
-            sum(math.sin(sole.yaw_rad) for sole in soles), sum(math.cos(sole.yaw_rad) for sole in soles)
-        )
-        lowest = min(sole.p[2] for sole in soles)
-        middle = [0.5 * (soles[0].p[k] + soles[1].p[k]) for k in (0, 1)]
-        X_SN = SE3.from_xy_yaw(middle[0], middle[1], yaw).inverse()
-        X_NB = X_SN @ SE3((0.0, 0.0, -lowest), X_NB.quat_wxyz)
+        X_AL, X_AR = (body.site_pose(data, body.sole_site[side]) for side in SIDES)
+        stance = stance_of(_planar(X_AL), _planar(X_AR))
+        lowest_m = min(X_AL.p[2], X_AR.p[2])
+        X_NA = SE3.from_xy_yaw(stance.x, stance.y, stance.yaw, z_m=lowest_m).inverse()
+        X_NB = X_NA @ X_AB
         self.estimator = BaseStateEstimator(body, X_NB)
-        planted = {side: _planar(X_SN @ soles[i]) for i, side in enumerate(SIDES)}
-        self.legs = Legs(body, self.whole, planted["left"], planted["right"], X_NB.p[2])
-        self.arms = {side: Arm(body, side, state.q) for side in self.description.hands}
-        self.hands = {side: HandControl(body, side, state.q) for side in self.description.hands}
+        left, right = _planar(X_NA @ X_AL), _planar(X_NA @ X_AR)
+        self.legs = Legs(body, self.whole, left, right, X_NB.p[2])
+        self.arms: dict[Side, Arm] = {
+            side: Arm(body, side, state.q) for side in self.description.hands
+        }
+        self.hands: dict[Side, HandControl] = {
+            side: HandControl(body, side, state.q) for side in self.description.hands
+        }
         self._wrist_site = {
             side: int(body.model.sensor(hand.force_sensor).objid[0])
             for side, hand in self.description.hands.items()
@@ -123,9 +125,11 @@ class ControlLoop:
             body.write_base(data, SE3())
             body.write_joints(data, state.q)
             self.dynamics.kinematics()
-            up_B = sum(data.site_xmat[body.sole_site[side]].reshape(3, 3)[:, 2] for side in SIDES)
+            left, right = (data.site_xmat[body.sole_site[side]].reshape(3, 3) for side in SIDES)
+            up_B = left[:, 2] + right[:, 2]
         x, y, z = (float(value) for value in up_B)
-        return SE3.from_rpy(math.atan2(y, z), math.atan2(-x, math.hypot(y, z)), 0.0, (0, 0, 0)).quat_wxyz
+        roll, pitch = math.atan2(y, z), math.atan2(-x, math.hypot(y, z))
+        return SE3.from_rpy(roll, pitch, 0.0, (0.0, 0.0, 0.0)).quat_wxyz
 
     def _height(self) -> float:
         return self.description.walking.base_height_m
@@ -172,7 +176,7 @@ class ControlLoop:
         """Stand arms the motors again if the robot is upright on its feet."""
         if not isinstance(command, Stand) or self._tilt() > UPRIGHT_TILT_RAD:
             return False
-        if self.estimator.p[2] < 0.8 * self._height() * 0.7:
+        if self.estimator.p[2] < FALLEN_HEIGHT_SHARE * self._height():
             return False
         self._failure = None
         self.limits.reset()
@@ -181,8 +185,6 @@ class ControlLoop:
 
     def _carry(self, side: Side, mass_kg: float) -> None:
         """Put a payload at the grasp point of a hand into the model."""
-        import mujoco
-
         self._payload[side] = max(0.0, mass_kg)
         model = self.body.model
         model.body_mass[:] = self._nominal_mass
@@ -234,7 +236,8 @@ class ControlLoop:
         data.qvel[3:6] = estimator.w_B
         body.write_joints(data, state.q, state.qd)
         dynamics.kinematics()
-        estimator.correct(dt_s, data, [jac[:3] for jac in dynamics.jac_sole], state.ankle_wrench[:, 2])
+        jac_sole = [jac[:3] for jac in dynamics.jac_sole]
+        estimator.correct(dt_s, data, jac_sole, state.ankle_wrench[:, 2])
         data.qvel[:3] = estimator.v
         dynamics.dynamics()
         self._update_mode()
@@ -302,21 +305,21 @@ class ControlLoop:
         legs = self.legs
         com, velocity = self.dynamics.com, self.dynamics.com_velocity
         omega = legs.gait.omega_1_s
-        hands: dict[Side, HandState] = {
-            side: hand.state(state, body.site_pose(data, body.grasp_site[side]))
-            for side, hand in self.hands.items()
-        }
+        hands: dict[Side, HandState] = {}
+        for side, hand in self.hands.items():
+            hands[side] = hand.state(state, body.site_pose(data, body.grasp_site[side]))
         command = (0.0, 0.0) if self._reference is None else self._reference.zmp_command
-        soles = {side: body.site_pose(data, body.sole_site[side]) for side in SIDES}
+        X_NL, X_NR = (body.site_pose(data, body.sole_site[side]) for side in SIDES)
+        stance = stance_of(_planar(X_NL), _planar(X_NR))
         return BodyState(
             stamp_s=state.stamp_s,
             mode=self.mode,
             X_NB=self.estimator.X_NB(),
             v_NB=_vector(self.estimator.v),
             w_NB=_vector(data.xmat[body.base_body].reshape(3, 3) @ self.estimator.w_B),
-            X_NL=soles["left"],
-            X_NR=soles["right"],
-            X_NS=self._stance(soles),
+            X_NL=X_NL,
+            X_NR=X_NR,
+            X_NS=SE3.from_xy_yaw(stance.x, stance.y, stance.yaw),
             left_contact=self.estimator.load[0] > 0.1,
             right_contact=self.estimator.load[1] > 0.1,
             q_rad=tuple(state.q.tolist()),
@@ -332,13 +335,6 @@ class ControlLoop:
             temperature_c=tuple(state.temperature_c.tolist()),
             failure=self._failure,
         )
-
-    def _stance(self, soles: dict[Side, SE3]) -> SE3:
-        left, right = soles["left"], soles["right"]
-        c = math.cos(left.yaw_rad) + math.cos(right.yaw_rad)
-        s = math.sin(left.yaw_rad) + math.sin(right.yaw_rad)
-        x, y = (0.5 * (left.p[k] + right.p[k]) for k in (0, 1))
-        return SE3.from_xy_yaw(x, y, math.atan2(s, c))
 
     def _activities(self) -> dict[Channel, Activity]:
         result: dict[Channel, Activity] = {

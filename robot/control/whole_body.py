@@ -83,7 +83,7 @@ class WholeBody:
             i for group in ("left_leg", "right_leg", "waist") for i in description.indices(group)
         ]
         self.active_motors = np.array(active)
-        self.dofs = np.concatenate([np.arange(6), body.dof_of[active]])
+        self.dofs: NDArray[np.int64] = np.concatenate([np.arange(6), body.dof_of[active]])
         self.waist = np.arange(len(active))[-len(description.groups["waist"]) :]
         self.torque_limit = 0.95 * body.torque_limit_nm[active]
         self.size = len(self.dofs)
@@ -93,13 +93,16 @@ class WholeBody:
         self._cones = [self._cone(i) for i in range(2)]
         self._programmes = {n: self._allocate(n) for n in (0, 1, 2)}
         self._own = as_index(self.dofs)
-        self._rest = as_index(np.setdiff1d(np.arange(body.model.nv), self.dofs))
+        own = set(self.dofs.tolist())
+        self._rest = as_index(np.array([dof for dof in range(body.model.nv) if dof not in own]))
         self._sites = [body.sole_site[side] for side in SIDES]
         self._rows: Array = np.zeros((15, self.size))
         self._b: Array = np.zeros(15)
         self._w: Array = np.full(15, COM_WEIGHT)
         self._local: list[Array] = [np.zeros((6, self.size)) for _ in SIDES]
-        self._regular: Array = np.concatenate([np.full(3, 1e-6), np.full(3, PELVIS_WEIGHT), weights])
+        self._regular: Array = np.concatenate(
+            [np.full(3, 1e-6), np.full(3, PELVIS_WEIGHT), weights]
+        )
 
     def _cone(self, foot: int) -> Array:
         """Rows C with C w <= 0 for a wrench w = (fx, fy, fz, tx, ty, tz) in the sole's axes."""
@@ -147,7 +150,7 @@ class WholeBody:
         M = M_own[:, own]
         known = h[own] + M_own[:, rest] @ task.rest_acc[rest]
         jac = [dynamics.jac_sole[i][:, own] for i in range(2)]
-        self._objective(programme, dynamics, task, jac, M, known)
+        self._objective(programme, task, bias=dynamics.bias_sole, jac=jac, M=M, known=known)
         contact_jac: list[Array] = []
         for i in feet:
             rotation = dynamics.data.site_xmat[self._sites[i]].reshape(3, 3).T
@@ -155,7 +158,7 @@ class WholeBody:
             np.matmul(rotation, jac[i][:3], out=local[:3])
             np.matmul(rotation, jac[i][3:], out=local[3:])
             contact_jac.append(local)
-        self._constraints(programme, task, feet, M, known, contact_jac)
+        self._constraints(programme, task, feet=feet, M=M, known=known, contact_jac=contact_jac)
         result = cast(
             "tuple[Array, float, int, Any]",
             daqp.solve(  # pyright: ignore
@@ -168,7 +171,7 @@ class WholeBody:
             ),
         )
         x = result[0]
-        solution = Solution(np.zeros(self.body.model.nv), task.rest_acc.copy())
+        solution = Solution(np.zeros_like(h), task.rest_acc.copy())
         if result[2] <= 0 or not math.isfinite(float(x.sum())):
             solution.ok = False
             return solution
@@ -186,22 +189,23 @@ class WholeBody:
     def _objective(
         self,
         programme: dict[str, Any],
-        dynamics: Dynamics,
         task: Task,
+        *,
+        bias: list[Array],
         jac: list[Array],
         M: Array,
         known: Array,
     ) -> None:
         """Fill H and g with the weighted tasks."""
         size, mass = self.size, self.body.mass_kg
-        H, g, rows, target, weight = programme["H"], programme["g"], self._rows, self._b, self._w
+        g, rows, target, weight = programme["g"], self._rows, self._b, self._w
         np.divide(M[:3], mass, out=rows[:3])
         target[:3] = task.com_acc - known[:3] / mass
         target[2] += GRAVITY_M_S2
         for i in range(2):
             start = 3 + 6 * i
             rows[start : start + 6] = jac[i]
-            target[start : start + 6] = task.sole_acc[i] - dynamics.bias_sole[i]
+            target[start : start + 6] = task.sole_acc[i] - bias[i]
             weight[start : start + 6] = STANCE_WEIGHT if task.contact[i] else SWING_WEIGHT
         weighted = rows.T * weight
         np.matmul(weighted, rows, out=programme["H_own"])
@@ -216,6 +220,7 @@ class WholeBody:
         self,
         programme: dict[str, Any],
         task: Task,
+        *,
         feet: list[int],
         M: Array,
         known: Array,

@@ -22,8 +22,9 @@ GRAVITY_M_S2 = 9.81
 TILT_GAIN_1_S = 0.05
 VELOCITY_TIME_S = 0.03
 POSITION_TIME_S = 0.10
-ANCHOR_LOAD = 0.5
-RELEASE_LOAD = 0.2
+TAKE_LOAD = 0.2  # share of the weight from which a foot is an anchor,
+RELEASE_LOAD = 0.1  # below which it is none,
+SURE_LOAD = 0.5  # and below which its anchor follows the foot
 
 
 class BaseStateEstimator:
@@ -47,9 +48,9 @@ class BaseStateEstimator:
         self.load = [0.0, 0.0]
         self._anchor: list[Array | None] = [None, None]
         site = body.site_id(body.description.sensors.imu.site)
-        self._R_BI: Array = np.zeros(9)
-        mujoco.mju_quat2Mat(self._R_BI, body.model.site_quat[site])
-        self._R_BI = self._R_BI.reshape(3, 3)
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, body.model.site_quat[site])
+        self._R_BI: Array = rotation.reshape(3, 3)
         self._weight_n = body.mass_kg * GRAVITY_M_S2
 
     def predict(self, dt_s: float, gyro_rad_s: Array, accel_m_s2: Array) -> None:
@@ -91,9 +92,9 @@ class BaseStateEstimator:
             load = float(ankle_force_z[i]) / self._weight_n
             self.load[i] = load
             sole = data.site_xpos[self.body.sole_site[side]]
-            if load > 0.2 * ANCHOR_LOAD and self._anchor[i] is None and load > RELEASE_LOAD:
+            if load > TAKE_LOAD and self._anchor[i] is None:
                 self._anchor[i] = np.array([sole[0], sole[1], 0.0])
-            elif load < 0.5 * RELEASE_LOAD:
+            elif load < RELEASE_LOAD:
                 self._anchor[i] = None
             if self._anchor[i] is not None:
                 weights[i] = max(0.0, min(1.0, (load - 0.05) / 0.3))
@@ -119,9 +120,9 @@ class BaseStateEstimator:
         """Let a lightly loaded foot's anchor follow the foot, so that rolling does not pull."""
         for i, side in enumerate(SIDES):
             anchor = self._anchor[i]
-            if anchor is not None and self.load[i] < ANCHOR_LOAD:
+            if anchor is not None and self.load[i] < SURE_LOAD:
                 sole = data.site_xpos[self.body.sole_site[side]]
-                rate = min(1.0, dt_s / 0.02) * (1.0 - self.load[i] / ANCHOR_LOAD)
+                rate = min(1.0, dt_s / 0.02) * (1.0 - self.load[i] / SURE_LOAD)
                 anchor[:2] += rate * (sole[:2] + shift_p[:2] - anchor[:2])
 
     def X_NB(self) -> SE3:

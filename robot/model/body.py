@@ -55,7 +55,7 @@ class BodyModel:
         self.lower_rad: Array = np.array([model.jnt_range[j][0] for j in joints])
         self.upper_rad: Array = np.array([model.jnt_range[j][1] for j in joints])
         self.torque_limit_nm: Array = np.array([motor.torque_limit_nm for motor in motors])
-        self.velocity_limit_rad_s: Array = np.array([motor.velocity_limit_rad_s for motor in motors])
+        self.velocity_limit_rad_s: Array = np.array([m.velocity_limit_rad_s for m in motors])
         self.kp: Array = np.array([motor.kp for motor in motors])
         self.kd: Array = np.array([motor.kd for motor in motors])
         self.base_body: int = self.body_id(description.base_body)
@@ -66,20 +66,23 @@ class BodyModel:
         self.grasp_site = {
             side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
         }
-        self._coupled_qpos, self._coupled_dof, self._couple_to, self._couple_gain = self._couplings()
+        couplings = self._couplings()
+        self._coupled_qpos, self._coupled_dof, self._couple_to, self._couple_gain = couplings
 
     def _check_names(self) -> None:
         """Every name of the description must be in the MJCF."""
         description, model = self.description, self.model
-        wanted: list[tuple[str, int, str]] = []
+        wanted: list[tuple[str, mujoco.mjtObj, str]] = []
         obj = mujoco.mjtObj
         wanted += [("joint", obj.mjOBJ_JOINT, motor.joint) for motor in description.motors.values()]
         wanted += [("body", obj.mjOBJ_BODY, description.base_body)]
         wanted += [("body", obj.mjOBJ_BODY, description.torso_body)]
         for foot in description.feet.values():
-            wanted += [("body", obj.mjOBJ_BODY, foot.body), ("site", obj.mjOBJ_SITE, foot.sole_site)]
+            wanted.append(("body", obj.mjOBJ_BODY, foot.body))
+            wanted.append(("site", obj.mjOBJ_SITE, foot.sole_site))
         for hand in description.hands.values():
-            wanted += [("body", obj.mjOBJ_BODY, hand.body), ("site", obj.mjOBJ_SITE, hand.grasp_site)]
+            wanted.append(("body", obj.mjOBJ_BODY, hand.body))
+            wanted.append(("site", obj.mjOBJ_SITE, hand.grasp_site))
         wanted += [("site", obj.mjOBJ_SITE, description.sensors.imu.site)]
         problems = [
             Problem(

@@ -48,7 +48,7 @@ class DcmPlan:
         return p0 + lead + decay * (xi - p1 - lead)
 
     def at(self, time_s: float) -> tuple[Point, Point]:
-        """(xi, p) at `time_s` from the first segment's start; the last one is held after its end."""
+        """(xi, p) at `time_s` from the first segment's start; the end is held after it."""
         for segment, xi in zip(self.segments, self.starts, strict=True):
             if time_s <= segment.duration_s:
                 return self._within(segment, xi, max(0.0, time_s))

@@ -136,7 +136,10 @@ class FootstepPlanner:
             dx, dy, _ = middle.relative(heading.offset(dx, dy))
         dx = max(-limits.max_backward_m_s * time_s, min(limits.max_step_length_m, dx))
         if isinstance(wish, Target):
-            dx = max(-0.8 * limits.max_backward_m_s * time_s, min(0.8 * limits.max_forward_m_s * time_s, dx))
+            dx = max(
+                -0.8 * limits.max_backward_m_s * time_s,
+                min(0.8 * limits.max_forward_m_s * time_s, dx),
+            )
         inward = limits.stance_width_m - limits.min_stance_width_m
         outward = min(limits.max_step_width_m, 2.0 * limits.max_sideways_m_s * time_s)
         dy = s * max(-inward, min(outward, s * dy))

@@ -90,7 +90,6 @@ class Gait:
     _integral: list[float] = field(init=False, default_factory=lambda: [0.0, 0.0])
     _nominal_s: float = field(init=False, default=0.0)
     _one_leg_s: float = field(init=False, default=0.0)
-    _urgent: bool = field(init=False, default=False)
 
     def __post_init__(self) -> None:
         """Begin standing."""
@@ -150,7 +149,9 @@ class Gait:
 
     # --- the machine ---------------------------------------------------------------------------
 
-    def update(self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]) -> Reference:
+    def update(
+        self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]
+    ) -> Reference:
         """Advance by `dt_s`.
 
         Args:
@@ -175,7 +176,6 @@ class Gait:
         if self._polygon.margin_m(xi) < -0.005:
             forward, left, _ = self._stance().relative(Sole(xi[0], xi[1], 0.0))
             swing: Side = "left" if left > 0.0 else "right"
-            self._urgent = True
             if abs(forward) > abs(left):
                 swing = "left" if left < 0.0 else "right"
             self._begin(swing=swing, start_s=URGENT_START_S)
@@ -185,7 +185,10 @@ class Gait:
             left, right = self.planted["left"], self.planted["right"]
             swing = self.planner.first_swing(left, right, self.wish)
             support = other(swing)
-            if self.planner.next(self.planted[support], self.planted[swing], swing, self.wish) is None:
+            if (
+                self.planner.next(self.planted[support], self.planted[swing], swing, self.wish)
+                is None
+            ):
                 swing = support
             self._begin(swing=swing, start_s=START_S)
 
@@ -212,7 +215,6 @@ class Gait:
         self.support = side
         self.swing = None
         self._one_leg_s = 0.0
-        self._urgent = False
         self.steps_taken += 1
         if going_on:
             swing = before
@@ -266,9 +268,7 @@ class Gait:
 
     def _hull(self, soles: list[Sole]) -> SupportPolygon:
         foot = self.description.feet["left"]
-        return SupportPolygon(
-            soles, foot.half_length_m, foot.half_width_m, margin_m=ZMP_MARGIN_M
-        )
+        return SupportPolygon(soles, foot.half_length_m, foot.half_width_m, margin_m=ZMP_MARGIN_M)
 
     def _replan(self, zmp: Point) -> None:
         """Segments from now: the rest of this phase, then the footsteps ahead."""
@@ -393,6 +393,4 @@ class Gait:
             lifting = SIDES.index(other(self.support))
             left = max(0.0, 1.0 - self.phase_s / self.duration_s)
             share[lifting] = 0.03 + 1.2 * left
-        return Reference(
-            xi_ref, zmp_ref, command, contact, share, heading, self.swing, swing_side
-        )
+        return Reference(xi_ref, zmp_ref, command, contact, share, heading, self.swing, swing_side)
