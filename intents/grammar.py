@@ -13,22 +13,26 @@ from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import NounPhrase, noun_phrase
-from intents.english.postmodifiers import read_postmodifiers
+from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.questions import Reading, about_robot, question
-from intents.english.referents import Scope, is_person, is_spot, to_object, to_person, to_place
-from intents.english.speech import answer, say, tell
+from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.speech import answer, inform, say, tell
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (
+    Bring,
     Condition,
     Count,
+    Find,
     ForEach,
+    Give,
     Goal,
     GoTo,
     Holding,
     If,
     ObjectQuery,
+    Pick,
     Repeat,
     State,
 )
@@ -36,7 +40,7 @@ from intents.goals import (
 _ELSE = lexicon.phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")
 _IF = lexicon.phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
-_SPEECH = {"say": say, "tell": tell, "answer": answer}
+_SPEECH = {"say": say, "tell": tell, "inform": inform, "answer": answer}
 
 
 class Grammar:
@@ -51,6 +55,7 @@ class Grammar:
         self.text = text
         self.scope = scope
         self.history = history
+        self._wanted = False
 
     def read(self) -> list[Goal]:
         """The goals of the whole sentence.
@@ -82,7 +87,11 @@ class Grammar:
                 goals[last:] = [_conditional(trailing[0], goals[last:], negate=trailing[2])]
                 at = trailing[1]
                 continue
+            wanted = goals[-1:] if self._wanted else []
+            self._wanted = False
             found, end = self._clause(at, goals)
+            if wanted and _same_object(wanted[0], found[:1]):
+                goals.pop()
             last = len(goals)
             goals += found
             self._remember(found)
@@ -101,6 +110,9 @@ class Grammar:
                 at += 1
                 continue
             verb = verbs_at(text.words, at)
+            if self._sets_out(at):
+                at += 1
+                continue
             opening = text.phrase_end(lexicon.OPENERS, at)
             end = max(connector_end(text, at) or 0, opening or 0)
             if not end or about_robot(text, at) or (verb and verb[0][1] > end):
@@ -108,10 +120,21 @@ class Grammar:
             opens_verb = verbs_at(text.words, end) or text.phrase_end(lexicon.OPENERS, end)
             if text.word(at) in ("to", "there", "you", "next") and not opens_verb:
                 return at
-            if text.phrase_end(_ELSE, at) or text.name_at(at):
+            named = text.name_at(at)
+            if text.phrase_end(_ELSE, at) or (named and named.end >= end):
                 return at
             at = end
         return at
+
+    def _sets_out(self, at: int) -> bool:
+        """Go *get the cup*: the walk goes without saying."""
+        text = self.text
+        if text.word(at) not in ("go", "come", "run", "hurry"):
+            return False
+        whole = verbs_at(text.words, at)[0][1] > at + 1
+        after = connector_end(text, at + 1) or at + 1
+        goes_somewhere = text.lookup(lexicon.LOCATIVES, at + 1) or text.word(after) == "go"
+        return not whole and not goes_somewhere and bool(verbs_at(text.words, after))
 
     def _clause(self, at: int, before: list[Goal]) -> Reading:
         """One clause, by the first kind of reading that succeeds.
@@ -191,6 +214,7 @@ class Grammar:
         verb = " ".join(text.words[at:first])
         clause = Clause(text, sense, verb, first, end, complements + fronted)
         goals = FRAMES[sense](clause, scope)
+        self._wanted = sense == "want"
         times = clause.measure("times")
         if times and times > 1:
             goals = [Repeat(times=int(times), goals=tuple(goals))]
@@ -206,8 +230,8 @@ class Grammar:
 
     def _count(self, at: int) -> Reading:
         """Count the cups on the table."""
-        at += self.text.word(at) in ("how",)
-        at += self.text.word(at) in ("many",)
+        for skipped in ("how", "many", "the", "number", "amount", "of"):
+            at += self.text.word(at) == skipped
         phrase = noun_phrase(self.text, at)
         if phrase is None:
             raise Unclear("What shall I count?")
@@ -229,7 +253,9 @@ class Grammar:
         again = before or list(self.history)
         if not again:
             raise Unclear("What shall I repeat?")
-        return ([Repeat(times=times, goals=tuple(again))] if times > 1 else list(again)), at
+        if times < 2:
+            return list(again), at
+        return [Repeat(times=times, goals=tuple(again))], at
 
     def _times(self, at: int, before: list[Goal]) -> Reading | None:
         """Three times, walk around the table."""
@@ -302,7 +328,13 @@ class Grammar:
         usable = bool(complements) and all(
             c.phrases and c.role in ("", "at", "from", "into", "to") for c in complements
         )
-        if not usable or not verbs_at(self.text.words, after):
+        if not usable:
+            return None
+        asked = question(self.text, after, self.scope)
+        if asked and complements[0].role == "at":
+            at_place = to_place(complements[0].phrase, self.scope)
+            return [GoTo(place=at_place), *asked[0]], asked[1]
+        if not verbs_at(self.text.words, after):
             return None
         for complement in complements:
             if complement.role == "":
@@ -311,12 +343,12 @@ class Grammar:
         return self._verb(after, before, [c for c in complements if c.role])
 
     def _mention_phrase(self, phrase: NounPhrase) -> None:
-        if is_person(phrase, self.scope):
-            self.scope.mention(to_person(phrase, self.scope))
-        elif is_spot(phrase):
+        if is_spot(phrase):
             self.scope.mention(to_place(phrase, self.scope))
-        else:
-            self.scope.mention(to_object(phrase, self.scope))
+            return
+        what = (to_person if is_person(phrase, self.scope) else to_object)(phrase, self.scope)
+        self.scope.mention(what.at)
+        self.scope.mention(what)
 
     def _statement(self, at: int, before: list[Goal]) -> Reading | None:
         """There is a cup on the table; she is in the kitchen: no goals, but pronouns refer."""
@@ -370,6 +402,14 @@ class Grammar:
         """Let pronouns refer to what the goals speak of."""
         for goal in goals:
             self.scope.mention_goal(goal)
+
+
+def _same_object(wanted: Goal, found: list[Goal]) -> bool:
+    """I want the chips, can you bring them: one wish, said twice."""
+    if not found or not isinstance(found[0], Bring | Pick | Find | Give):
+        return False
+    one, other = getattr(wanted, "object", None), getattr(found[0], "object", None)
+    return one is not None and other is not None and one.name == other.name
 
 
 def _conditional(holds: Condition, goals: list[Goal], *, negate: bool) -> If:

@@ -7,7 +7,8 @@ from intents.english import lexicon
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREPOSITIONS, phrases
 from intents.english.measures import Measure, measure
-from intents.english.noun_phrases import NounPhrase, noun_phrase
+from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
+from intents.english.postmodifiers import read_postmodifiers
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
 from intents.goals import How
@@ -39,6 +40,7 @@ _A_WHILE = phrases(
     "for a while,for a moment,for a bit,for a little while,a moment,a while,a second,a minute,"
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
 )
+_STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
 _IGNORED = lexicon.words("there's exactly about approximately roughly around almost another more "
                          "further both yourself itself")  # fmt: skip
 
@@ -126,6 +128,10 @@ def read_complements(text: Text, start: int) -> tuple[list[Complement], int]:
     at = start
     while not ends_clause(text, at):
         found = _read_one(text, at)
+        attached = _attach(text, complements, at, found)
+        if attached:
+            at = attached
+            continue
         if found is None:
             if text.word(at) not in _IGNORED:
                 break
@@ -134,6 +140,27 @@ def read_complements(text: Text, start: int) -> tuple[list[Complement], int]:
         complement, at = found
         complements.append(complement)
     return complements, at
+
+
+def _attach(
+    text: Text,
+    complements: list[Complement],
+    at: int,
+    found: tuple[Complement, int] | None,
+) -> int | None:
+    """What belongs to a noun further back: the object [from the desk] *that weighs least*."""
+    bare = next((c for c in complements if c.phrases and c.role == ""), None)
+    if bare is None or bare is complements[-1] or bare.phrase.noun in ("operator", "pronoun"):
+        return None
+    if found and found[0].how in _STRICT and found[0].phrase.name("object"):
+        bare.phrase.places.append(Locative(found[0].how, found[0].phrase))
+        return found[1]
+    if found is None:
+        kept, bare.phrase.end = bare.phrase.end, at
+        read_postmodifiers(text, bare.phrase)
+        end, bare.phrase.end = bare.phrase.end, kept
+        return end if end > at else None
+    return None
 
 
 def _read_one(text: Text, at: int) -> tuple[Complement, int] | None:

@@ -84,7 +84,7 @@ PERSON_NOUNS = words(
 EVERYONE = words("everyone everybody")
 OPERATOR_WORDS = words("me us myself operator i ourselves")
 OBJECT_NOUNS = words(
-    "object objects thing things item items something anything stuff everything product products"
+    "object objects thing things item items article articles something anything stuff everything product products"
 )
 ONES = words("one ones")
 CONTAINERS = words(
@@ -121,8 +121,8 @@ CLOTHES = words(
 LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
     {
         "on": "on,on top of,upon,atop,atop of",
-        "in": "in,inside,inside of,within",
-        None: "at,around,up at,over at,over in,over on,over by,up on,down in,in at",
+        "in": "in,right in,out in,inside,inside of,within",
+        None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,down in,in at",
         "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
         "in the vicinity of,against",
         "under": "under,underneath,below,beneath,at the bottom of",
@@ -154,6 +154,7 @@ CONNECTORS = phrases(
     "once you have done that,when you have it,once you have it,as well as,subsequently,"
     "after this,in the end,thereafter,later,once done,when finished,once there,when there,"
     "when you get there,once you get there,once you are there,when you arrive,while,"
+    "where you will,where you can,where you should,"
     "when you are there,in order to,so that you can,or"
 )
 FILLERS = phrases(
@@ -175,7 +176,7 @@ OPENERS = phrases(
     "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
     "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
     "your task is to,your job is to,your mission is to,your goal is to,go ahead and,be so kind "
-    "as to,be so kind and,do me a favor and,do me a favour and,would you like to,do you think "
+    "as to,be so kind and,do me a favor and,help me,why do not you,why not,do me a favour and,would you like to,do you think "
     "you can,do you think you could,how would you,how do you,let us,hey,hi,hello,okay,alright,"
     "all right,well,now,just,try to,start to,begin to,make sure to,make sure you,be sure to,"
     "remember to,do not forget to,you,to,listen,look here,excuse me,sorry,oh,yes,no,yeah,so,"

@@ -14,6 +14,7 @@ from intents.english.lexer import QUOTE
 from intents.english.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
 from intents.english.measures import NUMBER_WORDS, UNIT_WORDS, number
 from intents.english.names import Match, Name
+from intents.english.properties import property_of
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
 from intents.goals import Clothing, How, Superlative
@@ -79,7 +80,14 @@ class NounPhrase:
         return list(dict.fromkeys(n.name for n in self.names if n.kind in kinds))
 
 
-_NO_NOUN = lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
+_SOMETHING = lexicon.words("something anything everything")
+_NO_NOUN = (
+    lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
+    | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
+                    "standing sitting lying laying weighs")
+)  # fmt: skip
+_PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
+                       "left right rest")  # fmt: skip
 
 
 def is_content(text: Text, at: int) -> bool:
@@ -92,6 +100,9 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     """The noun phrase that begins at a word, as long as it goes."""
     from intents.english.postmodifiers import read_postmodifiers
 
+    part = _part_of(text, start)
+    if part:
+        return noun_phrase(text, part)
     phrase = _pronoun(text, start) or _full(text, start)
     if phrase is None:
         return None
@@ -99,10 +110,19 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     return phrase
 
 
+def _part_of(text: Text, start: int) -> int | None:
+    """The top of the counter is the counter: where the whole begins."""
+    at = start + (text.word(start) in ("the", "its"))
+    at += text.word(at) in ("left", "right", "far", "very") and text.word(at + 1) in _PARTS
+    if text.word(at) in _PARTS and text.word(at + 1) == "of" and at > start:
+        return at + 2
+    return None
+
+
 def _pronoun(text: Text, start: int) -> NounPhrase | None:
     """Me, it, them, here: a phrase of one word."""
     word = text.word(start)
-    if word in lexicon.OPERATOR_WORDS and not text.name_at(start):
+    if word in lexicon.OPERATOR_WORDS:
         return NounPhrase(start, start + 1, noun="operator", said=word)
     if word in ("the", "your") and text.word(start + 1) in ("operator", "user"):
         return NounPhrase(start, start + 2, noun="operator", said="operator")
@@ -115,6 +135,8 @@ def _pronoun(text: Text, start: int) -> NounPhrase | None:
     if word not in lexicon.PRONOUNS:
         return None
     determines = word in DETERMINERS and is_content(text, start + 1)
+    if text.word(start + 1) in _SOMETHING:
+        determines = False
     if determines and (not verbs_at(text.words, start + 1) or text.name_at(start + 1)):
         return None
     if word == "this" and number(text.words, start + 1):
@@ -149,11 +171,10 @@ def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:
 
 def _owned(text: Text, phrase: NounPhrase) -> NounPhrase | None:
     """Julia's cup, the kitchen's table: the owner is passed over, a room says where."""
-    from intents.english.properties import is_property
-
+    after = text.word(phrase.end + 1)
     if text.word(phrase.end) != "'s" or not is_content(text, phrase.end + 1):
         return phrase
-    if is_property(text, phrase.end + 1):
+    if property_of(after) or after in ("question", "questions", "quiz"):
         return phrase
     owned = _full(text, phrase.end + 1)
     if owned is None:
@@ -313,8 +334,8 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
         if outer.name("room", "place") and not phrase.name("room"):
             phrase.places.insert(0, Locative("in", outer))
         return last
-    if text.word(end) in lexicon.OBJECT_NOUNS | lexicon.CONTAINERS:
-        return end + 1
+    if text.word(end) in (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS:
+        return end + (text.word(end + 1) != "you")
     if is_content(text, end) and not verbs_at(text.words, end) and not _names_person(text, end):
         return _read_unknown_compound(text, phrase, at, end)
     return end
@@ -325,8 +346,9 @@ def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) ->
     modifier = NounPhrase(at, end, noun="name", said=phrase.said, names=phrase.names)
     phrase.names = ()
     last = _read_unknown(text, phrase, end) or end
-    if phrase.names and modifier.name("room"):
-        phrase.places.insert(0, Locative("in", modifier))
+    if phrase.names and (phrase.exact or modifier.name("room")):
+        if modifier.name("room"):
+            phrase.places.insert(0, Locative("in", modifier))
     else:
         phrase.noun, phrase.names = "unknown", ()
     phrase.said = " ".join(text.words[at:last])

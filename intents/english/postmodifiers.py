@@ -8,6 +8,10 @@ from intents.english.text import Text
 from intents.goals import Clothing
 
 _RELATIVE = lexicon.words("that which who whose")
+_REDUCED = lexicon.phrases(
+    "you find,you see,you can see,you can find,you will find,i left,i put,you will see,we have,"
+    "i have,you have,there is,there are,there"
+)
 _RELATIVE_FILLERS = lexicon.words(
     "is are was were has have currently now being there should be will can you i see find we "
     "stands sits lies"
@@ -56,14 +60,20 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
     if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
         at += 1
+    spot = is_spot(phrase)
+    reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
+    if reduced:
+        return _locative(text, phrase, reduced)
     if text.word(at) not in _RELATIVE:
         return None
     at += 1
     first = at
     while text.word(at) in _RELATIVE_FILLERS:
         at += 1
+    if spot:
+        return _locative(text, phrase, at)
     weight = {"least": "lightest", "most": "heaviest"}.get(text.word(at + 2))
-    if text.word(at) == "weighs" and weight:
+    if text.word(at) in ("weighs", "weigh", "weight") and weight:
         phrase.superlative = "lightest" if weight == "lightest" else "heaviest"
         return at + 3
     end = _modifier(text, phrase, at) or _predicate(text, phrase, at)
@@ -87,7 +97,9 @@ def _predicate(text: Text, phrase: NounPhrase, at: int) -> int | None:
 
 def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     word = text.word(at)
-    if not word[0].isalpha() or (phrase.noun == "operator" and word != "in"):
+    if phrase.noun == "operator" and word != "in":
+        return None
+    if not word[0].isalpha() and word != COMMA:
         return None
     if phrase.noun in ("person", "pronoun") or phrase.is_person:
         end = _of_person(text, phrase, at)
@@ -102,7 +114,10 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             return inner.end
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
         inner = noun_phrase(text, at + 1)
-        return inner.end if inner and inner.noun == "unknown" else None
+        return inner.end if inner else None
+    aside = _aside(text, phrase, at)
+    if aside:
+        return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
 
 
@@ -133,6 +148,30 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
     return at + 1
 
 
+def _aside(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Michael, over at the stove, ...; the girl there."""
+    if text.word(at) == COMMA and phrase.name("person"):
+        end = _locative(text, phrase, at + 1) if text.lookup(LOCATIVES, at + 1) else None
+        if end and text.word(end) == COMMA and phrase.places[-1].of.name("room", "place"):
+            return end + 1
+        if end:
+            phrase.places.pop()
+        return None
+    there = text.word(at) == "there" or text.words[at : at + 2] == ["over", "there"]
+    end = at + 1 + (text.word(at) == "over")
+    if there and phrase.is_person and text.word(end) not in ("is", "are"):
+        phrase.places.append(Locative(None, NounPhrase(at, end, noun="there", said="there")))
+        return end
+    return None
+
+
+def is_spot(phrase: NounPhrase) -> bool:
+    """Whether a phrase names a place or room and nothing else."""
+    if phrase.noun in ("here", "there", "place"):
+        return True
+    return phrase.noun == "name" and not phrase.name("object", "category", "person")
+
+
 def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """In the kitchen, left of the cup."""
     found = text.lookup(LOCATIVES, at)
@@ -142,9 +181,10 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     inner = noun_phrase(text, end)
     if inner is None or inner.noun in ("body",) or inner.end == end:
         return None
-    is_spot = phrase.noun == "name" and not phrase.name("object", "category", "person")
-    if is_spot and how in ("on", "in", None) and not inner.name("room") and how != "in":
-        return None
+    if is_spot(phrase):
+        in_room = bool(inner.name("room")) and how in ("on", "in", None, "near")
+        if not in_room and not (how in ("in", "near") and inner.name("place")):
+            return None
     phrase.places.append(Locative(how, inner))
     return inner.end
 
@@ -183,6 +223,8 @@ def _gesture(text: Text, at: int) -> tuple[str, int] | None:
         return None
     end += text.word(end) == "up"
     end += text.word(end) in DETERMINERS
+    if text.word(end) == "raised":
+        raising, end = True, end + 1
     side, limb = text.word(end), text.word(end + 1)
     if side not in ("left", "right") or limb not in ("arm", "hand"):
         return None

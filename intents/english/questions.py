@@ -2,9 +2,10 @@
 
 from intents.english import lexicon
 from intents.english.lexer import COMMA
-from intents.english.noun_phrases import NounPhrase, noun_phrase
+from intents.english.measures import number
+from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
 from intents.english.postmodifiers import read_postmodifiers
-from intents.english.properties import PROPERTIES, is_property
+from intents.english.properties import property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.text import Text
 from intents.goals import Count, Find, Goal, ObjectQuery, Person, Report, ReportTopic, Say, Tell
@@ -51,17 +52,27 @@ _SMALL_TALK = lexicon.words(
 _SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation country something")
 
 
-def question(text: Text, at: int, scope: Scope, to: Person | None = None) -> Reading | None:
-    """The question that begins at a word, as goals; None if there is none to be read."""
+def question(
+    text: Text, at: int, scope: Scope, to: Person | None = None, *, told: bool = False
+) -> Reading | None:
+    """The question that begins at a word, as goals; None if there is none to be read.
+
+    After tell (``told``) a noun phrase alone can be a question: "the largest object".
+    """
     return (
         about_robot(text, at)
         or _how_many(text, at, scope, to)
         or _where(text, at, scope)
         or _property(text, at, scope, to)
-        or _which(text, at, scope, to)
+        or _which(text, at, scope, to, told)
         or _who(text, at, scope, to)
         or _is_there(text, at, scope)
     )
+
+
+def property_question(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+    """A question after "give me", where a thing could stand as well: the number of, the pose."""
+    return _how_many(text, at, scope, to) or _property(text, at, scope, to)
 
 
 def small_talk(text: Text, at: int, end: int) -> Say | None:
@@ -93,6 +104,13 @@ def _read_on(text: Text, phrase: NounPhrase) -> int:
     after = _skip(text, phrase.end)
     end, phrase.end = phrase.end, after
     read_postmodifiers(text, phrase)
+    if text.word(phrase.end) == "from" and not phrase.places:
+        source = noun_phrase(text, phrase.end + 1)
+        if source:
+            phrase.places.append(Locative(None, source))
+            phrase.end = source.end
+            read_postmodifiers(text, phrase)
+            return _skip(text, phrase.end)
     if phrase.end == after and after < len(text) and text.word(after)[0].isalnum():
         phrase.end = end if text.words[end:after] == ["there"] else after
     return phrase.end
@@ -134,8 +152,8 @@ def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     asked = text.word(at) in ("what", "which")
     start = _skip(text, at + asked)
     start += text.word(start) in ("the", "its", "their", "his", "her")
-    if is_property(text, start):
-        name = PROPERTIES[text.word(start).rstrip("s")]
+    name = None if text.name_at(start) else property_of(text.word(start))
+    if name:
         of = text.word(start + 1) in ("of", "for")
         inner = start + 2 if of else _skip(text, start + 1)
         phrase = noun_phrase(text, inner)
@@ -147,8 +165,8 @@ def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
         end += text.word(end) in ("in", "doing", "making")
         return [_tell(phrase, name, scope, to)], end
     phrase = noun_phrase(text, start)
-    if phrase and text.word(phrase.end) == "'s" and is_property(text, phrase.end + 1):
-        name = PROPERTIES[text.word(phrase.end + 1).rstrip("s")]
+    name = property_of(text.word(phrase.end + 1)) if phrase else None
+    if phrase and name and text.word(phrase.end) == "'s":
         end, phrase.end = phrase.end + 2, phrase.end + 2
         return [_tell(phrase, name, scope, to)], max(end, _read_on(text, phrase))
     return None
@@ -166,17 +184,19 @@ def _tell(phrase: NounPhrase | None, name: str, scope: Scope, to: Person | None)
     return Tell(object=to_object(phrase, scope, spots=True), property=name, to=to)
 
 
-def _which(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Reading | None:
     """Which object is the lightest on the table? What are the three largest things there?"""
     asked = text.word(at) in ("what", "which")
     start = _skip(text, at + 1) if asked else at
+    start += text.words[start : start + 2] == ["one", "of"]
+    start += asked and text.word(start) == "of"
     if asked and text.lookup(lexicon.LOCATIVES, start):
         phrase = NounPhrase(start, start, noun="object", said="object")
         read_postmodifiers(text, phrase)
         end = phrase.end
     else:
         found = noun_phrase(text, start)
-        if found is None or not (asked or found.superlative):
+        if found is None or not (asked or (told and found.superlative)):
             return None
         phrase, end = found, _read_on(text, found)
         end = _predicate_superlative(text, phrase, end)
@@ -191,6 +211,9 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | No
 def _predicate_superlative(text: Text, phrase: NounPhrase, end: int) -> int:
     """Which object is *the lightest one on the table*."""
     start = end + (text.word(end) == "the")
+    amount = number(text.words, start)
+    if amount and text.lookup(lexicon.SUPERLATIVES, amount.end):
+        phrase.count, start = int(amount.value), amount.end
     most = text.lookup(lexicon.SUPERLATIVES, start)
     if most is None:
         return end
@@ -212,6 +235,7 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
         if named is None or not is_person(named, scope):
             return None
         phrase = named
+        phrase.end = _read_on(text, phrase)
     return [Tell(person=to_person(phrase, scope), property="name", to=to)], phrase.end
 
 
@@ -234,6 +258,14 @@ def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
         and text.word(start + 1) != "there"
     ):
         return None
+    told = _EITHER.get(text.word(end))
     if is_person(phrase, scope):
+        if told:
+            after = end + 1 + 2 * (text.word(end + 1) == "or")
+            phrase.posture = None
+            return [Tell(person=to_person(phrase, scope), property=told)], after
         return [Find(person=to_person(phrase, scope))], end
     return [Find(object=to_object(phrase, scope))], end
+
+
+_EITHER = dict.fromkeys(("male", "female", "boy", "girl"), "gender")

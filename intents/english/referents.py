@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from intents.english.names import NameIndex
 from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.postmodifiers import is_spot
 from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
 from intents.goals import OPERATOR, Count, Find, Goal, LookAt, ObjectQuery, Person, Relation, Tell
 
@@ -59,17 +60,12 @@ class Scope:
 def is_person(phrase: NounPhrase, scope: Scope) -> bool:
     """Whether a phrase speaks of a person rather than of a thing."""
     if phrase.noun == "pronoun":
-        personal = phrase.said in ("him", "her", "he", "she")
-        plural = phrase.said in ("them", "they") and scope.person is not None
-        return personal or (plural and (scope.person_is_last or scope.object is None))
+        if phrase.said in ("him", "her", "he", "she"):
+            return True
+        if phrase.said in ("them", "they") and scope.person_is_last:
+            return True
+        return scope.person is not None and scope.object is None
     return phrase.is_person
-
-
-def is_spot(phrase: NounPhrase) -> bool:
-    """Whether a phrase names a place or room and nothing else."""
-    if phrase.noun in ("here", "there", "place"):
-        return True
-    return phrase.noun == "name" and not phrase.name(*_OBJECTS, "person")
 
 
 def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> ObjectQuery:
@@ -88,6 +84,9 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         raise Misfit(f"“{phrase.said}” is not an object")
     name, category = _object_name(phrase, scope, spots)
     superlative = phrase.superlative
+    for place in phrase.places:
+        if place.how in ("left", "right") and is_spot(place.of) and not superlative:
+            superlative = "leftmost" if place.how == "left" else "rightmost"
     if phrase.side and superlative is None:
         superlative = "leftmost" if phrase.side == "left" else "rightmost"
     return ObjectQuery(
@@ -171,8 +170,9 @@ def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
             raise Misfit(f"“{phrase.said}” is not a place")
         raise NotUnderstood(_unknown("place", phrase, scope, _SPOTS))
     if len(names) > 1 and not phrase.exact:
-        inside = [n for n in names if any(p.of.name("room") in n for p in phrase.places)]
-        if phrase.places and len(inside) == 1:
+        rooms = {w for p in phrase.places for w in p.of.name("room").split()} - {"room"}
+        inside = [n for n in names if rooms & set(n.split())]
+        if len(inside) == 1:
             return inside[0]
         raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names))
     return names[0]
@@ -208,6 +208,8 @@ def _relation(place: Locative, scope: Scope) -> Relation | None:
         spot = scope.place is not None
     unknown = place.of.noun == "unknown"
     if unknown or place.of.is_person or (spot and place.how in (None, "on", "in", "near")):
+        return None
+    if spot and place.how in ("left", "right") and not place.of.name("object"):
         return None
     of = to_object(place.of, scope, spots=True)
     return Relation(how=place.how or "near", of=replace(of, at=None))

@@ -6,7 +6,7 @@ from intents.english import lexicon
 from intents.english.clauses import connector_end
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.noun_phrases import NounPhrase, noun_phrase
-from intents.english.questions import Reading, question, small_talk
+from intents.english.questions import Reading, property_question, question, small_talk
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
@@ -65,7 +65,7 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
         first = _listener(text, at + 1, scope)
         if first:
             to, at = to_person(first, scope), first.end
-    asked = question(text, at, scope)
+    asked = question(text, at, scope, told=True)
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
     at += text.word(at) == "that"
@@ -75,7 +75,7 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
         to, stop = _last_listener(text, at, end, scope)
     stop, here = _place_of_speech(text, at, stop, scope)
     if stop <= at and text.word(at) != QUOTE:
-        if to is None:
+        if to is None and text.word(at - 1) not in ("speak", "talk", "joke"):
             raise Unclear("What shall I say?")
         return [Say(what="something", to=to)], end
     if here and to is None:
@@ -121,7 +121,7 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
         at += text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
-    asked = question(text, at, scope, to)
+    asked = question(text, at, scope, to, told=True)
     if asked and (to is None or to == ME or not isinstance(asked[0][0], Say)):
         return _to_listener(text, asked, scope)
     if to is not None and to != ME:
@@ -135,6 +135,21 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
         raise NotUnderstood(f"“{text.raw(at, end)}” is nothing I can find out" if end > at else
                             "I do not know what to tell")  # fmt: skip
     return [Say(what=talk.what, to=to)], end
+
+
+def inform(text: Text, at: int, scope: Scope) -> Reading:
+    """Give me the number of cups; show me the pose of the person.
+
+    Raises:
+        Misfit: It is a thing that is to be given.
+    """
+    first = _listener(text, at, scope)
+    if first:
+        at = first.end
+    asked = property_question(text, at, scope, to_person(first, scope) if first else None)
+    if asked is None:
+        raise Misfit("that is to give something")
+    return _to_listener(text, asked, scope)
 
 
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:
@@ -167,7 +182,12 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
         return [Answer(what=what, person=person)], end
     if asks:
         raise Misfit("ask what?")
-    return [Answer(what="question", person=person)], _read_out(text, start)
+    end = _read_out(text, start)
+    if text.word(end) == FULL_STOP and text.word(end + 1) == "to":
+        listener = _listener(text, end + 2, scope)
+        if listener:
+            person, end = to_person(listener, scope), listener.end
+    return [Answer(what="question", person=person)], end
 
 
 def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Person | None, int]:
@@ -177,8 +197,9 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
     where = text.lookup(lexicon.LOCATIVES, at)
     if where and where[0] in (None, "in", "on", "near"):
         phrase = noun_phrase(text, where[1])
-        if phrase and phrase.name("room", "place") and person is None:
-            return Person(at=to_place(phrase, scope)), phrase.end
+        if phrase and phrase.name("room", "place") and (person is None or person.at is None):
+            here = to_place(phrase, scope)
+            return replace(person, at=here) if person else Person(at=here), phrase.end
     end = at
     while text.word(end) in skipped:
         end += 1

@@ -4,13 +4,14 @@ from collections.abc import Collection, Mapping
 from typing import TypeVar
 
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
-from intents.english.lexicon import DETERMINERS, FILLERS, Phrase
+from intents.english.lexicon import DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
 from intents.english.names import Match, NameIndex, index_of
 from intents.english.spelling import speller_of
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
 _LONGEST_PHRASE = 7
+_REPEATED = words("that no stop bye her had wait")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -34,6 +35,10 @@ class Text:
                 corrected.append(token)
             else:
                 corrected += [Token(w, w) for w in meant]
+        corrected = [
+            t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
+            if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
+        ]  # fmt: skip
         self.tokens: list[Token] = _without_fillers(corrected, self.index)
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
@@ -49,7 +54,9 @@ class Text:
         """The longest name of the vocabulary that begins at a word."""
         if at not in self._matches:
             known = 0 <= at < len(self.words)
-            self._matches[at] = self.index.match(self.words, at) if known else None
+            match = self.index.match(self.words, at) if known else None
+            small = match and match.end == at + 1 and self.words[at] in FUNCTION_WORDS
+            self._matches[at] = None if small else match
         return self._matches[at]
 
     def lookup(self, table: Mapping[Phrase, T], at: int) -> tuple[T, int] | None:

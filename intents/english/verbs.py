@@ -17,8 +17,8 @@ SPELLINGS: dict[str, str] = {
     "find": (
         "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,"
         "hunt for,find out where,search out,seek out,look around for,go find,track down,"
-        "recognize,find me,try to find,see,hunt,scan for,check for,find for me,trace,"
-        "look up,single out,show"
+        "recognize,find me,try to find,hunt,scan for,check for,find for me,trace,look up,"
+        "single out,look,look around,look in"
     ),
     "pick": (
         "pick,pick up,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
@@ -42,8 +42,12 @@ SPELLINGS: dict[str, str] = {
     ),
     "bring": (
         "bring,deliver,carry,transport,transfer,bring over,bring back,bring along,"
-        "return with,come back with,convey,haul,supply,send,drag,forward,bring out,move,"
-        "get,pull"
+        "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
+        "pull"
+    ),
+    "inform": (
+        "give me,give us,give,provide,provide me with,show me,share,get me,tell me,"
+        "let me know"
     ),
     "give": (
         "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
@@ -62,14 +66,16 @@ SPELLINGS: dict[str, str] = {
         "trail,walk with,keep up with,pursue,shadow,stay with,move behind"
     ),
     "guide": (
-        "guide,escort,lead,accompany,conduct,usher,direct,show the way,help,show around,"
-        "take along,bring along with,steer,walk home,see,take,bring,walk,move"
+        "show,guide,escort,lead,accompany,conduct,usher,direct,show the way,help,"
+        "show around,take along,bring along with,steer,walk home,see,take,bring,walk,"
+        "move"
     ),
     "meet": (
         "meet,get to know,get acquainted with,meet up with,meet with,become acquainted with,"
         "make the acquaintance of,encounter,acquaint yourself with,contact,find and meet,"
         "see to"
     ),
+    "collect": "get,fetch,pick up,collect,pick,go get,retrieve,go fetch",
     "greet": (
         "greet,say hello to,say hi to,say hello,say hi,say good morning to,"
         "say good evening to,salute,welcome,introduce yourself to,introduce yourself,"
@@ -79,21 +85,21 @@ SPELLINGS: dict[str, str] = {
     ),
     "say": (
         "say,speak,utter,announce,state,declare,pronounce,recite,express,sing,relay,"
-        "mention,talk about,give out,speak about,report to,convey that,repeat after me"
+        "mention,talk about,give out,speak about,convey that,repeat after me"
     ),
     "tell": (
         "tell,inform,let,notify,advise,update,remind,report,describe,explain,"
-        "give information,let me know,relay to,share with,explain to,brief,show,identify,"
-        "name,find out,check,determine,figure out,read,give me,do you know,can i know,"
-        "i want to know,i would like to know,i need to know,work out,tell about,"
-        "look and tell,specify,list,speak to,speak with,talk to,talk with,respond with,"
-        "recount,see,communicate,communicate to,give,indicate,learn,verify,let know,"
-        "say to,state to,provide,i wonder"
+        "let me know,relay to,share with,explain to,brief,identify,name,find out,check,"
+        "determine,figure out,do you know,can i know,i want to know,i would like to know,"
+        "i need to know,work out,tell about,look and tell,specify,list,speak to,"
+        "speak with,talk to,talk with,respond with,recount,communicate,communicate to,"
+        "indicate,learn,verify,let know,say to,state to,i wonder,report to"
     ),
     "answer": (
         "answer,respond,respond to,reply,reply to,answer to,give an answer to,solve,"
         "give an answer,answer back,provide an answer to,field,ask,ask for,get asked,"
-        "listen to,help with,give a response to,resolve"
+        "listen to,help with,give a response to,resolve,give the answer to,give the answer,"
+        "give them the answer to,provide the answer to,respond to the"
     ),
     "count": "count,count up,give me the number of,tell me the number of,enumerate",
     "look": (
@@ -167,8 +173,8 @@ SPELLINGS: dict[str, str] = {
         "cancel,abort,cancel that,cancel it,never mind,nevermind,forget it,forget that,"
         "forget about it,forget about that,give up,abandon,abort the mission,"
         "cancel the mission,cancel the task,abort the task,abandon the mission,"
-        "abandon the task,cancel everything,undo that,abort that,abort it,"
-        "call it off,forget everything,give it up,cancel this"
+        "abandon the task,cancel everything,undo that,abort that,abort it,call it off,"
+        "forget everything,give it up,cancel this"
     ),
     "report": (
         "report your,report status,give me a status report,give a status report,"

@@ -30,6 +30,7 @@ FRAMES: dict[str, Frame] = {
     "follow": people.follow,
     "guide": people.guide,
     "meet": people.meet,
+    "collect": people.collect,
     "greet": people.greet,
     "open": devices.open_,
     "close": devices.close,

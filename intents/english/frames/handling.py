@@ -8,7 +8,8 @@ from intents.english.clauses import Clause, Complement
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.noun_phrases import Locative
-from intents.english.referents import ME, Scope, is_person, is_spot, to_person, to_place
+from intents.english.postmodifiers import is_spot
+from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.goals import (
     OPERATOR,
@@ -81,7 +82,8 @@ def _receiver(slots: Slots) -> Person | str | None:
     scope = slots.scope
     goal = slots.take("to", "into")
     if goal is None:
-        person = slots.take_person("", "for")
+        bare = [c for c in slots.rest if c.phrases and c.role == "" and c.phrase.noun != "here"]
+        person = slots.take_person("", "for") if len(bare) > 1 else slots.take_person("for")
         here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
         if here:
             slots.rest.remove(here)
@@ -106,7 +108,7 @@ def _near_destination(slots: Slots) -> str | None:
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     if bare and bare.phrase.places and bare.phrase.places[-1].how == "near":
         place = detach_place(bare.phrase)
-        return to_place(place.of, slots.scope) if place and is_spot(place.of) else None
+        return to_place(place.of, slots.scope, objects=True) if place else None
     return None
 
 
@@ -142,7 +144,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     spot = _destination(slots)
     objects = slots.objects()
     if not objects:
-        objects = [scope.object or ObjectQuery(held=True)]
+        raise Misfit("put what?")
     if spot is None and _throws(clause):
         spot = ("in", _trash(scope))
     down = clause.sense == "drop" or "down" in clause.particles()

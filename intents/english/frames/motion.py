@@ -5,7 +5,7 @@ from math import pi
 from msgspec.structs import replace
 
 from intents.english.clauses import Clause
-from intents.english.frames.slots import Slots, is_person, need
+from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.noun_phrases import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
@@ -17,6 +17,7 @@ from intents.goals import (
     Goal,
     GoTo,
     LookAt,
+    ObjectQuery,
     Wait,
 )
 
@@ -28,6 +29,9 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     """Go to the kitchen; walk two metres forward; come here."""
     slots = Slots(clause, scope)
     target = slots.take("to", "into", "at", "through") or slots.take("")
+    bare = target is not None and target.role == "" and not is_spot(target.phrase)
+    if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
+        raise Misfit("that is to move something")
     source = slots.take("from")
     distance = slots.measure("length")
     direction = slots.direction(*_BY)
@@ -57,10 +61,10 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
     if is_person(phrase, scope):
         return Find(person=to_person(phrase, scope))
     if phrase.name("object") and not phrase.name("place", "room"):
-        if phrase.noun == "name" and clause.verb in ("move", "run", "drive"):
-            raise Misfit("that is to bring something somewhere")
-        return Find(object=to_object(phrase, scope))
-    return GoTo(place=to_place(phrase, scope))
+        query = to_object(phrase, scope)
+        if query != ObjectQuery(name=query.name, at=query.at):
+            return Find(object=query)
+    return GoTo(place=to_place(phrase, scope, objects=True))
 
 
 def _implied(clause: Clause) -> str:
@@ -82,6 +86,8 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     target = slots.take("", "from", "through")
     exit_to = slots.take("to")
     slots.done()
+    if target and target.phrase.noun == "pronoun":
+        raise Misfit("that is to put something down")
     if exit_to:
         return [GoTo(place=to_place(exit_to.phrase, scope))]
     if target and target.phrase.name("object"):

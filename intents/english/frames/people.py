@@ -6,7 +6,7 @@ from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots, need
 from intents.english.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit
-from intents.goals import OPERATOR, Follow, Goal, Greet, Guide, Meet, Person
+from intents.goals import OPERATOR, Find, Follow, Goal, Greet, Guide, Meet, Person
 
 
 def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
@@ -64,6 +64,15 @@ def meet(clause: Clause, scope: Scope) -> list[Goal]:
     people = _someone(slots, "Whom shall I meet?", "with", "to")
     slots.done()
     return [Meet(person=p) for p in people]
+
+
+def collect(clause: Clause, scope: Scope) -> list[Goal]:
+    """Get Jamie from the bathtub: to find them there."""
+    slots = Slots(clause, scope)
+    people = _someone(slots, "Whom shall I fetch?")
+    slots.take_person("for")
+    slots.done()
+    return [Find(person=p) for p in people]
 
 
 def greet(clause: Clause, scope: Scope) -> list[Goal]:

@@ -4,7 +4,8 @@ from msgspec.structs import replace
 
 from intents.english.clauses import Clause, Complement
 from intents.english.noun_phrases import Locative, NounPhrase
-from intents.english.referents import Scope, is_person, is_spot, to_object, to_person, to_place
+from intents.english.postmodifiers import is_spot
+from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
 
@@ -55,6 +56,8 @@ class Slots:
         bare = self.take("")
         if bare is None:
             return []
+        if any(is_person(p, self.scope) for p in bare.phrases):
+            raise Misfit(f"“{bare.phrase.said}” is a person")
         found = [to_object(p, self.scope, spots=spots) for p in bare.phrases]
         at = self.source()
         return [replace(o, at=o.at or at) for o in found] if at else found
