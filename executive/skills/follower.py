@@ -19,8 +19,10 @@ from robot.se3 import SE3, wrap_angle
 LOOKAHEAD_M = 0.35
 SEARCH_M = 0.60
 RUN_DONE_M = 0.12
+SAME_PLACE_M = 0.02
 TURN_DONE_RAD = 0.20
-TURN_FIRST_RAD = 0.70
+TURN_FIRST_RAD = 0.60
+SIDEWAYS = 0.7
 TURN_GAIN_1_S = 1.8
 LEAST_SPEED_M_S = 0.10
 SLOW_DOWN_1_S = 0.8
@@ -171,7 +173,8 @@ class Follower:
         """Scale a velocity, keeping its direction, until the gait can do it."""
         gait = self.walking
         most_m_s = gait.max_forward_m_s if forward_m_s > 0.0 else gait.max_backward_m_s
-        scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / gait.max_sideways_m_s)
+        aside_m_s = SIDEWAYS * gait.max_sideways_m_s
+        scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / aside_m_s)
         turn_rad_s = _clamp(TURN_GAIN_1_S * off_rad, gait.max_turn_rad_s)
         return Twist(forward_m_s / scale, left_m_s / scale, turn_rad_s)
 
@@ -186,7 +189,7 @@ def _legs(start: Stance, waypoints: Sequence[Stance]) -> list[Run | Turn]:
     legs: list[Run | Turn] = []
     run = [start]
     for stance in waypoints:
-        if math.dist(stance[:2], run[-1][:2]) > 1e-3:
+        if math.dist(stance[:2], run[-1][:2]) > SAME_PLACE_M:
             run.append(stance)
             continue
         if len(run) > 1:

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 
+import msgspec
+
 from executive.skills.asking import ask, pose_of, stance_of, surroundings
 from executive.skills.body import Body
 from executive.skills.follower import Follower, Twist, turn_towards
@@ -23,7 +25,10 @@ REPLANS = 3
 CRUISE = 0.8
 CRUISE_CARRYING = 0.7
 HAND_OVER_M = 0.35
-HAND_OVER_RAD = 0.45
+HAND_OVER_ASIDE_M = 0.08
+HAND_OVER_RAD = 0.25
+SIDESTEP_M = 0.6
+FACING_RAD = 0.35
 BLOCKED_WITHIN_M = 1.0
 BLOCKED_FOR_S = 0.4
 STALLED_S = 6.0
@@ -70,7 +75,20 @@ def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]
         around=surroundings(body),
         seed=body.context.seed + attempt,
     )
-    return (yield from ask(body, request, BasePath))
+    path = yield from ask(body, request, BasePath)
+    return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
+
+
+def facing_the_way(start: Stance, path: BasePath, *, free_m: float) -> BasePath:
+    """The same path, but a long straight sidestep in free space becomes turn, walk, turn."""
+    goal = path.waypoints[-1]
+    heading_rad = math.atan2(goal[1] - start[1], goal[0] - start[0])
+    askew_rad = max(abs(wrap_angle(heading_rad - yaw)) for yaw in (start[2], goal[2]))
+    sidestep = len(path.waypoints) == 1 and askew_rad > FACING_RAD
+    if not sidestep or path.length_m < SIDESTEP_M or path.clearance_m < free_m:
+        return path
+    waypoints = ((*start[:2], heading_rad), (*goal[:2], heading_rad), goal)
+    return msgspec.structs.replace(path, waypoints=waypoints)
 
 
 def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
@@ -178,11 +196,13 @@ def _is_near(body: Body, goal: Stance) -> bool:
 
 
 def _arrived(body: Body, follower: Follower, goal: Stance) -> bool:
-    """Whether exact steps should take over."""
-    off_m, off_rad = miss(body.X_WS, pose_of(goal))
-    return (
-        off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD and follower.remaining_m < 2 * HAND_OVER_M
-    )
+    """Whether exact steps should take over: near the goal, facing as it does, not beside it."""
+    X_WS, X_WS_goal = body.X_WS, pose_of(goal)
+    off_m, off_rad = miss(X_WS, X_WS_goal)
+    if off_m > HAND_OVER_M or off_rad > HAND_OVER_RAD:
+        return False
+    aside_m = abs((X_WS_goal.inverse() @ X_WS).p[1])
+    return follower.done or (follower.remaining_m < HAND_OVER_M and aside_m < HAND_OVER_ASIDE_M)
 
 
 def _walk(body: Body, twist: Twist) -> None:
