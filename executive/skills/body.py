@@ -56,7 +56,7 @@ class Body:
 
     @property
     def state(self) -> BodyState:
-        """The body's newest state. Gives up when there is none, it is old, it lies down, or has given up itself."""
+        """The body's newest state. Gives up when it is missing or old, or the body is down."""
         state = self.link.body()
         if state is None:
             raise give_up("sensor_silent", "the body has not reported its state yet")

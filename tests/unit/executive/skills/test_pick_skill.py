@@ -82,9 +82,9 @@ def test_the_grasp_follows_what_is_seen_not_what_was_planned(stage):
 
     def nudged():
         tick()
-        if stage.skill and stage.skill.step and "moving in" in stage.skill.body.phase:
-            if not stage.puppet.holding and cup.X_WO.p[1] < 0.119:
-                cup.X_WO = SE3((cup.X_WO.p[0], cup.X_WO.p[1] + 0.002, cup.X_WO.p[2]))
+        moving_in = "moving in" in stage.skill.body.phase and not stage.puppet.holding
+        if moving_in and cup.X_WO.p[1] < 0.119:
+            cup.X_WO = SE3((cup.X_WO.p[0], cup.X_WO.p[1] + 0.002, cup.X_WO.p[2]))
 
     stage.puppet.tick = nudged
     assert stage.run(CUP).status == "succeeded"
@@ -227,8 +227,10 @@ def test_the_planners_refusal_is_reported_as_it_is(stage):
     assert not stage.commands(Payload)
 
 
-PHASES = ["planning", "walking", "raising", "stepping up", "leaning", "looking", "reaching",
-          "moving in", "closing", "lifting", "straightening", "stepping back", "bringing"]  # fmt: skip
+PHASES = (
+    "planning,walking,raising,stepping up,leaning,looking,reaching,moving in,closing,lifting,"
+    "straightening,stepping back,bringing"
+).split(",")
 
 
 @pytest.mark.parametrize("phase", PHASES)
