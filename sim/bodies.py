@@ -18,8 +18,8 @@ from sim.paint import Paint
 from sim.schema import Furniture, Object, Person
 
 FLOOR_FRICTION = [0.9, 0.01, 0.0005]
-WOOD_FRICTION = [0.6, 0.005, 0.0001]
-OBJECT_FRICTION = [0.7, 0.005, 0.0005]
+WOOD_FRICTION = [0.5, 0.005, 0.0001]
+OBJECT_FRICTION = [0.5, 0.005, 0.0005]  # low enough that a cup slides before it tips
 BOX = mujoco.mjtGeom.mjGEOM_BOX
 CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
 CAPSULE = mujoco.mjtGeom.mjGEOM_CAPSULE

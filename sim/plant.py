@@ -70,6 +70,8 @@ class Plant:
         seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
         self.world = placed(world, seeds[0])
         self.robot = robot
+        # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
+        mujoco.set_mju_user_warning(lambda _text: None)
         self.model = compile_scene(self.world, robot)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
