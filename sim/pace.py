@@ -1,11 +1,23 @@
-"""Keeps simulated time at the wall's pace, or behind it while the controller is late."""
+"""The plant at the wall's pace, or behind it while the controller is late.
+
+A controller that is late is waited for, so that a slow machine makes time slow and not the robot
+fall; one that stays away is not, and the motors' own watchdog damps.
+"""
 
 from __future__ import annotations
 
+from robot.bus import topics
+from robot.bus.bus import Bus
+from robot.bus.lifeline import Stop
+from robot.bus.timing import Lateness
 from robot.clock import Clock
 from robot.drivers.motors import MotorCommand
 from robot.drivers.shared_memory import MotorServer
+from sim.plant import Plant
 
+STEPS = 2
+PERIOD_S = 0.001 * STEPS
+TIMING_PERIODS = 500
 START_PATIENCE_S = 30.0
 PATIENCE_S = 0.08
 MAX_DEBT_S = 0.02
@@ -42,3 +54,23 @@ class Pace:
         answered = command is not None and command.stamp_s >= stamp_s - self._period_s
         self._patience_s = PATIENCE_S if answered else 0.0
         return command
+
+
+def serve(plant: Plant, motors: MotorServer, bus: Bus, *, clock: Clock, stop: Stop) -> None:
+    """Run a plant until asked to stop; it goes on whatever becomes of the controller."""
+    lateness = Lateness("plant", PERIOD_S)
+    pace = Pace(motors, clock, period_s=PERIOD_S)
+    periods = 0
+    while not stop:
+        state = plant.read()
+        motors.publish(state)
+        for name, message in plant.sense():
+            bus.publish(topics.named(name), message)
+        command = pace.wait(state.stamp_s)
+        lateness.tick(clock.now_s())
+        if command is not None:
+            plant.write(command)
+        plant.step(STEPS)
+        if periods % TIMING_PERIODS == 0:
+            bus.publish(topics.PLANT_TIMING, lateness.report(plant.time_s, clock.now_s()))
+        periods += 1

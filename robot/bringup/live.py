@@ -1,0 +1,159 @@
+"""The `live` runtime: every part in its own process on the wall clock."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from robot.bringup import entry
+from robot.bringup.body_clock import BodyClock
+from robot.bringup.processes import PROCESSES, Process
+from robot.bringup.supervisor import Supervisor
+from robot.bus import topics
+from robot.bus.run import Run
+from robot.bus.zenoh_bus import ZenohBus
+from robot.clock import Clock, WallClock
+from robot.errors import Failure, failure
+from robot.link import BusLink
+from robot.messages import LoopTiming
+from robot.model import description
+
+START_S = 20.0
+POLL_S = 0.005
+MAX_LAG_S = 0.25
+
+
+class LiveRuntime:
+    """A robot in a simulated world, on the wall clock; a context manager.
+
+    Attributes:
+        clock: the body's time (simulated seconds).
+        link: the executive's handle on the body.
+        supervisor: the processes.
+        timing: how well the loops kept their time: the newest report of each, by process.
+    """
+
+    def __init__(
+        self,
+        world: str,
+        robot: str = "juno",
+        *,
+        folder: Path,
+        seed: int = 0,
+        variation_seed: int | None = None,
+        wall: Clock | None = None,
+        processes: tuple[Process, ...] = PROCESSES,
+    ) -> None:
+        """Check everything that can be checked before a process starts.
+
+        Args:
+            world: name or path of a world.
+            robot: name or path of a robot description.
+            folder: of this run; takes `logs/` and `timing.json`.
+            seed: of the plant's noise.
+            variation_seed: shuffles start and objects.
+            wall: the wall clock; another one in tests.
+            processes: what to run.
+
+        Raises:
+            ConfigError: if world or robot cannot be used.
+        """
+        description.load(robot)
+        entry.world(world, variation_seed=variation_seed)
+        self.timing: dict[str, LoopTiming] = {}
+        self._wall = wall or WallClock()
+        self._folder = folder
+        self._private = Path(tempfile.mkdtemp(prefix="humanoid-"))  # mode 0700
+        run = Run(
+            folder=str(folder),
+            sockets=str(self._private),
+            robot=robot,
+            world=world,
+            seed=seed,
+            variation_seed=variation_seed,
+        )
+        run_file = self._private / "run.json"
+        run.save(run_file)
+        self.supervisor = Supervisor(
+            run_file, logs=folder / "logs", clock=self._wall, processes=processes
+        )
+        self._failure: Failure | None = None
+        self._open()
+
+    def _open(self) -> None:
+        self._bus = ZenohBus("executive", self._private)
+        self.clock = BodyClock(self._bus, self._wall)
+        self.link = BusLink(self._bus, self.clock)
+        self._timings = [
+            self._bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
+        ]
+        self._due_s = self._wall.now_s()
+
+    def __enter__(self) -> Self:
+        """Start the processes and wait for body, map and world model; see `failure` afterwards."""
+        self.supervisor.__enter__()
+        try:
+            self._wait_for_body()
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Stop everything."""
+        self.close()
+
+    def failure(self) -> Failure | None:
+        """Why the run cannot go on, None while it can."""
+        if self._failure is None:
+            self._failure = self.supervisor.check()
+        return self._failure
+
+    def advance(self, duration_s: float) -> None:
+        """Let `duration_s` of wall time pass since the last call returned; late calls catch up."""
+        now_s = self._wall.now_s()
+        self._due_s = max(self._due_s + duration_s, now_s - MAX_LAG_S)
+        while self.failure() is None and (now_s := self._wall.now_s()) < self._due_s:
+            self._wall.sleep_until(min(self._due_s, now_s + duration_s))
+        self._read_timing()
+
+    def close(self) -> None:
+        """Controller first (it damps the motors), then the rest; write `timing.json`."""
+        self.supervisor.close()
+        self._read_timing()
+        self._bus.close()
+        shutil.rmtree(self._private, ignore_errors=True)
+        if self.timing:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
+
+    def _wait_for_body(self) -> None:
+        until_s = self._wall.now_s() + START_S
+        link = self.link
+        while link.body() is None or link.map() is None or link.world() is None:
+            if self.failure() is not None:
+                break
+            if self._wall.now_s() > until_s:
+                self._failure = failure(
+                    "controller_lost",
+                    f"the robot did not come up within {START_S:.0f} s",
+                    suggestion=f"see {self._folder / 'logs'}",
+                )
+                break
+            self._wall.sleep_until(self._wall.now_s() + POLL_S)
+        self._due_s = self._wall.now_s()
+
+    def _read_timing(self) -> None:
+        for reader in self._timings:
+            if (timing := reader.latest) is not None:
+                self.timing[timing.process] = timing

@@ -1,0 +1,49 @@
+"""What ties a process of the robot to the one that started it, and how it is asked to stop."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+from types import FrameType
+
+from robot.errors import ProcessError
+
+PR_SET_PDEATHSIG = 1
+PR_SET_TIMERSLACK = 29
+TIMER_SLACK_NS = 5_000
+
+
+class Stop:
+    """False until SIGTERM or SIGINT asks the process to end."""
+
+    def __init__(self) -> None:
+        """Listen from now on; only in a main thread."""
+        self._asked = False
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, self._hear)
+
+    def __bool__(self) -> bool:
+        """Whether to stop."""
+        return self._asked
+
+    def _hear(self, _number: int, _frame: FrameType | None) -> None:
+        self._asked = True
+
+
+def tie_to_parent(parent_pid: int) -> None:
+    """Die at once (SIGKILL) when the parent's starting thread ends, however it ends.
+
+    Also asks the kernel for exact sleeps. Linux only; elsewhere nothing happens.
+
+    Raises:
+        ProcessError: if the parent is gone already.
+    """
+    if sys.platform != "linux":
+        return
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+    libc.prctl(PR_SET_TIMERSLACK, TIMER_SLACK_NS, 0, 0, 0)
+    if os.getppid() != parent_pid:
+        raise ProcessError("the process that started this one is gone")

@@ -1,0 +1,41 @@
+"""What every process of a live run must agree on: one small file, written by the supervisor."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+from robot.errors import ConfigError
+
+
+class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A live run.
+
+    `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
+    sockets and the motors' shared memory. `variation_seed` shuffles the world, None leaves it.
+    """
+
+    folder: str
+    sockets: str
+    robot: str
+    world: str
+    seed: int = 0
+    variation_seed: int | None = None
+
+    @property
+    def motors_path(self) -> Path:
+        """The motors' shared memory."""
+        return Path(self.sockets) / "motors"
+
+    def save(self, path: Path) -> None:
+        """Write it as JSON."""
+        path.write_bytes(msgspec.json.encode(self))
+
+
+def load(path: Path | str) -> Run:
+    """Read a run file. Raises ConfigError if it is not one."""
+    try:
+        return msgspec.json.decode(Path(path).read_bytes(), type=Run)
+    except (OSError, msgspec.DecodeError) as error:
+        raise ConfigError(f"{path} is no run file: {error}") from error

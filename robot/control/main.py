@@ -1,0 +1,60 @@
+"""The controller as a process: motors in, motors out, at the bus's 500 Hz."""
+
+from __future__ import annotations
+
+import gc
+import sys
+
+from robot.bus import run, topics
+from robot.bus.bus import Bus
+from robot.bus.lifeline import Stop, tie_to_parent
+from robot.bus.timing import Lateness
+from robot.bus.zenoh_bus import ZenohBus
+from robot.clock import Clock, WallClock
+from robot.control.loop import BUS_PERIOD_S, ControlLoop
+from robot.drivers.motors import MotorBus
+from robot.drivers.shared_memory import SharedMotors
+from robot.messages import Damp
+from robot.model import description
+
+STATE_TICKS = 10
+TIMING_TICKS = 500
+PAUSE_S = 0.3
+
+
+def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: Stop) -> None:
+    """Run until asked to stop. After a pause of the process the motors damp until re-armed."""
+    commands = bus.subscribe(topics.BODY_COMMAND)
+    lateness = Lateness("controller", BUS_PERIOD_S)
+    stamp_s, ticks = -1.0, 0
+    while not stop:
+        state = motors.read()
+        if state.stamp_s == stamp_s:
+            continue
+        stamp_s = state.stamp_s
+        if lateness.tick(clock.now_s()) > PAUSE_S:
+            loop.handle(Damp(stamp_s=stamp_s, id=0))
+        for command in commands.take():
+            loop.handle(command)
+        motors.write(loop.tick(state))
+        if ticks % STATE_TICKS == 0:
+            bus.publish(topics.BODY_STATE, loop.state())
+        if ticks % TIMING_TICKS == 0:
+            bus.publish(topics.CONTROLLER_TIMING, lateness.report(stamp_s, clock.now_s()))
+        ticks += 1
+
+
+def main(run_file: str, parent_pid: str) -> None:
+    """Load, build, run, close."""
+    tie_to_parent(int(parent_pid))
+    config, clock, stop = run.load(run_file), WallClock(), Stop()
+    robot = description.load(config.robot)
+    loop = ControlLoop(robot)
+    motors = SharedMotors.of(robot, config.motors_path, clock=clock)
+    gc.freeze()  # what start-up made stays: the collector need not look at it in every period
+    with ZenohBus("controller", config.sockets) as bus, motors:
+        serve(loop, motors, bus, clock=clock, stop=stop)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

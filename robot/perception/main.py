@@ -1,0 +1,30 @@
+"""Perception as a process."""
+
+from __future__ import annotations
+
+import sys
+
+from robot.bus import run
+from robot.bus.lifeline import Stop, tie_to_parent
+from robot.bus.zenoh_bus import ZenohBus
+from robot.clock import WallClock
+from robot.model import description
+from robot.perception.node import PerceptionNode
+
+PERIOD_S = 0.02
+
+
+def main(run_file: str, parent_pid: str) -> None:
+    """Load, build, run, close."""
+    tie_to_parent(int(parent_pid))
+    config, clock, stop = run.load(run_file), WallClock(), Stop()
+    with ZenohBus("perception", config.sockets) as bus:
+        node = PerceptionNode(bus, description.load(config.robot))
+        while not stop:
+            due_s = clock.now_s() + PERIOD_S
+            node.step()
+            clock.sleep_until(due_s)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
