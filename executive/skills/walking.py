@@ -31,8 +31,11 @@ SIDESTEP_M = 0.6
 FACING_RAD = 0.35
 BLOCKED_WITHIN_M = 1.0
 BLOCKED_FOR_S = 0.4
-STALLED_S = 6.0
-STALLED_M = 0.05
+STALLED_S = 5.0
+STALLED_M = 0.08
+STALLED_RAD = 0.25
+LEAST_TIMEOUT_S = 20.0
+SECONDS_PER_METRE = 12.0
 LOOK_EVERY_S = 1.0
 LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
@@ -100,7 +103,7 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     carrying = bool(body.context.holdings.all())
     speed_m_s = gait.max_forward_m_s * (CRUISE_CARRYING if carrying else CRUISE)
     follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
-    watch = _Watch(body)
+    watch = _Watch(body, follower.total_m)
     while not _arrived(body, follower, path.waypoints[-1]):
         check_grips(body)
         twist = follower.twist(body.X_WS)
@@ -144,11 +147,12 @@ def stand_still(body: Body, *, pitch_rad: float = 0.0, yaw_rad: float = 0.0,
 class _Watch:
     """What is kept an eye on while walking: the way ahead, progress, obstacles."""
 
-    def __init__(self, body: Body) -> None:
+    def __init__(self, body: Body, whole_m: float) -> None:
         self.body = body
+        self._end_s = body.now_s + LEAST_TIMEOUT_S + SECONDS_PER_METRE * whole_m
         self._looked_s = -math.inf
-        self._least_m = math.inf
-        self._progress_s = body.now_s
+        self._X_WS = body.X_WS
+        self._moved_s = body.now_s
         self._blocked_since_s: float | None = None
 
     def look_ahead(self, follower: Follower) -> None:
@@ -161,16 +165,17 @@ class _Watch:
             self._looked_s = self.body.now_s
 
     def check_progress(self, remaining_m: float) -> None:
-        """Give up when the way has not become shorter for long."""
-        if remaining_m < self._least_m - STALLED_M:
-            self._least_m = remaining_m
-            self._progress_s = self.body.now_s
-        waited_s = self.body.now_s - self._progress_s
-        if waited_s > STALLED_S:
+        """Give up when the body has neither moved nor turned for long, or walks in circles."""
+        X_WS, now_s = self.body.X_WS, self.body.now_s
+        moved_m, turned_rad = miss(X_WS, self._X_WS)
+        if moved_m > STALLED_M or turned_rad > STALLED_RAD:
+            self._X_WS, self._moved_s = X_WS, now_s
+        if now_s - self._moved_s > STALLED_S or now_s > self._end_s:
             raise give_up(
                 "walk_stalled",
-                f"no progress for {waited_s:.0f} s, {remaining_m:.2f} m before the goal",
+                f"the walk does not get on, {remaining_m:.2f} m before the goal",
                 remaining_m=round(remaining_m, 2),
+                still_for_s=round(now_s - self._moved_s, 1),
             )
 
     def blocker(self, follower: Follower) -> Obstacle | None:
