@@ -16,7 +16,7 @@ from intents.english.noun_phrases import NounPhrase, noun_phrase
 from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.questions import Reading, about_robot, question
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.speech import answer, inform, say, tell
+from intents.english.speech import answer, describe, inform, say, tell
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
@@ -35,12 +35,13 @@ from intents.goals import (
     Pick,
     Repeat,
     State,
+    Tell,
 )
 
 _ELSE = lexicon.phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")
 _IF = lexicon.phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
-_SPEECH = {"say": say, "tell": tell, "inform": inform, "answer": answer}
+_SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 
 
 class Grammar:
@@ -91,6 +92,8 @@ class Grammar:
             self._wanted = False
             found, end = self._clause(at, goals)
             if wanted and _same_object(wanted[0], found[:1]):
+                goals.pop()
+            if goals and found and _already_sought(goals[-1], found[0]):
                 goals.pop()
             last = len(goals)
             goals += found
@@ -250,12 +253,11 @@ class Grammar:
         if not before and after < len(text) and verbs_at(text.words, after):
             goals, end = self._sequence(after, nested=True)
             return [Repeat(times=times, goals=tuple(goals))], end
-        again = before or list(self.history)
+        again = list(before or self.history)
         if not again:
             raise Unclear("What shall I repeat?")
-        if times < 2:
-            return list(again), at
-        return [Repeat(times=times, goals=tuple(again))], at
+        repeated: list[Goal] = [Repeat(times=times, goals=tuple(again))] if times > 1 else again
+        return repeated, at
 
     def _times(self, at: int, before: list[Goal]) -> Reading | None:
         """Three times, walk around the table."""
@@ -408,8 +410,15 @@ def _same_object(wanted: Goal, found: list[Goal]) -> bool:
     """I want the chips, can you bring them: one wish, said twice."""
     if not found or not isinstance(found[0], Bring | Pick | Find | Give):
         return False
-    one, other = getattr(wanted, "object", None), getattr(found[0], "object", None)
+    one, other = wanted.object if isinstance(wanted, Bring) else None, found[0].object
     return one is not None and other is not None and one.name == other.name
+
+
+def _already_sought(before: Goal, goal: Goal) -> bool:
+    """Find the largest things and tell me what they are: telling finds them."""
+    told = isinstance(goal, Tell) and goal.object is not None and goal.property == "name"
+    sought = isinstance(before, Find | Tell) and before.object is not None
+    return told and sought and goal.object == before.object
 
 
 def _conditional(holds: Condition, goals: list[Goal], *, negate: bool) -> If:

@@ -212,6 +212,8 @@ def _prepositional(text: Text, at: int) -> tuple[Complement, int] | None:
 def _preposition(text: Text, at: int) -> tuple[Role, How | None, int]:
     """What the longest preposition at a word means, and where it ends."""
     best: tuple[Role, How | None, int] = ("", None, at)
+    if text.word(at) in ("over", "right") and text.word(at + 1) in ("here", "there"):
+        return best
     goal = text.phrase_end(GOALWARDS, at)
     if goal:
         inward = text.word(goal - 1) in ("into", "in") or text.words[at:goal] == ["in", "to"]

@@ -32,12 +32,12 @@ class Match(NamedTuple):
 
 
 def _split(name: str) -> list[str]:
-    return [t.text for t in tokenize(name.replace("'", " ")) if t.text[0].isalnum()]
+    return [t.text for t in tokenize(name) if t.text[0].isalnum()]
 
 
 def _key(words: list[str]) -> str:
     """Spelling without blanks, singular: "side tables" and "sidetable" are one."""
-    return "".join(words[:-1]) + singular(words[-1])
+    return "".join(w for w in words[:-1] if w != "'s") + singular(words[-1])
 
 
 class NameIndex:
@@ -81,7 +81,7 @@ class NameIndex:
         """The longest name that begins at a word."""
         stop = min(len(words), start + self._longest)
         for end in range(start + 1, stop + 1):
-            if not words[end - 1][0].isalnum():
+            if not words[end - 1][0].isalnum() and words[end - 1] != "'s":
                 stop = end - 1
                 break
         for end in range(stop, start, -1):

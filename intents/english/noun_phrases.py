@@ -380,7 +380,7 @@ def _read_unknown(text: Text, phrase: NounPhrase, at: int) -> int | None:
         if fresh and verbs_at(text.words, end):
             break
         match = text.name_at(end)
-        if match and end > at and match.of("object", "place", "room"):
+        if match and end > at and match.of("object", "place", "room") and not match.of("category"):
             phrase.said = " ".join(text.words[at : match.end])
             return _read_name(text, phrase, match, end)
         end += 1

@@ -5,7 +5,7 @@ from intents.english.lexer import COMMA, singular
 from intents.english.lexicon import COLORS, DETERMINERS, LOCATIVES, POSTURES
 from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
 from intents.english.text import Text
-from intents.goals import Clothing
+from intents.goals import Clothing, Superlative
 
 _RELATIVE = lexicon.words("that which who whose")
 _REDUCED = lexicon.phrases(
@@ -72,14 +72,24 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         at += 1
     if spot:
         return _locative(text, phrase, at)
-    weight = {"least": "lightest", "most": "heaviest"}.get(text.word(at + 2))
-    if text.word(at) in ("weighs", "weigh", "weight") and weight:
-        phrase.superlative = "lightest" if weight == "lightest" else "heaviest"
-        return at + 3
+    weight = weight_at(text, at)
+    if weight:
+        phrase.superlative, end = weight
+        return end
     end = _modifier(text, phrase, at) or _predicate(text, phrase, at)
     if end:
         return end
     return at if text.words[first:at] and text.word(at - 1) in ("see", "find", "there") else None
+
+
+def weight_at(text: Text, at: int) -> tuple[Superlative, int] | None:
+    """Weighs the least."""
+    if text.word(at) not in ("weighs", "weigh", "weight", "weights"):
+        return None
+    end = at + 1 + (text.word(at + 1) == "the")
+    if text.word(end) not in ("least", "most"):
+        return None
+    return ("lightest" if text.word(end) == "least" else "heaviest"), end + 1
 
 
 def _predicate(text: Text, phrase: NounPhrase, at: int) -> int | None:
@@ -125,8 +135,8 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """On the left, furthest to the right - and not "on the left of the cup"."""
     most = text.lookup(lexicon.SUPERLATIVES, at)
     begun = at
-    if most:
-        at = most[1]
+    if most or text.word(at) == "most":
+        at = most[1] if most else at + 1
         if text.word(at) == "to":
             at += 1
     elif text.word(at) in ("on", "at", "to"):
@@ -134,7 +144,8 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
     else:
         return None
     at += text.word(at) == "the"
-    at += text.word(at) == "far"
+    far = text.word(at) == "far"
+    at += far
     side = _LEFT_RIGHT.get(text.word(at))
     follows = text.word(at + 1)
     if follows in ("side", "hand"):
@@ -142,7 +153,7 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
         follows = text.word(at + 1)
     if side is None or follows in ("of", "to", "leg", "foot", "arm", "hand"):
         return None
-    if text.word(begun) == "to" or phrase.noun in ("pronoun", "place", "body"):
+    if (text.word(begun) == "to" and not far) or phrase.noun in ("pronoun", "place", "body"):
         return None
     phrase.superlative = "leftmost" if side == "leftmost" else "rightmost"
     return at + 1

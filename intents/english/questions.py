@@ -4,7 +4,7 @@ from intents.english import lexicon
 from intents.english.lexer import COMMA
 from intents.english.measures import number
 from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
-from intents.english.postmodifiers import read_postmodifiers
+from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.properties import property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.text import Text
@@ -46,10 +46,12 @@ _TOPICS: dict[lexicon.Phrase, ReportTopic] = {
 }
 _SMALL_TALK = lexicon.words(
     "what which is it the a an of today tomorrow day time date week month current now this joke "
-    "something about yourself your team name affiliation country leader are you who me s in year "
+    "something about yourself your team teams 's name affiliation country leader are you who me s in year "
     "to know whether dream or not on electric sheep tell day's time's right be funny"
 )
-_SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation country something")
+_SMALL_TALK_HEADS = lexicon.words(
+    "time day date joke yourself name affiliation country something dream"
+)
 
 
 def question(
@@ -111,6 +113,9 @@ def _read_on(text: Text, phrase: NounPhrase) -> int:
             phrase.end = source.end
             read_postmodifiers(text, phrase)
             return _skip(text, phrase.end)
+    if phrase.is_person and text.word(phrase.end) in lexicon.GENDERS:
+        phrase.gender = lexicon.GENDERS[text.word(phrase.end)]
+        phrase.end += 1
     if phrase.end == after and after < len(text) and text.word(after)[0].isalnum():
         phrase.end = end if text.words[end:after] == ["there"] else after
     return phrase.end
@@ -211,6 +216,11 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
 def _predicate_superlative(text: Text, phrase: NounPhrase, end: int) -> int:
     """Which object is *the lightest one on the table*."""
     start = end + (text.word(end) == "the")
+    weight = weight_at(text, start)
+    if weight:
+        phrase.superlative, phrase.end = weight
+        read_postmodifiers(text, phrase)
+        return phrase.end
     amount = number(text.words, start)
     if amount and text.lookup(lexicon.SUPERLATIVES, amount.end):
         phrase.count, start = int(amount.value), amount.end
@@ -268,4 +278,4 @@ def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
     return [Find(object=to_object(phrase, scope))], end
 
 
-_EITHER = dict.fromkeys(("male", "female", "boy", "girl"), "gender")
+_EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gender")

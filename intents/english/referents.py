@@ -164,6 +164,8 @@ def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
         return scope.place
     if phrase.noun == "place" and phrase.places:
         return to_place(phrase.places[0].of, scope, objects=objects)
+    if phrase.noun == "place" and scope.place:
+        return scope.place
     names = phrase.all_names(*_SPOTS) or (phrase.all_names("object") if objects else [])
     if not names or phrase.level:
         if phrase.is_person:

@@ -7,7 +7,7 @@ from intents.english.clauses import connector_end
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.noun_phrases import NounPhrase, noun_phrase
 from intents.english.questions import Reading, property_question, question, small_talk
-from intents.english.referents import ME, Scope, is_person, to_person, to_place
+from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.verbs import verbs_at
@@ -121,6 +121,9 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
         at += text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
+    found = text.phrase_end(_WHAT_THEY_ARE, at)
+    if found and scope.object:
+        return [Tell(object=scope.object, property="name", to=to)], found
     asked = question(text, at, scope, to, told=True)
     if asked and (to is None or to == ME or not isinstance(asked[0][0], Say)):
         return _to_listener(text, asked, scope)
@@ -150,6 +153,33 @@ def inform(text: Text, at: int, scope: Scope) -> Reading:
     if asked is None:
         raise Misfit("that is to give something")
     return _to_listener(text, asked, scope)
+
+
+def describe(text: Text, at: int, scope: Scope) -> Reading:
+    """Describe the person at the sofa to me.
+
+    Raises:
+        Misfit: It is nothing that can be seen.
+    """
+    to = None
+    if text.word(at) in _TO:
+        first = _listener(text, at + 1, scope)
+        if first:
+            to, at = to_person(first, scope), first.end
+    phrase = noun_phrase(text, at)
+    if phrase is None or phrase.noun == "unknown":
+        raise Misfit("describe what?")
+    if is_person(phrase, scope):
+        goal = Tell(person=to_person(phrase, scope), property="description", to=to)
+    else:
+        query = to_object(phrase, scope, spots=True)
+        goal = Tell(object=query, property="description", to=to)
+    return _to_listener(text, ([goal], phrase.end), scope)
+
+
+_WHAT_THEY_ARE = lexicon.phrases(
+    "what they are,what it is,what are they,what is it,which they are,what that is,which ones"
+)
 
 
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:

@@ -101,7 +101,7 @@ COMMON_WORDS = lexicon.words(
     "water wave way weak wealth weather website wednesday week weekend weigh weight welcome well west "
     "wet what wheel while who whole why wide wife wild will win wind window wine wing winter wire "
     "wise wish wolf woman wonder wood wool word work world worry worst worth write wrong yard year "
-    "yes yesterday yet young yourself zoo drown alexa olly siri uber facebook twitter"
+    "somewhere everywhere anywhere nowhere yes yesterday yet young yourself zoo drown alexa olly siri uber facebook twitter"
 )
 """Words that mean themselves even where a name of the vocabulary is one letter away."""
 

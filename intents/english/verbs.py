@@ -10,7 +10,8 @@ SPELLINGS: dict[str, str] = {
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
         "find the way,take yourself,get yourself,go out,go on,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
-        "move yourself,start walking,start moving,start going,wander,stroll"
+        "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
+        "swing by,stop by"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around",
@@ -68,12 +69,12 @@ SPELLINGS: dict[str, str] = {
     "guide": (
         "show,guide,escort,lead,accompany,conduct,usher,direct,show the way,help,"
         "show around,take along,bring along with,steer,walk home,see,take,bring,walk,"
-        "move"
+        "move,return with,come back with,bring back,get back with"
     ),
     "meet": (
         "meet,get to know,get acquainted with,meet up with,meet with,become acquainted with,"
         "make the acquaintance of,encounter,acquaint yourself with,contact,find and meet,"
-        "see to"
+        "see to,join"
     ),
     "collect": "get,fetch,pick up,collect,pick,go get,retrieve,go fetch",
     "greet": (
@@ -88,17 +89,19 @@ SPELLINGS: dict[str, str] = {
         "mention,talk about,give out,speak about,convey that,repeat after me"
     ),
     "tell": (
-        "tell,inform,let,notify,advise,update,remind,report,describe,explain,"
-        "let me know,relay to,share with,explain to,brief,identify,name,find out,check,"
-        "determine,figure out,do you know,can i know,i want to know,i would like to know,"
+        "tell,inform,let,notify,advise,update,remind,report,explain,let me know,"
+        "relay to,share with,explain to,brief,identify,name,find out,check,determine,"
+        "figure out,do you know,can i know,i want to know,i would like to know,"
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
         "speak with,talk to,talk with,respond with,recount,communicate,communicate to,"
-        "indicate,learn,verify,let know,say to,state to,i wonder,report to"
+        "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
+        "reveal,detail,point out"
     ),
+    "describe": "describe,give a description of,give me a description of,tell me about,tell about",
     "answer": (
-        "answer,respond,respond to,reply,reply to,answer to,give an answer to,solve,"
+        "answer,respond,respond to,reply,reply to,answer to,give an answer to,"
         "give an answer,answer back,provide an answer to,field,ask,ask for,get asked,"
-        "listen to,help with,give a response to,resolve,give the answer to,give the answer,"
+        "help with,give a response to,resolve,give the answer to,give the answer,"
         "give them the answer to,provide the answer to,respond to the"
     ),
     "count": "count,count up,give me the number of,tell me the number of,enumerate",
@@ -106,7 +109,7 @@ SPELLINGS: dict[str, str] = {
         "look,look at,inspect,examine,check,watch,observe,have a look at,take a look at,"
         "check on,check out,look over,look into,glance at,stare at,gaze at,control,"
         "monitor,view,check up on,turn your head to,turn your head towards,turn your head,"
-        "peek at,focus on,keep an eye on,see"
+        "peek at,focus on,keep an eye on,see,scan"
     ),
     "open": "open,open up,unlock,unclose,uncover",
     "close": "close,shut,close up,lock,cover",

@@ -81,6 +81,9 @@ def _receiver(slots: Slots) -> Person | str | None:
     """Who or where to, without a preposition or with "to"."""
     scope = slots.scope
     goal = slots.take("to", "into")
+    if goal and goal.phrase.noun == "pronoun" and any(c.role == "to" for c in slots.rest):
+        slots.rest.append(Complement(phrases=goal.phrases))
+        goal = slots.take("to", "into")
     if goal is None:
         bare = [c for c in slots.rest if c.phrases and c.role == "" and c.phrase.noun != "here"]
         person = slots.take_person("", "for") if len(bare) > 1 else slots.take_person("for")

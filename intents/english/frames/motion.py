@@ -160,10 +160,12 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     return [_find(phrase, scope, at) for phrase in sought.phrases]
 
 
-def _find(phrase: NounPhrase, scope: Scope, at: str | None) -> Find:
+def _find(phrase: NounPhrase, scope: Scope, at: str | None) -> Goal:
     if is_person(phrase, scope):
         person = to_person(phrase, scope)
         return Find(person=replace(person, at=person.at or at))
+    if phrase.name("room") and is_spot(phrase):
+        return GoTo(place=to_place(phrase, scope))
     query = to_object(phrase, scope, spots=True)
     return Find(object=replace(query, at=query.at or at))
 

@@ -84,7 +84,7 @@ class Slots:
             Misfit: It has not.
         """
         for complement in self.rest:
-            if complement.phrases:
+            if complement.phrases and complement.phrase.noun != "there":
                 said = complement.phrase.said
                 raise Misfit(f"I do not see what “{said}” has to do with “{self.clause.verb}”")
             if complement.measure:
