@@ -8,8 +8,10 @@ from typing import TypeVar
 from intents.grounding import Entity
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
+from robot.se3 import SE3
 
 T = TypeVar("T")
+ON_TOP_M = 0.3
 SMALL, BIG = 0.75, 1.33
 """Volume relative to the mean of its name: less is small, more is big."""
 
@@ -79,6 +81,11 @@ class Knowledge:
         others = [p for p in self.map.places if wanted in map(str.casefold, p.synonyms)]
         return tuple(exact or others)
 
+    def surface_under(self, X_WO: SE3) -> Place | None:
+        """The surface that something stands on: the highest one right under it."""
+        under = [place for place in self.map.places if not place.floor and stands_on(X_WO, place)]
+        return max(under, key=lambda place: place.X_WP.p[2], default=None)
+
     def person(self, name: str | None) -> PersonInfo | None:
         """A person by name; None stands for the operator: who is called so, or the only one."""
         people = self.map.people
@@ -87,6 +94,13 @@ class Knowledge:
         if named is None and name is None and len(people) == 1:
             return people[0]
         return named
+
+
+def stands_on(X_WO: SE3, place: Place) -> bool:
+    """Whether an object's middle is over a surface, at most `ON_TOP_M` above it."""
+    x, y, z = (place.X_WP.inverse() @ X_WO).p
+    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
+    return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
 
 
 def plain_name(info: ObjectInfo) -> str:

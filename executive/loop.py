@@ -20,8 +20,15 @@ PERIOD_S = 1.0 / RATE_HZ
 class Runtime(Protocol):
     """A robot in a world, fast or live (`robot.bringup`): time passes in `advance`."""
 
-    link: BodyLink
-    clock: Clock
+    @property
+    def link(self) -> BodyLink:
+        """The handle on the body."""
+        ...
+
+    @property
+    def clock(self) -> Clock:
+        """The runtime's time."""
+        ...
 
     def advance(self, duration_s: float) -> None:
         """Let time pass."""

@@ -8,13 +8,10 @@ from collections.abc import Callable, Iterable
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import HEALTH, HELD, WORLD, Blackboard
-from executive.knowledge import Knowledge, full_name
+from executive.knowledge import Knowledge, full_name, stands_on
 from executive.skills.parameters import SayParams
 from robot.errors import Failure, failure
 from robot.messages import Place, Track
-
-ON_TOP_M = 0.4
-"""An object whose middle is less than this above a surface, and inside it, stands on it."""
 
 
 def is_held(ids: frozenset[str]) -> Predicate:
@@ -57,17 +54,10 @@ def _seen(board: Blackboard, ids: frozenset[str], places: tuple[Place, ...]) -> 
     world = board.read(WORLD)
     if world is None:
         return []
-    tracks = [t for t in world.tracks if t.id in ids and t.X_WO is not None and not t.missing]
-    return [t for t in tracks if not places or any(_on(t, place) for place in places)]
-
-
-def _on(track: Track, place: Place) -> bool:
-    """Whether an object stands on a surface."""
-    if track.X_WO is None:
-        return False
-    x, y, z = (place.X_WP.inverse() @ track.X_WO).p
-    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
-    return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
+    seen = [t for t in world.tracks if t.id in ids and t.X_WO is not None and not t.missing]
+    if not places:
+        return seen
+    return [t for t in seen if t.X_WO and any(stands_on(t.X_WO, place) for place in places)]
 
 
 def _names(ids: Iterable[str], knowledge: Knowledge) -> str:

@@ -1,0 +1,244 @@
+"""The command line: `humanoid`. What the commands do is in `executive.commands`.
+
+Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import sys
+import traceback
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import msgspec
+import typer
+
+from robot.errors import ConfigError, RobotError
+
+FAILED, INVALID, BROKEN = 1, 2, 3
+
+app = typer.Typer(
+    name="humanoid",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog='Begin with:  humanoid do "pick up the red cup and put it on the shelf" --fast',
+)
+
+World = Annotated[
+    str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
+]
+Robot = Annotated[
+    str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
+]
+Seed = Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")]
+Fast = Annotated[
+    bool,
+    typer.Option(
+        "--fast", help="As fast as the machine goes, and the same every time, in one process."
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"humanoid-executive {importlib.metadata.version('humanoid-executive')}")
+        raise typer.Exit
+
+
+@app.callback()
+def humanoid(
+    *,
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Type a sentence, and a humanoid does it in physics.
+
+    Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
+    """
+
+
+@app.command(no_args_is_help=True)
+def do(
+    sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")],
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    as_json: AsJson = False,
+    vary: Annotated[
+        bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
+    ] = False,
+    run_dir: Annotated[
+        Path | None,
+        typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
+    ] = None,
+) -> None:
+    """Do what a sentence says.
+
+    [bold]Examples[/bold]
+
+      humanoid do "pick up the red cup and put it on the shelf" --fast
+
+      humanoid do "go to the counter, then squat for five seconds"
+
+      humanoid do "bring the bottle to the table" --world my_house.yaml --seed 7
+
+    Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
+    """
+    from executive import commands
+
+    options = commands.Do(
+        text=" ".join(sentence),
+        world=world,
+        robot=robot,
+        seed=seed,
+        fast=fast,
+        vary=vary,
+        folder=run_dir,
+        as_json=as_json,
+    )
+    raise typer.Exit(commands.do(options))
+
+
+@app.command()
+def walk(
+    *,
+    speed: Annotated[float, typer.Option("--speed", help="Forward [m/s].")] = 0.4,
+    left: Annotated[float, typer.Option("--left", help="Sideways, to the left [m/s].")] = 0.0,
+    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left [rad/s].")] = 0.0,
+    duration: Annotated[float, typer.Option("--for", help="How long [s].")] = 10.0,
+    world: World = "empty",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    as_json: AsJson = False,
+) -> None:
+    """Walk at a steady pace, to look at the body alone.
+
+    [bold]Examples[/bold]
+
+      humanoid walk --speed 0.4 --for 60 --fast
+
+      humanoid walk --speed 0 --turn 0.6 --for 20
+    """
+    from executive import commands
+    from executive.walking import Twist
+
+    twist = Twist(forward_m_s=speed, left_m_s=left, turn_rad_s=turn, duration_s=duration)
+    options = commands.Walk(
+        twist=twist, world=world, robot=robot, seed=seed, fast=fast, as_json=as_json
+    )
+    raise typer.Exit(commands.walk(options))
+
+
+@app.command()
+def parse(
+    sentence: Annotated[list[str] | None, typer.Argument(help="What was said.")] = None,
+    *,
+    world: World = "kitchen",
+    vocabulary: Annotated[
+        Path | None, typer.Option("--vocabulary", help="Names from a JSON file, not a world.")
+    ] = None,
+    file: Annotated[
+        Path | None, typer.Option("--file", help="Sentences, one a line; - is standard input.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show the goals that a sentence becomes, without doing anything.
+
+    [bold]Examples[/bold]
+
+      humanoid parse "bring all the cups to the counter"
+
+      humanoid parse --json --file sentences.txt --vocabulary names.json
+    """
+    from executive.parsing import parse_all
+
+    if sentence is None and file is None:
+        raise typer.BadParameter("give a sentence, or --file")
+    texts = [" ".join(sentence)] if sentence is not None else []
+    status = parse_all(texts, world=world, vocabulary=vocabulary, file=file, as_json=as_json)
+    raise typer.Exit(status)
+
+
+@app.command()
+def view(
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    snapshot: Annotated[
+        Path | None, typer.Option("--snapshot", help="Render one picture into this PNG file.")
+    ] = None,
+) -> None:
+    """Look at a world with the robot in it.
+
+    [bold]Examples[/bold]
+
+      humanoid view --world kitchen --snapshot kitchen.png
+
+      humanoid view            (MuJoCo's viewer, where there is a display)
+    """
+    from executive.viewing import look
+
+    raise typer.Exit(look(world, robot, seed=seed, snapshot=snapshot))
+
+
+@app.command()
+def doctor(*, as_json: AsJson = False) -> None:
+    """Say what is there on this machine and what is missing, each with its cure."""
+    from executive import commands
+
+    raise typer.Exit(commands.doctor(as_json=as_json))
+
+
+@app.command()
+def worlds() -> None:
+    """List the shipped worlds with what is in them."""
+    from robot.bringup import entry
+
+    for name in entry.attribute("sim.world:available")():
+        world_map = entry.world_map(name)
+        objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
+        places = ", ".join(place.name for place in world_map.places)
+        typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
+    typer.echo("Write your own: docs/worlds.md; use it with --world FILE.")
+
+
+def main() -> None:
+    """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
+    try:
+        app(prog_name="humanoid")
+    except ConfigError as error:
+        problems = [str(problem) for problem in error.problems]
+        _last_words("Not done:", problems, "correct that, then try again", status=INVALID)
+    except RobotError as error:
+        cure = "try again; humanoid doctor says whether something is missing"
+        _last_words("Broken:", [str(error)], cure, status=BROKEN)
+    except KeyboardInterrupt:
+        _last_words("Stopped on request.", [], "", status=FAILED)
+    except Exception:  # the last words must not be a bare traceback
+        lines = traceback.format_exc().splitlines()
+        cure = "that is a mistake in this software: report the lines above, with the run folder"
+        _last_words("Broken:", lines, cure, status=BROKEN)
+
+
+def _last_words(heading: str, lines: list[str], cure: str, *, status: int) -> NoReturn:
+    """Say what went wrong and what to do, as JSON where that was asked for, and leave."""
+    if "--json" in sys.argv:
+        outcome = "invalid" if status == INVALID else "failed"
+        record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
+        typer.echo(msgspec.json.encode(record))
+        sys.exit(status)
+    typer.echo("\n  ".join([heading, *lines]), err=True)
+    if cure:
+        typer.echo(f"What to do: {cure}", err=True)
+    sys.exit(status)

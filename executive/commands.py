@@ -1,0 +1,188 @@
+"""What the commands of the command line do, from their options to an exit status."""
+
+from __future__ import annotations
+
+import sys
+from datetime import datetime
+from pathlib import Path
+
+import msgspec
+import typer
+from rich.console import Console
+from rich.markup import escape
+
+from executive import doctor as examination
+from executive import doing, request, runs, runtimes, walking
+from executive.app import Executive
+from executive.loop import Interrupts
+from executive.progress import Lines, LiveTree, Progress, Silent
+from intents.outcomes import Question
+from robot.clock import WallClock
+from robot.errors import Failure
+
+DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
+
+
+class Do(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid do`."""
+
+    text: str
+    world: str
+    robot: str
+    seed: int
+    fast: bool
+    vary: bool
+    folder: Path | None
+    as_json: bool
+
+
+class Walk(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid walk`."""
+
+    twist: walking.Twist
+    world: str
+    robot: str
+    seed: int
+    fast: bool
+    as_json: bool
+
+
+def do(options: Do) -> int:
+    """Understand, check, and only then start a robot and do it; returns the exit status.
+
+    Raises:
+        RobotError: a file is wrong (ConfigError), or a part does not start.
+    """
+    vary_seed = options.seed if options.vary else None
+    where = request.setting(options.world, options.robot, vary_seed=vary_seed)
+    at_terminal = sys.stdin.isatty() and sys.stdout.isatty() and not options.as_json
+    understood = request.request(options.text, where, ask=ask if at_terminal else None)
+    if isinstance(understood, request.Refused):
+        return refuse(understood, as_json=options.as_json)
+    kind: runtimes.Kind = "fast" if options.fast else "live"
+    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    job = doing.Job(
+        understood=understood,
+        where=where,
+        seed=options.seed,
+        runtime_name=kind,
+        folder=options.folder or runs.folder_for(options.text, stamp=stamp),
+    )
+    interrupts = Interrupts()
+    with (
+        interrupts.listen(),
+        runtimes.opened(kind, where, seed=options.seed, folder=job.folder) as (runtime, planner),
+    ):
+        summary = doing.do(
+            job,
+            runtime,
+            planner,
+            show=_silent if options.as_json else _on_screen,
+            wall=WallClock(),
+            time_of_day=lambda: datetime.now().astimezone().timestamp(),
+            interrupts=interrupts,
+        )
+    if options.as_json:
+        echo_json(summary)
+    else:
+        typer.echo("\n".join(doing.closing(summary)))
+    return summary.exit_status
+
+
+def _silent(_executive: Executive) -> Progress:
+    return Silent()
+
+
+def _on_screen(executive: Executive) -> Progress:
+    """A live tree on a terminal, plain lines elsewhere."""
+    console = Console()
+    if console.is_terminal:
+        return LiveTree(executive, console, wall_s=WallClock().now_s)
+    return Lines(executive, console)
+
+
+def ask(question: Question) -> str | None:
+    """Put an open question to the person at the terminal."""
+    try:
+        answer = typer.prompt(question.question, default="", show_default=False)
+    except (typer.Abort, EOFError):
+        return None
+    return str(answer) or None
+
+
+def refuse(refused: request.Refused, *, as_json: bool) -> int:
+    """Say why nothing is done."""
+    if as_json:
+        record = {"status": "invalid", "exit_status": INVALID, **msgspec.to_builtins(refused)}
+        echo_json(record)
+        return INVALID
+    heading = "Question" if refused.outcome == "question" else "Not done"
+    typer.echo(f"{heading}: {refused.reason}")
+    if refused.suggestion:
+        typer.echo(f"What to do: {refused.suggestion}")
+    return INVALID
+
+
+def walk(options: Walk) -> int:
+    """Walk at a twist, then stand; returns the exit status. Raises RobotError as `do` does."""
+    where = request.setting(options.world, options.robot)
+    refusal = walking.check(options.twist, where.description)
+    if refusal is not None:
+        return refuse(request.refused(refusal), as_json=options.as_json)
+    interrupts, wall = Interrupts(), WallClock()
+    begun_s = wall.now_s()
+    kind: runtimes.Kind = "fast" if options.fast else "live"
+    with (
+        interrupts.listen(),
+        runtimes.opened(kind, where, seed=options.seed, folder=None) as (runtime, _),
+    ):
+        walked = walking.walk(runtime, options.twist, interrupts=interrupts)
+        past_s = runtime.clock.now_s()
+    if options.as_json:
+        echo_json(walked)
+    else:
+        typer.echo("\n".join(_walk_words(walked, past_s, wall.now_s() - begun_s)))
+    return _walk_status(walked.failure)
+
+
+def _walk_status(reason: Failure | None) -> int:
+    if reason is None:
+        return DONE
+    return BROKEN if reason.code in runs.BROKEN else FAILED
+
+
+def _walk_words(walked: walking.Walked, past_s: float, wall_s: float) -> list[str]:
+    reason = walked.failure
+    lines = [
+        f"Failed: {reason.cause} ({reason.code})" if reason else "Done.",
+        f"  walked {walked.walked_s:.1f} s: {walked.forward_m:.2f} m forward, "
+        f"{walked.left_m:.2f} m to the left, {walked.turned_rad:.2f} rad turned (estimated)",
+        f"  {past_s:.1f} s of robot time in {wall_s:.1f} s ({past_s / wall_s:.1f} x), "
+        f"{walked.clamped} commands clamped",
+    ]
+    if reason and reason.suggestion:
+        lines.append(f"What to do: {reason.suggestion}")
+    return lines
+
+
+def doctor(*, as_json: bool) -> int:
+    """Examine the machine; returns the exit status, 2 if something needed is missing."""
+    findings = examination.examine()
+    status = INVALID if any(finding.verdict == "missing" for finding in findings) else DONE
+    if as_json:
+        echo_json(findings)
+        return status
+    console = Console(highlight=False, soft_wrap=True)
+    marks = {"ok": "[green]ok[/]", "optional": "[yellow]--[/]", "missing": "[red]no[/]"}
+    for finding in findings:
+        console.print(f"{marks[finding.verdict]}  {finding.name:14} {escape(finding.text)}")
+        if finding.cure:
+            console.print(f"    [dim]cure:[/] {escape(finding.cure)}")
+    missing = "Something that is needed is missing; see its cure above."
+    console.print(missing if status else "All that is needed is there.")
+    return status
+
+
+def echo_json(value: object) -> None:
+    """Print a value as one line of JSON."""
+    typer.echo(msgspec.json.encode(value, order="deterministic"))

@@ -1,0 +1,153 @@
+"""What is there and what is missing on this machine, each with its cure."""
+
+from __future__ import annotations
+
+import ctypes.util
+import importlib
+import importlib.metadata
+import os
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from robot.errors import RobotError
+
+MIN_FREE_MB = 200
+EGL_PACKAGES = "sudo apt install libegl1 libgl1-mesa-dri libopengl0"
+LIBRARIES = {
+    "mujoco": "mujoco", "mink": "mink", "daqp": "daqp", "ompl": "ompl", "ruckig": "ruckig",
+    "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
+    "scipy": "scipy", "typer": "typer", "rich": "rich", "prompt_toolkit": "prompt-toolkit",
+    "ruamel.yaml": "ruamel.yaml", "rapidfuzz": "rapidfuzz",
+}  # fmt: skip
+"""Module to distribution."""
+
+Verdict = Literal["ok", "optional", "missing"]
+
+
+class Finding(msgspec.Struct, frozen=True, kw_only=True):
+    """One thing looked at. "optional" is missed by some commands only."""
+
+    name: str
+    verdict: Verdict
+    text: str
+    cure: str = ""
+
+
+def examine(run_folder: Path = Path()) -> list[Finding]:
+    """Look at everything; never raises."""
+    checks: list[Callable[[], Finding]] = [
+        _python, _libraries, _robot, _worlds, _egl, _display, _cores, _shared_memory,
+    ]  # fmt: skip
+    return [*(check() for check in checks), _disk(run_folder)]
+
+
+def _python() -> Finding:
+    version = ".".join(map(str, sys.version_info[:3]))
+    if (3, 11) <= sys.version_info[:2] <= (3, 13):
+        return Finding(name="Python", verdict="ok", text=version)
+    return Finding(
+        name="Python", verdict="missing", text=f"{version}; 3.11 to 3.13 are supported",
+        cure="make clean && make PYTHON=python3.12 test",
+    )  # fmt: skip
+
+
+def _libraries() -> Finding:
+    missing: list[str] = []
+    for module, distribution in LIBRARIES.items():
+        try:
+            importlib.import_module(module)
+        except ImportError:
+            missing.append(distribution)
+    if missing:
+        return Finding(
+            name="libraries", verdict="missing", text=f"not there: {', '.join(missing)}",
+            cure=f"pip install {' '.join(missing)}",
+        )  # fmt: skip
+    mujoco = importlib.metadata.version("mujoco")
+    return Finding(name="libraries", verdict="ok", text=f"all {len(LIBRARIES)}; mujoco {mujoco}")
+
+
+def _robot() -> Finding:
+    from robot.model.body import BodyModel
+    from robot.model.description import load
+
+    try:
+        body = BodyModel(load())
+    except RobotError as error:
+        return Finding(
+            name="robot", verdict="missing", text=str(error), cure="install the package again"
+        )
+    return Finding(name="robot", verdict="ok", text=f"juno, {body.count} motors")
+
+
+def _worlds() -> Finding:
+    from robot.bringup import entry
+
+    try:
+        names = entry.attribute("sim.world:available")()
+        for name in names:
+            entry.world(name)
+    except RobotError as error:
+        return Finding(
+            name="worlds", verdict="missing", text=str(error), cure="install the package again"
+        )
+    return Finding(name="worlds", verdict="ok", text=", ".join(names))
+
+
+def _egl() -> Finding:
+    if ctypes.util.find_library("EGL") and ctypes.util.find_library("OpenGL"):
+        return Finding(name="EGL", verdict="ok", text="pictures can be rendered without a display")
+    return Finding(
+        name="EGL", verdict="optional", text="not there: view --snapshot cannot render",
+        cure=EGL_PACKAGES,
+    )  # fmt: skip
+
+
+def _display() -> Finding:
+    display = os.environ.get("WAYLAND_DISPLAY") or os.environ.get("DISPLAY")
+    if display:
+        return Finding(name="display", verdict="ok", text=display)
+    return Finding(
+        name="display", verdict="optional", text="none: view can only make snapshots",
+        cure="run it on a desktop, or use: humanoid view --snapshot out.png",
+    )  # fmt: skip
+
+
+def _cores() -> Finding:
+    count = len(os.sched_getaffinity(0))
+    if count >= 2:
+        return Finding(name="cores", verdict="ok", text=f"{count}")
+    return Finding(
+        name="cores", verdict="optional", text="1: a live run will be slower than real time",
+        cure="use --fast",
+    )  # fmt: skip
+
+
+def _shared_memory() -> Finding:
+    if os.access("/dev/shm", os.W_OK):
+        return Finding(name="shared memory", verdict="ok", text="/dev/shm")
+    return Finding(
+        name="shared memory", verdict="optional", text="/dev/shm cannot be written: no live runs",
+        cure="mount it, or use --fast",
+    )  # fmt: skip
+
+
+def _disk(folder: Path) -> Finding:
+    where = folder.resolve()
+    free_mb = shutil.disk_usage(where).free // 1_000_000
+    if not os.access(where, os.W_OK):
+        return Finding(
+            name="disk", verdict="optional", text=f"{where} cannot be written",
+            cure="choose another place with --run-dir",
+        )  # fmt: skip
+    if free_mb < MIN_FREE_MB:
+        return Finding(
+            name="disk", verdict="optional", text=f"{free_mb} MB free in {where}",
+            cure="make room; a run goes on without a journal on the disk",
+        )  # fmt: skip
+    return Finding(name="disk", verdict="ok", text=f"{free_mb} MB free")

@@ -1,0 +1,165 @@
+"""Carries a task out on a runtime and sums it up: what `humanoid do` is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+
+import msgspec
+
+from executive import loop, runs
+from executive.app import Executive, Outcome
+from executive.journal import Journal
+from executive.knowledge import full_name
+from executive.progress import Progress
+from executive.request import Setting, Understood
+from executive.runs import Header, Placed, Summary
+from executive.skills.context import SkillContext
+from executive.skills.parameters import PlaceParams
+from executive.trees.tasks import build, errands
+from intents.goals import to_builtins
+from robot.bus.topics import TOPICS
+from robot.clock import Clock
+from robot.errors import CATALOGUE
+from robot.messages import WorldState
+from robot.planning.worker import Planner
+
+RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
+
+Show = Callable[[Executive], Progress]
+"""Makes the progress display of an executive."""
+
+
+class Job(msgspec.Struct, frozen=True, kw_only=True):
+    """What is to be done, where, and how it is kept."""
+
+    understood: Understood
+    where: Setting
+    seed: int
+    runtime_name: str
+    folder: Path | None
+
+
+def do(
+    job: Job,
+    runtime: loop.Runtime,
+    planner: Planner,
+    *,
+    show: Show,
+    wall: Clock,
+    time_of_day: Callable[[], float],
+    interrupts: loop.Interrupts,
+) -> Summary:
+    """Do a job to its end, whatever that is, and write its folder.
+
+    Args:
+        job: the task, its setting, and where its folder is.
+        runtime: entered, at time 0.
+        planner: answers the skills' requests.
+        show: how people see what goes on.
+        wall: measures how long it takes.
+        time_of_day: for the journal's sibling file.
+        interrupts: looked at every tick.
+    """
+    begun_s, start_s = wall.now_s(), runtime.clock.now_s()
+    with ExitStack() as stack:
+        journal = stack.enter_context(Journal(job.folder, wall_s=time_of_day))
+        executive = _executive(job, runtime, planner, journal)
+        progress = stack.enter_context(show(executive))
+        _write_header(job, journal, start_s)
+        task = job.understood.task
+        executive.begin(lambda stage: build(task, stage), text=job.understood.text)
+        loop.run(runtime, executive, interrupts=interrupts, on_tick=progress.update)
+        assert executive.outcome is not None
+        past_s = runtime.clock.now_s() - start_s
+        summary = _summary(job, runtime, executive.outcome, past_s, wall.now_s() - begun_s)
+    if job.folder is not None:
+        runs.save(job.folder, "summary.json", summary)
+    return summary
+
+
+def _executive(job: Job, runtime: loop.Runtime, planner: Planner, journal: Journal) -> Executive:
+    context = SkillContext(
+        link=runtime.link, planner=planner, description=job.where.description, seed=job.seed
+    )
+    return Executive(context, journal, rates_hz=RATES_HZ)
+
+
+def _write_header(job: Job, journal: Journal, now_s: float) -> None:
+    """What was asked for goes into the folder and opens the journal."""
+    header = Header(
+        text=job.understood.text,
+        world=job.where.world_name,
+        robot=job.where.robot_name,
+        seed=job.seed,
+        runtime=job.runtime_name,
+        varied=job.where.vary_seed is not None,
+        goals=tuple(to_builtins(job.understood.goals)),
+    )
+    if job.folder is not None:
+        runs.save(job.folder, "run.json", header)
+    journal.write(now_s, "run", **msgspec.to_builtins(header))
+
+
+def _summary(
+    job: Job, runtime: loop.Runtime, outcome: Outcome, past_s: float, wall_s: float
+) -> Summary:
+    body = runtime.link.body()
+    reason = outcome.failure
+    return Summary(
+        status="failed" if reason else "done",
+        code=reason.code if reason else "done",
+        cause=reason.cause if reason else "",
+        suggestion=(reason.suggestion or CATALOGUE[reason.code].suggestion) if reason else "",
+        exit_status=runs.exit_status(outcome),
+        simulated_s=round(past_s, 3),
+        wall_s=round(wall_s, 3),
+        recoveries=outcome.recoveries,
+        clamped=body.clamped if body else 0,
+        refused=body.refused if body else 0,
+        placed=_placed(job, runtime.link.world()),
+        folder=str(job.folder) if job.folder else "",
+    )
+
+
+def _placed(job: Job, world: WorldState | None) -> tuple[Placed, ...]:
+    """Where the things that were to be put somewhere are believed to be."""
+    found: list[Placed] = []
+    knowledge = job.where.knowledge
+    tracks = {track.id: track for track in world.tracks} if world else {}
+    for errand in errands(job.understood.task):
+        if not isinstance(errand.params, PlaceParams) or errand.params.object_id not in tracks:
+            continue
+        info = knowledge.object(errand.params.object_id)
+        X_WO = tracks[errand.params.object_id].X_WO
+        if info is None or X_WO is None:
+            continue
+        x, y, z = X_WO.p
+        on = knowledge.surface_under(X_WO)
+        where = f"on the {on.name}" if on else "on no known place"
+        found.append(
+            Placed(object=full_name(info), where=where, x_m=round(x, 3), y_m=round(y, 3),
+                   z_m=round(z, 3))
+        )  # fmt: skip
+    return tuple({placed.object: placed for placed in found}.values())
+
+
+def closing(summary: Summary) -> list[str]:
+    """The last lines: what happened, and what to do about it."""
+    lines = ["Done."] if summary.status == "done" else [f"Failed: {summary.cause} ({summary.code})"]
+    lines += [
+        f"  {item.object} is believed to be {item.where}, at "
+        f"({item.x_m:.2f}, {item.y_m:.2f}, {item.z_m:.2f}) m"
+        for item in summary.placed
+    ]
+    pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
+    lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
+    counts = f"{summary.recoveries} recoveries, {summary.clamped} commands clamped"
+    lines.append(f"  {counts}, {summary.refused} refused")
+    lines += [f"  {late}" for late in summary.late]
+    if summary.folder:
+        lines.append(f"  journal: {summary.folder}/journal.jsonl")
+    if summary.suggestion:
+        lines.append(f"What to do: {summary.suggestion}")
+    return lines

@@ -1,0 +1,70 @@
+"""`humanoid parse`: sentences to goals, for people and, as JSON lines, for programs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+import typer
+
+from executive.knowledge import Knowledge
+from intents.dialogue import Context
+from intents.goals import to_builtins
+from intents.outcomes import Goals, Outcome, Question, to_record
+from intents.parser import parse
+from intents.vocabulary import Vocabulary
+from robot.bringup import entry
+from robot.errors import ConfigError, Problem
+
+
+def parse_all(
+    texts: list[str], *, world: str, vocabulary: Path | None, file: Path | None, as_json: bool
+) -> int:
+    """Parse and print; returns 0, or 2 if a single sentence is not goals.
+
+    Raises:
+        ConfigError: the world, the vocabulary or the file cannot be read.
+    """
+    names, context = _vocabulary(world, vocabulary)
+    outcome: Outcome | None = None
+    for text in [*texts, *(_lines(file) if file else ())]:
+        outcome = parse(text, names, context=context)
+        typer.echo(_record(text, outcome) if as_json else _words(text, outcome))
+    return 0 if file is not None or isinstance(outcome, Goals) else 2
+
+
+def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
+    """The names of a world, and what is there; a file of names does not say what is there."""
+    if file is None:
+        knowledge = Knowledge(entry.world_map(world))
+        return knowledge.vocabulary(), Context(entities=knowledge.entities())
+    try:
+        return Vocabulary.from_json(file.read_bytes()), Context()
+    except (OSError, msgspec.DecodeError) as error:
+        raise ConfigError([Problem(str(error), str(file))]) from None
+
+
+def _lines(file: Path) -> Iterable[str]:
+    """The sentences of a file, one a line."""
+    if str(file) == "-":
+        return (line.rstrip("\n") for line in sys.stdin)
+    try:
+        return file.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError([Problem(str(error), str(file))]) from None
+
+
+def _record(text: str, outcome: Outcome) -> str:
+    return msgspec.json.encode(to_record(text, outcome)).decode()
+
+
+def _words(text: str, outcome: Outcome) -> str:
+    """An outcome for people."""
+    if isinstance(outcome, Goals):
+        goals = [msgspec.json.encode(goal).decode() for goal in to_builtins(outcome.goals)]
+        return "\n".join([text, *(f"  {goal}" for goal in goals)])
+    if isinstance(outcome, Question):
+        return f"{text}\n  question: {outcome.question}"
+    return f"{text}\n  refused: {outcome.reason}"

@@ -1,0 +1,126 @@
+"""From a sentence to a task that can be done here, before anything is started."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+
+from executive.knowledge import Knowledge
+from executive.scene import CannotMean, Scene
+from executive.trees.tasks import Series, understand
+from executive.validation import check
+from intents import dialogue, parser
+from intents.goals import Goal
+from intents.outcomes import Goals, Question, Refusal
+from robot.bringup import entry
+from robot.errors import Failure
+from robot.messages import WorldMap
+from robot.model import description
+from robot.model.body import BodyModel
+from robot.model.description import RobotDescription
+
+MAX_QUESTIONS = 3
+EXAMPLE = 'for example: humanoid do "pick up the red cup and put it on the shelf"'
+
+Ask = Callable[[Question], str | None]
+"""Puts a question to a person; their answer, None if there is none."""
+
+
+class Setting(msgspec.Struct, frozen=True, kw_only=True):
+    """A robot and its world, read and checked. `world` is opaque: the simulation's own."""
+
+    world: Any
+    world_map: WorldMap
+    description: RobotDescription
+    world_name: str
+    robot_name: str
+    vary_seed: int | None = None
+
+    @property
+    def knowledge(self) -> Knowledge:
+        """The map, to look things up in."""
+        return Knowledge(self.world_map)
+
+
+class Refused(msgspec.Struct, frozen=True, kw_only=True):
+    """A sentence that leads to nothing: why, and what to do about it."""
+
+    outcome: str
+    """"refusal", "question", or the code of a failure."""
+    reason: str
+    suggestion: str = EXAMPLE
+
+
+class Understood(msgspec.Struct, frozen=True, kw_only=True):
+    """A sentence, its goals, and the task they make."""
+
+    text: str
+    goals: tuple[Goal, ...]
+    task: Series
+
+
+def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
+    """Read a world and a robot, by name or path; with a seed, shuffle the world.
+
+    Raises:
+        ConfigError: with everything that is wrong in a file, by line.
+    """
+    body = description.load(robot)
+    BodyModel(body)  # the MJCF has what the description names, or this says what not
+    loaded = entry.world(world, variation_seed=vary_seed)
+    return Setting(
+        world=loaded,
+        world_map=entry.attribute(entry.WORLD_MAP)(loaded),
+        description=body,
+        world_name=world,
+        robot_name=robot,
+        vary_seed=vary_seed,
+    )
+
+
+def request(text: str, where: Setting, *, ask: Ask | None = None) -> Understood | Refused:
+    """What a sentence asks for, checked against the world and the robot.
+
+    Args:
+        text: what was typed; anything is accepted.
+        where: robot and world.
+        ask: puts open questions to a person; without it an open question is a refusal.
+    """
+    knowledge = where.knowledge
+    outcome = _hear(text, knowledge, ask)
+    if isinstance(outcome, Refusal):
+        return Refused(outcome="refusal", reason=outcome.reason)
+    if isinstance(outcome, Question):
+        return Refused(
+            outcome="question", reason=outcome.question, suggestion="say it again with the answer"
+        )
+    try:
+        task = understand(outcome.goals, Scene(knowledge))
+    except CannotMean as end:
+        return refused(end.failure)
+    refusal = check(task, knowledge, where.description)
+    if refusal is not None:
+        return refused(refusal)
+    return Understood(text=text, goals=outcome.goals, task=task)
+
+
+def refused(reason: Failure) -> Refused:
+    """A failure found before anything moved."""
+    return Refused(outcome=reason.code, reason=reason.cause, suggestion=reason.suggestion)
+
+
+def _hear(text: str, knowledge: Knowledge, ask: Ask | None) -> Goals | Question | Refusal:
+    """Parse, asking back as often as it takes within reason."""
+    vocabulary = knowledge.vocabulary()
+    context = dialogue.Context(entities=knowledge.entities())
+    outcome, context = parser.hear(text, vocabulary, context=context)
+    for _ in range(MAX_QUESTIONS):
+        if not isinstance(outcome, Question) or ask is None:
+            break
+        answer = ask(outcome)
+        if not answer:
+            break
+        outcome, context = parser.hear(answer, vocabulary, context=context)
+    return outcome
