@@ -34,7 +34,8 @@ class Pace:
     behind.
     """
 
-    def __init__(self, motors: MotorServer, clock: Clock, *, period_s: float) -> None:
+    def __init__(self, motors: MotorServer, clock: Clock, *, period_s: float, stop: Stop) -> None:
+        self._stop = stop
         self._motors = motors
         self._clock = clock
         self._period_s = period_s
@@ -48,7 +49,9 @@ class Pace:
         clock.sleep_until(self._due_s)
         command = self._motors.take()
         give_up_s = clock.now_s() + self._patience_s
-        while (command is None or command.stamp_s < stamp_s) and clock.now_s() < give_up_s:
+        while command is None or command.stamp_s < stamp_s:
+            if self._stop or clock.now_s() >= give_up_s:
+                break
             clock.sleep_until(clock.now_s() + POLL_S)
             command = self._motors.take() or command
         answered = command is not None and command.stamp_s >= stamp_s - self._period_s
@@ -59,7 +62,7 @@ class Pace:
 def serve(plant: Plant, motors: MotorServer, bus: Bus, *, clock: Clock, stop: Stop) -> None:
     """Run a plant until asked to stop; it goes on whatever becomes of the controller."""
     lateness = Lateness("plant", PERIOD_S)
-    pace = Pace(motors, clock, period_s=PERIOD_S)
+    pace = Pace(motors, clock, period_s=PERIOD_S, stop=stop)
     periods = 0
     while not stop:
         state = plant.read()

@@ -71,7 +71,7 @@ class Plant:
         self.world = placed(world, seeds[0])
         self.robot = robot
         # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
-        mujoco.set_mju_user_warning(lambda _text: None)
+        mujoco.set_mju_user_warning(_ignore)
         self.model = compile_scene(self.world, robot)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
@@ -217,3 +217,7 @@ def _stance(robot: RobotDescription, data: mujoco.MjData) -> SE3:
     lowest = min(float(sole.xpos[2]) for sole in soles)
     yaw = math.atan2(forward[1], forward[0])
     return SE3.from_xy_yaw(float(centre[0]), float(centre[1]), yaw, z_m=lowest)
+
+
+def _ignore(_text: str) -> None:
+    """Hear a warning of MuJoCo."""

@@ -1,0 +1,90 @@
+"""The plant on the wall clock: paced, patient with a late controller, open to faults."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from robot.bus import topics
+from robot.bus.bus import Bus
+from robot.bus.timing import Lateness
+from robot.clock import Clock
+from robot.drivers.shared_memory import MotorServer
+from robot.errors import ConfigError
+from sim import faults
+from sim.plant import Plant
+
+PERIOD_MS = 2
+PERIOD_S = PERIOD_MS / 1000.0
+PATIENCE_S = 0.010  # wall time that one period waits for the controller
+CATCH_UP_S = 0.050  # further behind the wall clock than this, simulated time just runs late
+POLL_S = 0.0001
+TIMING_S = 1.0
+FAULT: topics.Topic[faults.Fault] = topics.Topic("sim/fault", faults.Fault, None, "executive")
+
+
+class LivePlant:
+    """Runs a plant in step with the wall clock, as far as controller and machine keep up.
+
+    Each period publishes the motors' state and waits for a command that answers it, a few
+    milliseconds at most: on a slow machine simulated time then runs slower than the wall's
+    (`PLANT_TIMING` says by how much) instead of letting the robot fall. Once the motors'
+    watchdog has tripped, nothing is waited for. Time stands still until the first command.
+
+    Attributes:
+        refused: faults that named what is not there.
+    """
+
+    def __init__(self, plant: Plant, motors: MotorServer, bus: Bus, *, clock: Clock) -> None:
+        """Put the parts together; nothing runs before `run`."""
+        self.refused: list[str] = []
+        self._plant, self._motors, self._bus, self._clock = plant, motors, bus, clock
+        self._faults = bus.subscribe(FAULT)
+        self._lateness = Lateness("plant", PERIOD_S)
+        self._due_s = clock.now_s()
+        self._report_s = 0.0
+        self._begun = False
+
+    def run(self, stop: Callable[[], bool]) -> None:
+        """Go on until `stop` says so. Raises DriverError if the physics diverged."""
+        self._due_s = self._clock.now_s()
+        while not stop():
+            self.period()
+
+    def period(self) -> None:
+        """One exchange with the controller, and two milliseconds of physics."""
+        plant = self._plant
+        for fault in self._faults.take():
+            try:
+                faults.apply(plant, fault)
+            except ConfigError as error:
+                self.refused.append(str(error))
+        state = plant.read()
+        self._motors.publish(state)
+        for name, message in plant.sense():
+            self._bus.publish(topics.named(name), message)
+        self._exchange(patience_s=PATIENCE_S if self._begun and not state.watchdog else 0.0)
+        if self._begun:
+            plant.step(PERIOD_MS)
+        self._pace()
+
+    def _exchange(self, *, patience_s: float) -> None:
+        """Take the controller's answer, waiting for it if need be."""
+        until_s = self._clock.now_s() + patience_s
+        while (command := self._motors.take()) is None:
+            now_s = self._clock.now_s()
+            if now_s >= until_s:
+                return
+            self._clock.sleep_until(now_s + POLL_S)
+        self._plant.write(command)
+        self._begun = True
+
+    def _pace(self) -> None:
+        """Sleep until the next period is due, and report once a second."""
+        self._due_s = max(self._due_s + PERIOD_S, self._clock.now_s() - CATCH_UP_S)
+        self._clock.sleep_until(self._due_s)
+        now_s = self._clock.now_s()
+        self._lateness.tick(now_s)
+        if now_s >= self._report_s:
+            self._report_s = now_s + TIMING_S
+            report = self._lateness.report(self._plant.time_s, now_s)
+            self._bus.publish(topics.PLANT_TIMING, report)

@@ -1,0 +1,77 @@
+"""The plant on a clock: waits for the first command, is patient, then lets the motors damp."""
+
+import pytest
+
+from robot.bus import topics
+from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.drivers.shared_memory import MotorServer, SharedMotors
+from sim import faults, world
+from sim.live import FAULT, PATIENCE_S, LivePlant
+from sim.plant import Plant
+
+
+@pytest.fixture
+def parts(robot, tmp_path):
+    plant = Plant(world.load("kitchen"), robot, seed=0)
+    bus, clock = LocalBus(), SimulatedClock()
+    server = MotorServer.of(robot, tmp_path / "motors")
+    live = LivePlant(plant, server, bus, clock=clock)
+    live.period()
+    with SharedMotors.of(robot, tmp_path / "motors", clock=clock) as motors:
+        yield plant, live, motors, bus, clock
+    server.close()
+
+
+def test_time_stands_still_until_the_first_command(parts, hold):
+    plant, live, motors, _, _ = parts
+    live.period()
+    assert plant.time_s == 0.0
+    motors.write(hold(0.0))
+    live.period()
+    assert plant.time_s == pytest.approx(0.002)
+
+
+def test_a_dead_controller_is_waited_for_then_the_motors_damp(parts, hold):
+    plant, live, motors, _, clock = parts
+    motors.write(hold(0.0))
+    live.period()
+    begun_s = clock.now_s()
+    for _ in range(12):
+        live.period()
+    assert plant.read().watchdog
+    waited_s = clock.now_s() - begun_s
+    assert 9 * PATIENCE_S < waited_s < 12 * PATIENCE_S
+    before_s = clock.now_s()
+    for _ in range(10):
+        live.period()
+    assert clock.now_s() - before_s < 0.03  # no longer waited for
+
+
+def test_an_answering_controller_keeps_the_wall_clock(parts, hold):
+    plant, live, motors, _, clock = parts
+    begun_s = clock.now_s()
+    for _ in range(100):
+        motors.write(hold(motors.read().stamp_s))
+        live.period()
+    assert plant.time_s == pytest.approx(0.2)
+    assert clock.now_s() - begun_s == pytest.approx(0.2, abs=0.005)
+
+
+def test_faults_come_over_the_bus_and_wrong_ones_are_counted(parts):
+    plant, live, _, bus, _ = parts
+    bus.publish(FAULT, faults.Remove(target="red_cup"))
+    bus.publish(FAULT, faults.Remove(target="nothing"))
+    live.period()
+    assert plant.oracle.X_WO("red_cup").p[0] > 10.0
+    assert len(live.refused) == 1
+
+
+def test_it_reports_its_timing(parts, hold):
+    _, live, motors, bus, clock = parts
+    heard = bus.subscribe(topics.PLANT_TIMING)
+    motors.write(hold(0.0))
+    clock.sleep_until(clock.now_s() + 2.0)
+    live.period()
+    assert heard.latest is not None
+    assert heard.latest.process == "plant"
