@@ -47,13 +47,13 @@ def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: 
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
-    config, clock, stop = run.load(run_file), WallClock(), Stop()
+    config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     loop = ControlLoop(robot)
     motors = SharedMotors.of(robot, config.motors_path, clock=clock)
     gc.freeze()  # what start-up made stays: the collector need not look at it in every period
     with ZenohBus("controller", config.sockets) as bus, motors:
-        serve(loop, motors, bus, clock=clock, stop=stop)
+        serve(loop, motors, bus, clock=clock, stop=Stop())
 
 
 if __name__ == "__main__":

@@ -17,9 +17,10 @@ PERIOD_S = 0.02
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
-    config, clock, stop = run.load(run_file), WallClock(), Stop()
+    config, clock = run.load(run_file), WallClock()
     with ZenohBus("perception", config.sockets) as bus:
         node = PerceptionNode(bus, description.load(config.robot))
+        stop = Stop()
         while not stop:
             due_s = clock.now_s() + PERIOD_S
             node.step()
