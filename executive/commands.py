@@ -55,8 +55,8 @@ def do(options: Do) -> int:
     """
     vary_seed = options.seed if options.vary else None
     where = request.setting(options.world, options.robot, vary_seed=vary_seed)
-    at_terminal = sys.stdin.isatty() and sys.stdout.isatty() and not options.as_json
-    understood = request.request(options.text, where, ask=ask if at_terminal else None)
+    asking = at_terminal() and not options.as_json
+    understood = request.request(options.text, where, ask=ask if asking else None)
     if isinstance(understood, request.Refused):
         return refuse(understood, as_json=options.as_json)
     kind: runtimes.Kind = "fast" if options.fast else "live"
@@ -99,6 +99,11 @@ def _on_screen(executive: Executive) -> Progress:
     if console.is_terminal:
         return LiveTree(executive, console, wall_s=WallClock().now_s)
     return Lines(executive, console)
+
+
+def at_terminal() -> bool:
+    """Whether somebody can be asked."""
+    return sys.stdin.isatty() and sys.stdout.isatty()
 
 
 def ask(question: Question) -> str | None:

@@ -71,7 +71,9 @@ def exit_status(outcome: Outcome) -> int:
 
 def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
     """A folder name that sorts by time and says what it was about."""
-    slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")[:40].rstrip("-")
+    slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")
+    if len(slug) > 40:
+        slug = slug[:40].rpartition("-")[0] or slug[:40]
     return base / f"{stamp}-{slug or 'run'}"
 
 

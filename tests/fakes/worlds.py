@@ -5,7 +5,8 @@ from __future__ import annotations
 from robot import messages as m
 from robot.model.description import load
 from robot.se3 import SE3
-from tests.fakes.puppet import Puppet, Thing
+from tests.fakes.puppet import Thing
+from tests.fakes.puppet_runtime import SensingPuppet
 
 JUNO = load("juno")
 
@@ -55,10 +56,10 @@ def world_map() -> m.WorldMap:
     )
 
 
-def puppet() -> Puppet:
+def puppet() -> SensingPuppet:
     """A puppet in that world, cups and bottle on the table."""
     things = {
         name: Thing(name, SE3((1.8, y_m, 0.75)), seen_s=0.0)
         for name, y_m in (("cup_red", 0.2), ("cup_blue", -0.2), ("bottle", 0.0))
     }
-    return Puppet(JUNO, things, world_map())
+    return SensingPuppet(JUNO, things, world_map())

@@ -1,0 +1,286 @@
+"""The command line end to end, with a puppet for a robot: words, exit statuses, last lines."""
+
+from __future__ import annotations
+
+import json
+import re
+from contextlib import contextmanager
+
+import pytest
+
+from executive import cli, commands, request, runtimes
+from executive.loop import Interrupts
+from robot.errors import failure
+from robot.messages import Damp, Stand
+from robot.model import description
+from tests.fakes.puppet_runtime import PuppetRuntime
+from tests.fakes.worlds import puppet, world_map
+
+
+@pytest.fixture
+def runtime(monkeypatch):
+    """A puppet's runtime where the real one would be opened, in the test world."""
+    made = PuppetRuntime(puppet())
+
+    @contextmanager
+    def opened(kind, where, **_):
+        made.opened = kind
+        yield made, made.planner
+
+    def setting(world, robot, *, vary_seed=None):
+        return request.Setting(
+            world=None,
+            world_map=world_map(),
+            description=description.load(robot),
+            world_name=world,
+            robot_name=robot,
+        )
+
+    monkeypatch.setattr(runtimes, "opened", opened)
+    monkeypatch.setattr(request, "setting", setting)
+    made.opened = None
+    return made
+
+
+@pytest.fixture
+def humanoid(monkeypatch, capsys, tmp_path):
+    """Runs the command in an empty folder: (exit status, output)."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words: str) -> tuple[int, str]:
+        monkeypatch.setattr("sys.argv", ["humanoid", *words])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        out, err = capsys.readouterr()
+        return int(end.value.code or 0), out + err
+
+    return run
+
+
+def test_the_main_job_is_done_and_summed_up(runtime, humanoid, tmp_path):
+    status, text = humanoid("do", "pick up the red cup and put it on the table", "--fast")
+    assert status == 0, text
+    assert "Done." in text
+    assert "the red cup is believed to be on the table" in text
+    assert re.search(r"pick up the red cup: done", text)
+    (folder,) = (tmp_path / "runs").iterdir()
+    assert folder.name.endswith("-pick-up-the-red-cup-and-put-it-on-the")
+    events = [json.loads(line) for line in (folder / "journal.jsonl").read_text().splitlines()]
+    assert [event["n"] for event in events] == list(range(len(events)))
+    assert events[0]["event"] == "run"
+    assert events[-1]["event"] == "outcome"
+    assert events[-1]["code"] == "done"
+    assert (folder / "wall.jsonl").exists()
+    assert json.loads((folder / "run.json").read_text())["goals"]
+    assert json.loads((folder / "summary.json").read_text())["status"] == "done"
+
+
+def test_as_json_there_is_one_object_and_nothing_else(runtime, humanoid):
+    status, text = humanoid("do", "squat", "--fast", "--json", "--run-dir", "here")
+    record = json.loads(text)
+    assert status == 0
+    assert record["status"] == "done"
+    assert record["folder"] == "here"
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "",
+        "asdf qwer",
+        "pick up the unicorn",
+        "put the red cup on the moon",
+        "put the cup on the table",
+        "x" * 100_000,
+        "pick up the crate",
+        "bring me the bottle",
+    ],
+)
+def test_bad_words_end_with_2_a_cure_and_nothing_started(runtime, humanoid, tmp_path, sentence):
+    status, text = humanoid("do", sentence, "--fast")
+    assert status == 2
+    assert "What to do:" in text
+    assert "Traceback" not in text
+    assert runtime.opened is None
+    assert not (tmp_path / "runs").exists()
+
+
+def test_an_open_question_is_the_last_word(runtime, humanoid):
+    status, text = humanoid("do", "put the cup on the table")
+    assert status == 2
+    assert "Which cup, the red one or the blue one?" in text
+
+
+def test_at_a_terminal_the_question_is_asked(runtime, humanoid, monkeypatch):
+    monkeypatch.setattr(commands, "at_terminal", lambda: True)
+    monkeypatch.setattr(commands, "ask", lambda question: "blue")
+    status, text = humanoid("do", "pick up the cup", "--fast")
+    assert status == 0, text
+    assert "blue cup" in text
+
+
+def test_a_task_that_fails_ends_with_1_its_code_and_a_cure(runtime, humanoid):
+    runtime.puppet.blind = True
+    for thing in runtime.puppet.things.values():
+        thing.known = False
+    status, text = humanoid("do", "pick up the red cup", "--fast")
+    assert status == 1
+    assert "(object_not_seen)" in text
+    assert "What to do:" in text
+    assert runtime.puppet.mode == "stand"
+
+
+def test_a_fall_ends_with_1(runtime, humanoid):
+    runtime.at = [(1.0, lambda: setattr(runtime.puppet, "mode", "fallen"))]
+    status, text = humanoid("do", "walk two metres forward", "--fast")
+    assert status == 1
+    assert "(fallen)" in text
+
+
+def test_a_lost_plant_ends_with_3(runtime, humanoid):
+    lost = failure("plant_lost", "the simulation died")
+    runtime.at = [(1.0, lambda: setattr(runtime, "lost", lost))]
+    status, text = humanoid("do", "walk two metres forward", "--fast")
+    assert status == 3
+    assert "the simulation died (plant_lost)" in text
+
+
+def press(monkeypatch, runtime, *times_s):
+    """Press Ctrl-C at some times."""
+    pressed = []
+
+    class Pressed(Interrupts):
+        def __init__(self):
+            super().__init__()
+            runtime.at = [(t, lambda: self._heard(2, None)) for t in times_s]
+            pressed.append(self)
+
+    monkeypatch.setattr(commands, "Interrupts", Pressed)
+
+
+def test_ctrl_c_stands_then_leaves_with_1(runtime, humanoid, monkeypatch):
+    press(monkeypatch, runtime, 2.0)
+    status, text = humanoid("do", "walk two metres forward", "--fast")
+    assert status == 1
+    assert "stopped on request" in text
+    assert isinstance(runtime.puppet.sent[-1], Stand)
+    assert runtime.puppet.mode == "stand"
+
+
+def test_a_second_ctrl_c_damps_at_once(runtime, humanoid, monkeypatch):
+    press(monkeypatch, runtime, 2.0, 2.05)
+    status, text = humanoid("do", "walk two metres forward", "--fast")
+    assert status == 1
+    assert isinstance(runtime.puppet.sent[-1], Damp)
+    assert runtime.puppet.time_s < 2.3
+
+
+def test_a_folder_that_cannot_be_written_is_a_warning(runtime, humanoid, tmp_path):
+    (tmp_path / "file").write_text("")
+    status, text = humanoid("do", "squat", "--fast", "--run-dir", "file/run")
+    assert status == 0, text
+    assert "warning: the journal cannot be written" in text
+
+
+def test_the_same_run_twice_writes_the_same_journal(runtime, monkeypatch, humanoid, tmp_path):
+    journals = []
+    for name in ("a", "b"):
+        made = PuppetRuntime(puppet())
+
+        @contextmanager
+        def opened(kind, where, made=made, **_):
+            yield made, made.planner
+
+        monkeypatch.setattr(runtimes, "opened", opened)
+        status, _ = humanoid(
+            "do", "bring the red cup to the table", "--fast", "--run-dir", f"run-{name}"
+        )
+        assert status == 0
+        journals.append((tmp_path / f"run-{name}" / "journal.jsonl").read_bytes())
+    assert journals[0] == journals[1]
+
+
+# --- files and options, with the real worlds ---------------------------------------------------
+
+
+def test_a_typo_in_a_world_file_is_named_by_line(humanoid, tmp_path):
+    path = tmp_path / "house.yaml"
+    path.write_text("name: house\nrooms:\n  - {id: hall, at_m: [0, 0], sice_m: [4, 4]}\n")
+    status, text = humanoid("do", "squat", "--world", str(path), "--fast")
+    assert status == 2
+    assert "house.yaml:3" in text
+    assert "did you mean 'size_m'" in text
+
+
+def test_an_unknown_world_or_robot_names_the_nearest(humanoid):
+    status, text = humanoid("do", "squat", "--world", "kitchn")
+    assert (status, "did you mean 'kitchen'?" in text) == (2, True)
+    status, text = humanoid("do", "squat", "--robot", "jun")
+    assert (status, "did you mean 'juno'?" in text) == (2, True)
+
+
+def test_a_robot_file_with_a_missing_joint_is_refused(humanoid, tmp_path):
+    whole = description.load("juno")
+    source = (whole.mjcf_path().parent / "juno.yaml").read_text()
+    (tmp_path / "juno.xml").write_text(whole.mjcf_path().read_text())
+    broken = source.replace("{joint: left_knee,", "{joint: left_knie,")
+    assert broken != source
+    path = tmp_path / "robot.yaml"
+    path.write_text(broken)
+    status, text = humanoid("do", "squat", "--robot", str(path), "--fast")
+    assert status == 2
+    assert "left_knie" in text
+    missing = "\n".join(line for line in source.splitlines() if not line.startswith("  left_knee:"))
+    path.write_text(missing)
+    status, text = humanoid("do", "squat", "--robot", str(path), "--fast", "--json")
+    record = json.loads(text)
+    assert status == record["exit_status"] == 2
+    assert any("left_knee" in line for line in record["reason"])
+
+
+@pytest.mark.parametrize(
+    "options", [("--speed", "3"), ("--turn", "nan"), ("--for", "-1"), ("--left", "inf")]
+)
+def test_a_walk_that_the_robot_cannot_walk_is_refused(humanoid, options):
+    status, text = humanoid("walk", *options, "--fast")
+    assert status == 2
+    assert options[0] in text
+
+
+def test_walk_walks_and_stands(runtime, humanoid):
+    status, text = humanoid("walk", "--speed", "0.3", "--for", "5", "--fast")
+    assert status == 0
+    assert "1.49 m forward" in text
+    assert runtime.puppet.mode == "stand"
+
+
+@pytest.mark.parametrize("words", [("parse",), ("do",), ("nonsense",), ("do", "x", "--sped")])
+def test_wrong_use_is_2(humanoid, words):
+    assert humanoid(*words)[0] == 2
+
+
+def test_parse_prints_the_goals(humanoid, tmp_path):
+    status, text = humanoid("parse", "--json", "pick up the red cup")
+    record = json.loads(text)
+    assert status == 0
+    assert record["goals"] == [{"goal": "pick", "object": {"name": "cup", "color": "red"}}]
+    (tmp_path / "lines.txt").write_text("stop\nblah blah\n")
+    status, text = humanoid("parse", "--json", "--file", "lines.txt")
+    assert [json.loads(line)["outcome"] for line in text.splitlines()] == ["goals", "refusal"]
+    assert humanoid("parse", "--file", "none.txt")[0] == 2
+
+
+def test_doctor_worlds_version_help(humanoid):
+    assert "Python" in humanoid("doctor")[1]
+    assert "kitchen" in humanoid("worlds")[1]
+    assert humanoid("--version")[1].startswith("humanoid-executive ")
+    for words in ((), ("do",), ("walk",), ("parse",), ("view",)):
+        assert "humanoid" in humanoid(*words, "--help")[1]
+
+
+def test_view_without_a_display_says_so(humanoid, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    status, text = humanoid("view")
+    assert status == 2
+    assert "--snapshot" in text
