@@ -1,5 +1,7 @@
 """What was said before: what "it" is, and the one question that is open."""
 
+import re
+
 import msgspec
 from msgspec.structs import replace
 
@@ -42,6 +44,18 @@ def answered(text: str, question: Question) -> tuple[Goal, ...] | None:
         return None
     refined = replace(choice.query, count=question.about.count)
     return tuple(substitute(goal, question.about, refined) for goal in question.goals)
+
+
+def completed(text: str, question: Question) -> list[str]:
+    """What was said before with an answer in it, in the ways in which it may fit."""
+    choice = _choice(text, question.choices)
+    if choice is not None and question.said:
+        said = re.compile(rf"\b{re.escape(question.said)}\b", re.IGNORECASE)
+        return [said.sub(choice.label, question.text)]
+    if question.choices or not question.text:
+        return []
+    before = question.text.rstrip(" .!?")
+    return [f"{before}{link}{text}" for link in (" ", " on ", " to ")]
 
 
 _ORDINALS = {"first": 0, "former": 0, "second": 1, "latter": 1, "third": 2, "fourth": 3, "last": -1}

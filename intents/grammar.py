@@ -220,7 +220,7 @@ class Grammar:
         self._wanted = sense == "want"
         times = clause.measure("times")
         if times and times > 1:
-            goals = [Repeat(times=int(times), goals=tuple(goals))]
+            return [Repeat(times=int(times), goals=tuple(goals))], end
         return goals, end
 
     def _goes_on(self, at: int) -> bool:
@@ -256,8 +256,9 @@ class Grammar:
         again = list(before or self.history)
         if not again:
             raise Unclear("What shall I repeat?")
-        repeated: list[Goal] = [Repeat(times=times, goals=tuple(again))] if times > 1 else again
-        return repeated, at
+        if times > 1:
+            return [Repeat(times=times, goals=tuple(again))], at
+        return list(again), at
 
     def _times(self, at: int, before: list[Goal]) -> Reading | None:
         """Three times, walk around the table."""
@@ -416,9 +417,9 @@ def _same_object(wanted: Goal, found: list[Goal]) -> bool:
 
 def _already_sought(before: Goal, goal: Goal) -> bool:
     """Find the largest things and tell me what they are: telling finds them."""
-    told = isinstance(goal, Tell) and goal.object is not None and goal.property == "name"
-    sought = isinstance(before, Find | Tell) and before.object is not None
-    return told and sought and goal.object == before.object
+    if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
+        return False
+    return goal.property == "name" and goal.object is not None and goal.object == before.object
 
 
 def _conditional(holds: Condition, goals: list[Goal], *, negate: bool) -> If:

@@ -12,7 +12,7 @@ from rapidfuzz import fuzz, process
 
 from intents.english.lexer import singular
 from intents.english.trouble import listing
-from intents.goals import Goal, ObjectQuery, Superlative
+from intents.goals import Bring, Give, Goal, LookAt, ObjectQuery, Pick, Place, Superlative
 
 
 class Entity(msgspec.Struct, frozen=True, kw_only=True):
@@ -237,8 +237,9 @@ def queries(goals: Iterable[Goal]) -> list[ObjectQuery]:
     """The objects that goals want to get hold of, in order, each as it is first described."""
     found: list[ObjectQuery] = []
     for goal in goals:
-        if goal.__struct_config__.tag in ("pick", "bring", "place", "give", "look_at"):
-            query = getattr(goal, "object", None)
-            if isinstance(query, ObjectQuery) and not query.held and query not in found:
-                found.append(query)
+        if not isinstance(goal, Pick | Bring | Place | Give | LookAt):
+            continue
+        query = goal.object
+        if query is not None and not query.held and query not in found:
+            found.append(query)
     return found

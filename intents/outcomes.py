@@ -40,6 +40,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
         goals: What would be done; ``about`` in it is what the question is about.
         about: The description that fits several objects.
         text: What was said.
+        said: The words in it that a choice stands in place of.
     """
 
     question: str
@@ -47,6 +48,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
     goals: tuple[Goal, ...] = ()
     about: ObjectQuery | None = None
     text: str = ""
+    said: str = ""
     parser: ParserName = "grammar"
     ms: float = 0.0
 

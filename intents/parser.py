@@ -9,7 +9,8 @@ import time
 
 from msgspec.structs import replace
 
-from intents.dialogue import Context, answered
+from intents.dialogue import Context, answered, completed
+from intents.english.names import index_of
 from intents.english.referents import Scope
 from intents.english.text import Text
 from intents.english.trouble import ReadingError, Unclear
@@ -73,7 +74,21 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     if context.question is not None:
         goals = answered(text, context.question)
         if goals is not None:
-            return _checked(text, goals, context), context
+            scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
+            for goal in goals:
+                scope.mention_goal(goal)
+            return _settled(_checked(text, goals, context), context, scope)
+    outcome, after = _read(text, vocabulary, context)
+    if isinstance(outcome, Refusal) and context.question is not None:
+        for whole in completed(text, context.question):
+            other = _read(whole, vocabulary, context)
+            if isinstance(other[0], Goals):
+                return other
+    return outcome, after
+
+
+def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
+    """What the grammar makes of a text."""
     words = Text(text, vocabulary)
     if not any(w[0].isalnum() for w in words.words):
         return Refusal(reason="I heard nothing; say for example “bring me the cup”."), context
@@ -82,14 +97,35 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         goals = tuple(Grammar(words, scope, context.goals).read())
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
-        return Question(question=str(unclear), choices=choices, text=text), context
+        question = Question(question=str(unclear), choices=choices, text=text, said=unclear.said)
+        return question, context
     except ReadingError as error:
         return Refusal(reason=f"{_sentence(str(error))}."), context
     if not goals:
         return Refusal(reason="I see nothing to do in that."), context
-    after = Context(object=scope.object, person=scope.person, place=scope.place,
-                    goals=goals, entities=context.entities)  # fmt: skip
-    return _checked(text, goals, context), after
+    return _settled(_remarked(_checked(text, goals, context), words), context, scope)
+
+
+def _settled(outcome: Outcome, context: Context, scope: Scope) -> tuple[Outcome, Context]:
+    """The outcome with the context after it, which only goals change."""
+    if not isinstance(outcome, Goals):
+        return outcome, context
+    after = replace(
+        context,
+        object=scope.object,
+        person=scope.person,
+        place=scope.place,
+        goals=outcome.goals,
+    )
+    return outcome, after
+
+
+def _remarked(outcome: Outcome, words: Text) -> Outcome:
+    """Say which words were corrected."""
+    if not words.corrections or not isinstance(outcome, Goals):
+        return outcome
+    taken = ", ".join(f"“{said}” for “{meant}”" for said, meant in words.corrections)
+    return replace(outcome, reason=f"I took {taken}.")
 
 
 def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:

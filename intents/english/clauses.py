@@ -24,8 +24,8 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
         ("backward", "backward,backwards,back,to the back,rearwards,in reverse"),
         ("left", "left,to the left,to your left,leftwards,leftward,sideways left,to my left,"
                  "to the left side,left side,to left,sideways to the left,towards the left"),
-        ("right", "right,to the right,to your right,rightwards,rightward,sideways right,to my right,"
-                  "to the right side,to right,sideways to the right,towards the right"),
+        ("right", "right,to the right,to your right,rightwards,rightward,sideways right,"
+                  "to my right,to the right side,to right,sideways to the right,towards the right"),
         ("around", "around,all the way around,all around,round"),
         ("up", "up,upwards,upward"),
         ("down", "down,downwards,downward"),

@@ -38,7 +38,8 @@ _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"'
 _IS = {"what", "where", "who", "how", "which", "there", "here", "that", "it", "he", "she", "this",
        "when", "why"}  # fmt: skip  # "what's" holds a verb, "Julia's" does not
 _WHOLE = {
-    "let's": ("let", "us"), "lets": ("let", "us"), "goto": ("go", "to"), "won't": ("will", "not"), "can't": ("can", "not"),
+    "let's": ("let", "us"), "lets": ("let", "us"),
+    "goto": ("go", "to"), "won't": ("will", "not"), "can't": ("can", "not"),
     "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
     "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
     "dont": ("do", "not"), "gimme": ("give", "me"),

@@ -84,7 +84,8 @@ PERSON_NOUNS = words(
 EVERYONE = words("everyone everybody")
 OPERATOR_WORDS = words("me us myself operator i ourselves")
 OBJECT_NOUNS = words(
-    "object objects thing things item items article articles something anything stuff everything product products"
+    "object objects thing things item items article articles something anything stuff "
+    "everything product products"
 )
 ONES = words("one ones")
 CONTAINERS = words(
@@ -122,7 +123,8 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
     {
         "on": "on,on top of,upon,atop,atop of",
         "in": "in,right in,out in,inside,inside of,within",
-        None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,down in,in at",
+        None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,down "
+        "in,in at",
         "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
         "in the vicinity of,against",
         "under": "under,underneath,below,beneath,at the bottom of",
@@ -161,7 +163,8 @@ FILLERS = phrases(
     "please,kindly,thank you very much,thank you,thanks,many thanks,um,uh,uhm,er,erm,hmm,hm,"
     "carefully,gently,quickly,slowly,immediately,right now,right away,at once,straight away,"
     "as soon as possible,asap,if you can,if possible,if you please,if you could,if you do not "
-    "mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,robot listen,listen robot,kind sir,"
+    "mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,robot "
+    "listen,listen robot,kind sir,"
     "would you be so kind,would you kindly,for a moment please,safely,my friend,when you can,"
     "whenever you can,when you get a chance,when you have time,my dear,basically,actually,"
     "kinda,sort of"
@@ -176,7 +179,8 @@ OPENERS = phrases(
     "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
     "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
     "your task is to,your job is to,your mission is to,your goal is to,go ahead and,be so kind "
-    "as to,be so kind and,do me a favor and,help me,why do not you,why not,do me a favour and,would you like to,do you think "
+    "as to,be so kind and,do me a favor and,help me,why do not you,why not,do me a favour "
+    "and,would you like to,do you think "
     "you can,do you think you could,how would you,how do you,let us,hey,hi,hello,okay,alright,"
     "all right,well,now,just,try to,start to,begin to,make sure to,make sure you,be sure to,"
     "remember to,do not forget to,you,to,listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,"

@@ -15,26 +15,32 @@ Reading = tuple[list[Goal], int]
 _BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
                     "be being now it could seen counted available around")  # fmt: skip
 _ABOUT_ROBOT: dict[ReportTopic, str] = {
-    "holding": "what are you holding,what do you hold,what do you have in your hand,what is in your "
+    "holding": "what are you holding,what do you hold,what do you have in your hand,what is "
+    "in your "
     "hand,what have you got,what are you carrying,what do you have in your hands,what are you "
     "holding in your hand,what you are holding,what do you carry,what did you pick up,what is in "
     "your gripper,do you have anything in your hand,are you holding anything,are you holding "
     "something,what you have in your hand,what have you picked up",
-    "seeing": "what do you see,what can you see,what are you looking at,what are you seeing,what is "
+    "seeing": "what do you see,what can you see,what are you looking at,what are you seeing,"
+    "what is "
     "in front of you,what you see,what you can see,what is around you,what objects do you see,what "
     "are you able to see,what objects can you see",
     "location": "where are you,where you are,what is your position,what is your location,where are "
     "you right now,where are you now,your position,your location",
-    "status": "what are you doing,what is your status,what are you up to,how is it going,how far are "
+    "status": "what are you doing,what is your status,what are you up to,how is it going,how "
+    "far are "
     "you,are you done,are you finished,are you ready,what is the status,what you are doing,what is "
     "going on,your status,what are you working on,what is your current task,are you busy,what are "
     "you doing right now,what are you doing now",
     "health": "how are you,how are you doing,are you okay,are you alright,are you all right,how do "
-    "you feel,what is your battery level,how much battery do you have,is everything okay,is anything "
+    "you feel,what is your battery level,how much battery do you have,is everything okay,is "
+    "anything "
     "wrong,are you healthy,how is your battery,how is your health,your health,how hot are your "
     "motors,are your motors hot",
-    "why": "why did you stop,why did you fail,what went wrong,what happened,why are you stopping,why "
-    "did you do that,why did it fail,why have you stopped,why are you not moving,why did you not do "
+    "why": "why did you stop,why did you fail,what went wrong,what happened,why are you "
+    "stopping,why "
+    "did you do that,why did it fail,why have you stopped,why are you not moving,why did you "
+    "not do "
     "it,why is that,why,why not,why did you drop it,why did you fall,why did you stop moving,why "
     "are you waiting,what is wrong,what is the problem,what was that",
     "capabilities": "what can you do,what are you able to do,what you can do,how can you help,how "
@@ -46,7 +52,8 @@ _TOPICS: dict[lexicon.Phrase, ReportTopic] = {
 }
 _SMALL_TALK = lexicon.words(
     "what which is it the a an of today tomorrow day time date week month current now this joke "
-    "something about yourself your team teams 's name affiliation country leader are you who me s in year "
+    "something about yourself your team teams 's name affiliation country leader are you who "
+    "me s in year "
     "to know whether dream or not on electric sheep tell day's time's right be funny"
 )
 _SMALL_TALK_HEADS = lexicon.words(

@@ -112,7 +112,7 @@ def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, st
     if phrase.noun == "unknown" or not names:
         raise NotUnderstood(_unknown("object", phrase, scope, _OBJECTS))
     if len(names) > 1 and not phrase.exact:
-        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names))
+        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     name = phrase.name("object", *(_SPOTS if spots else ()))
     return (name, "") if name else ("", phrase.name("category"))
 
@@ -176,7 +176,7 @@ def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
         inside = [n for n in names if rooms & set(n.split())]
         if len(inside) == 1:
             return inside[0]
-        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names))
+        raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     return names[0]
 
 

@@ -22,6 +22,7 @@ class Text:
         tokens: Without fillers, spelling corrected.
         words: Their lower-case texts.
         index: The names of the vocabulary.
+        corrections: What was written, and what it was taken for.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
@@ -29,11 +30,13 @@ class Text:
         self.index: NameIndex = index_of(vocabulary)
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
+        self.corrections: list[tuple[str, str]] = []
         for token in tokenize(text):
             meant = speller.correct(token.text)
             if meant == [token.text]:
                 corrected.append(token)
             else:
+                self.corrections.append((token.raw, " ".join(meant)))
                 corrected += [Token(w, w) for w in meant]
         corrected = [
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)

@@ -28,13 +28,15 @@ class Unclear(ReadingError):
 
     Attributes:
         choices: What can be answered, if that is known.
+        said: The words that a choice stands in place of.
     """
 
     weight = 2
 
-    def __init__(self, question: str, choices: tuple[str, ...] = ()) -> None:
+    def __init__(self, question: str, choices: tuple[str, ...] = (), said: str = "") -> None:
         super().__init__(question)
         self.choices = choices
+        self.said = said
 
 
 def listing(names: list[str] | tuple[str, ...], last: str = "or") -> str:

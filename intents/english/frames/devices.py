@@ -10,11 +10,13 @@ from intents.goals import Close, Goal, Open, Switch
 
 _OPENABLE = words(
     "door drawer fridge refrigerator freezer cabinet cupboard window hand gripper box bottle jar "
-    "lid curtain blind gate microwave oven dishwasher closet wardrobe tap bag suitcase case shutter "
+    "lid curtain blind gate microwave oven dishwasher closet wardrobe tap bag suitcase case "
+    "shutter "
     "hands fingers locker container envelope can book machine valve faucet"
 )
 _SWITCHABLE = words(
-    "light lamp tv television radio machine fan heater heating oven stove computer pc laptop cleaner "
+    "light lamp tv television radio machine fan heater heating oven stove computer pc laptop "
+    "cleaner "
     "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
     "dryer toaster speaker stereo device chandelier"
 )
