@@ -45,7 +45,7 @@ class Corridor:
 
     def touches(self, q: Array | list[float]) -> list[Touch]:
         """What the arm is too near to."""
-        self.scene.set_motors(self.arm.arm_motors, q)
+        self.scene.set_motors(self.arm.motors, q)
         self.scene.update()
         return self.scene.touches(
             self.scene.arm_geoms(self.arm.side), allowed=self.allowed, slack=self.slack
@@ -68,7 +68,7 @@ class Corridor:
 
     def keep_upright(self, q: Array) -> None:
         """From now on the hand's tilt must be about that at `q` (or at others so given)."""
-        self.scene.set_motors(self.arm.arm_motors, q)
+        self.scene.set_motors(self.arm.motors, q)
         self.scene.update()
         self.ups.append(self.scene.grasp_rotation(self.arm.side)[6:9].copy())
 
@@ -95,7 +95,7 @@ def plan_arm(body: Body, request: ArmRequest) -> ArmPlan | Failure:
     scene.pose(request.X_WB, request.q_start_rad)
     scene.set_clearance(CLEARANCE_M)
     corridor = Corridor(scene, arm, frozenset(request.allowed))
-    start = np.array(request.q_start_rad)[arm.arm_motors]
+    start = np.array(request.q_start_rad)[arm.motors]
     start = np.clip(start, arm.lower, arm.upper)
     problem = _admit(corridor, start, request, code="start_in_collision", least_m=-OVERLAP_M)
     if problem is not None:
@@ -153,7 +153,8 @@ def _goals(
     """Free joint values at the goal, the nearest first; slack is given where it is tight there."""
     arm = corridor.arm
     if isinstance(request.goal, SE3):
-        found = _solve(body, arm, request, request.goal, start)
+        X_WT = corridor.scene.body_pose(arm.chain.body)
+        found = _solve(body, arm, request, X_WT, start)
         if isinstance(found, Failure):
             return found
     else:
@@ -176,28 +177,24 @@ def _goals(
 
 
 def _solve(
-    body: Body, arm: Arm, request: ArmRequest, X_WG: SE3, start: Array
+    body: Body, arm: Arm, request: ArmRequest, X_WT: SE3, start: Array
 ) -> list[Array] | Failure:
-    """Joint values that bring the hand there, nearest to `near_rad` or the start first."""
-    X_BG = request.X_WB.inverse() @ X_WG
-    chain = np.array(request.q_start_rad)[arm.motors]
+    """Joint values for the goal's pose, nearest to `near_rad` or the start first; T: arm's root."""
+    X_WG = request.goal
+    assert isinstance(X_WG, SE3)
     near = np.array(request.near_rad) if request.near_rad is not None else start
     postures = [
-        np.array(body.description.posture(name))[arm.arm_motors]
+        np.array(body.description.posture(name))[arm.motors]
         for name in ("nominal", "carry")
         if name in body.description.postures
     ]
     rng = np.random.default_rng(request.seed)
     share = rng.uniform(0.1, 0.9, (SEEDS, len(start)))
     seeds = np.stack([near, start, *postures, *(arm.lower + share * (arm.upper - arm.lower))])
-    q0 = np.tile(chain, (len(seeds), 1))
-    q0[:, arm.free] = seeds
+    count = len(seeds)
+    X_TG = X_WT.inverse() @ X_WG
     solved = arm.chain.solve(
-        np.tile(X_BG.rotation(), (len(seeds), 1, 1)),
-        np.tile(np.array(X_BG.p), (len(seeds), 1)),
-        q0,
-        free=arm.free,
-        iterations=40,
+        np.tile(X_TG.rotation(), (count, 1, 1)), np.tile(X_TG.p, (count, 1)), seeds, iterations=40
     )
     ok = np.flatnonzero(solved.ok())
     if not len(ok):
@@ -211,7 +208,7 @@ def _solve(
             short_rad=twist,
             height_m=X_WG.p[2],
         )
-    values = solved.q[ok][:, arm.free]
+    values = solved.q[ok]
     order = np.argsort(np.linalg.norm(values - near, axis=1), kind="stable")
     result: list[Array] = []
     for q in values[order]:
@@ -279,7 +276,7 @@ def _timed(corridor: Corridor, corners: Array, velocity: Array, acceleration: Ar
 def _limits(body: Body, arm: Arm, speed: float) -> tuple[Array, Array]:
     """Velocities [rad/s] and accelerations [rad/s2], shape (n,)."""
     motors = list(body.description.motors.values())
-    top = np.array([motors[i].velocity_limit_rad_s for i in arm.arm_motors])
+    top = np.array([motors[i].velocity_limit_rad_s for i in arm.motors])
     return speed * np.minimum(SPEED_RAD_S, 0.8 * top), np.full(
         len(top), speed**2 * ACCELERATION_RAD_S2
     )

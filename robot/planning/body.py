@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import mujoco
 import numpy as np
 
+from robot.errors import DescriptionError
 from robot.messages import Side
 from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
 from robot.planning.ik import Chain
-from robot.planning.requests import BodyPosture, Joints, Stance
+from robot.planning.requests import BodyPosture, Stance
 from robot.planning.scene import Scene, SceneCache, Touch
 from robot.planning.solids import Solid
 from robot.se3 import SE3, Array
@@ -21,33 +23,44 @@ BODY_CLEARANCE_M = 0.0
 """Of legs and trunk where the robot is or wants to be; paths and stances ask for more [m]."""
 
 
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How the robot stands in a posture: base and shoulders in S, all motors."""
+
+    X_SB: SE3
+    q: Array
+    X_ST: dict[Side, SE3]
+
+
 class Arm:
-    """One arm as a chain from the base to the grasp point, waist included.
+    """One arm as a chain from its root T (the trunk's last link) to the grasp point.
 
     Attributes:
-        chain: the hinges, waist first.
-        motors: motor index of every joint of the chain, shape (k,).
-        free: positions in the chain of the arm's own joints, in its group's order.
-        lower, upper: limits of the arm's own joints [rad].
+        chain: the hinges, in its group's order.
+        motors: their motor indices, shape (k,).
+        lower, upper: limits [rad], shape (k,).
     """
 
     def __init__(self, body: BodyModel, side: Side) -> None:
-        """Find the joints between base and hand."""
-        description = body.description
-        site = description.hands[side].grasp_site
-        self.side: Side = side
-        self.chain = Chain(body.model, description.base_body, site)
-        joints = [motor.joint for motor in description.motors.values()]
-        self.motors = np.array([joints.index(name) for name in self.chain.joints])
-        arm = description.indices(f"{side}_arm")
-        chain = self.motors.tolist()
-        self.free = [chain.index(motor) for motor in arm]
-        self.arm_motors = np.array(arm)
-        self.lower, self.upper = self.chain.lower[self.free], self.chain.upper[self.free]
+        """Find the joints between trunk and hand.
 
-    def joints(self, q_chain: Array) -> Joints:
-        """The arm's own joints out of one chain vector, in its group's order."""
-        return tuple(float(value) for value in q_chain[self.free])
+        Raises:
+            DescriptionError: if the group does not list exactly these joints, outwards.
+        """
+        description, model = body.description, body.model
+        names = description.groups[f"{side}_arm"]
+        first = model.jnt_bodyid[body.joint_id(description.motors[names[0]].joint)]
+        root = model.body(int(model.body_parentid[first])).name
+        self.side: Side = side
+        self.chain = Chain(model, root, description.hands[side].grasp_site)
+        joints = tuple(description.motors[name].joint for name in names)
+        if joints != self.chain.joints:
+            raise DescriptionError(
+                f"group '{side}_arm' lists {', '.join(joints)}; the MJCF has "
+                f"{', '.join(self.chain.joints)} from {root} to the grasp site"
+            )
+        self.motors = np.array(description.indices(f"{side}_arm"))
+        self.lower, self.upper = self.chain.lower, self.chain.upper
 
 
 class Body:
@@ -79,14 +92,15 @@ class Body:
         self, solids: tuple[Solid, ...], stance: Stance, *, clearance_m: float = BODY_CLEARANCE_M
     ) -> Touch | None:
         """What legs, trunk or head touch most deeply when standing upright there, if anything."""
-        X_SB, q = self.standing(UPRIGHT)
-        scene = self.scene(solids, SE3.from_xy_yaw(*stance) @ X_SB, q, clearance_m=clearance_m)
+        standing = self.standing(UPRIGHT)
+        X_WB = SE3.from_xy_yaw(*stance) @ standing.X_SB
+        scene = self.scene(solids, X_WB, standing.q, clearance_m=clearance_m)
         scene.update()
         touches = scene.touches(scene.trunk_geoms, solids_only=True)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 
-    def _standing(self, posture: BodyPosture) -> tuple[SE3, Array]:
-        """X_SB and all motors when standing so: soles flat, pelvis level, CoM over their midpoint.
+    def _standing(self, posture: BodyPosture) -> Standing:
+        """Where everything is when standing so: soles flat, pelvis level, CoM over their midpoint.
 
         Leaning moves the pelvis back; the legs follow by inverse kinematics.
         """
@@ -107,7 +121,7 @@ class Body:
         }
         names = [motor.joint for motor in description.motors.values()]
         forward = 0.0
-        for _ in range(4):
+        for _ in range(8):
             for side, sign in (("left", 1.0), ("right", -1.0)):
                 sole = np.array([[-forward, sign * 0.5 * walking.stance_width_m, -height]])
                 leg = np.array([names.index(name) for name in legs[side].joints])
@@ -116,5 +130,13 @@ class Body:
             body.write_joints(data, q)
             mujoco.mj_kinematics(body.model, data)
             mujoco.mj_comPos(body.model, data)
-            forward -= float(data.subtree_com[body.base_body][0])
-        return SE3((forward, 0.0, height)), q
+            off = float(data.subtree_com[body.base_body][0])
+            if abs(off) < 1e-4:
+                break
+            forward -= off
+        roots = {side: body.body_id(arm.chain.body) for side, arm in self.arms.items()}
+        trunks = {
+            side: SE3.from_rotation(data.xmat[root].reshape(3, 3), data.xpos[root])
+            for side, root in roots.items()
+        }
+        return Standing(SE3((forward, 0.0, height)), q, trunks)

@@ -27,7 +27,7 @@ TIP_CLEARANCE_M = 0.022
 MIN_HEIGHT_M = 0.035
 """Of the grasp point above what the object stands on, approaching level (half a hand, and air)."""
 TILTS_RAD = (0.0, 0.35, 0.70)
-TILT_COST = (0.0, 0.04, 0.12)
+TILT_COST = (0.0, 0.12, 0.35)
 LYING_TILTS_RAD = (1.2, 0.9)
 UPRIGHT_COS = 0.95
 

@@ -14,6 +14,7 @@ with it goes (or comes) straight up, to *up*::
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -21,15 +22,16 @@ import numpy as np
 
 from robot.errors import Failure, failure
 from robot.messages import Shape, Side
+from robot.model.body import SIDES
 from robot.planning import reach
 from robot.planning.body import Body
 from robot.planning.checks import Checker
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
-from robot.planning.reach import Bases, Reached, Targets
+from robot.planning.reach import Targets
 from robot.planning.requests import Stance
 from robot.planning.solids import Solid
-from robot.planning.stances import LEANS, Candidates, propose
+from robot.planning.stances import Candidates, propose
 from robot.se3 import Array
 
 BATCH = 160
@@ -39,6 +41,11 @@ DEPTH = 8
 WOBBLE_COST = 0.4
 GOOD = 0.25
 """A score that ends the search."""
+ENOUGH = 4
+"""So many that pass end the search, too."""
+MAX_TURN_RAD = 1.2
+"""Most a joint turns on the straight line to the object."""
+END = "the end of its reach"
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,109 +111,165 @@ def search(
         radius_m=body.description.body_radius_m + 0.02,
         reference_cost=job.reference_cost,
         seed=seed,
+        limit=BATCH * ROUNDS,
     )
-    tally, checker = Tally(), Checker(body, job.others)
+    tally = Tally()
     best: tuple[float, Choice] | None = None
+    passed = 0
     for first in range(0, min(len(candidates), BATCH * ROUNDS), BATCH):
         rows = np.arange(first, min(first + BATCH, len(candidates)))
-        for score, choice in _passing(body, job, checker, candidates.take(rows), tally):
+        for score, choice in _passing(body, job, candidates.take(rows), tally):
             if best is None or score > best[0]:
                 best = (score, choice)
-            if best[0] >= GOOD:
+            passed += 1
+            if best[0] >= GOOD or passed >= ENOUGH:
                 return best[1]
         if best is not None:
             return best[1]
     return _explain(job, floor, len(candidates), total, tally)
 
 
-def _passing(body: Body, job: Job, checker: Checker, batch: Candidates, tally: Tally):
+def _passing(
+    body: Body, job: Job, batch: Candidates, tally: Tally
+) -> Iterator[tuple[float, Choice]]:
     """Score and choice of those in a batch that pass everything, likeliest first (lazily)."""
-    ranked: list[tuple[float, Side, Candidates, Array]] = []
-    for side in ("left", "right"):
+    ranked: list[_Entry] = []
+    for side in SIDES:
         some = batch.take(np.flatnonzero(batch.left == (side == "left")))
-        if not len(some):
-            continue
-        arm = body.arms[side]
-        bases = reach.bases_of(body, side, some)
-        main = reach.targets_of(some, job.options, job.references)
-        reached = reach.first_reach(body, arm, bases, main)
-        tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
-        ok = np.flatnonzero(reached.ok)
-        tally.reached += len(ok)
-        score = reach.margins(arm, reached.q[ok]) - some.cost[ok]
-        ranked += [
-            (float(score[k]), side, some.take(ok[k : k + 1]), reached.q[ok[k] : ok[k] + 1])
-            for k in range(len(ok))
-        ]
-    ranked.sort(key=lambda entry: -entry[0])
-    for first in range(0, len(ranked), DEPTH):
-        for side in ("left", "right"):
-            group = [entry for entry in ranked[first : first + DEPTH] if entry[1] == side]
-            if group:
-                yield from _closely(body, job, checker, group, tally)
+        if len(some):
+            ranked += _reachable(body, job, side, some, tally)
+    ranked.sort(key=lambda entry: -entry.score)
+    checker = Checker(body, job)
+    waiting: list[_Entry] = []
+    for k, entry in enumerate(ranked):
+        checker.prepare(entry.candidate, entry.side, entry.main)
+        touch = checker.at_main(entry.q_main)
+        if touch is None:
+            waiting.append(entry)
+        else:
+            tally.touched[touch] += 1
+        if len(waiting) == DEPTH or k == len(ranked) - 1:
+            for side in SIDES:
+                group = [entry for entry in waiting if entry.side == side]
+                if group:
+                    yield from _closely(body, job, checker, group, tally)
+            waiting = []
 
 
-def _closely(body: Body, job: Job, checker: Checker, group: list, tally: Tally):
-    """The rest of the poses, the wobble, and what touches."""
-    side: Side = group[0][1]
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A candidate whose main pose is reached."""
+
+    score: float
+    side: Side
+    candidate: Candidates
+    main: Targets
+    q_main: Array
+
+
+def _reachable(
+    body: Body, job: Job, side: Side, some: Candidates, tally: Tally
+) -> list[_Entry]:
+    """Those of one hand whose main pose is reached."""
     arm = body.arms[side]
-    some = _join([entry[2] for entry in group])
-    q_main = np.concatenate([entry[3] for entry in group])
-    bases = reach.bases_of(body, side, some)
     main = reach.targets_of(some, job.options, job.references)
-    back_m = np.array([-job.options[option].back_m for option in some.option])
-    back = main.moved(along_m=back_m)
-    back_reached = reach.reach(arm, bases, back, q_main)
-    middle = reach.reach(arm, bases, main.moved(along_m=0.5 * back_m), q_main)
-    ups = [(lift, main.moved(up_m=lift)) for lift in job.lifts_m]
-    ups_reached = [reach.reach(arm, bases, up, q_main) for _, up in ups]
-    steady = _steadiness(arm, bases, main, back, q_main)
-    for i, (score, _, candidate, _) in enumerate(group):
-        if not (back_reached.ok[i] and middle.ok[i]):
-            tally.touched["the end of its reach"] += 1
+    reached = reach.first_reach(body, arm, reach.trunks_of(body, side, some), main)
+    tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
+    ok = np.flatnonzero(reached.ok)
+    tally.reached += len(ok)
+    q = arm.chain.relax(reached.q[ok])
+    score = reach.margins(arm, q) - some.cost[ok]
+    return [
+        _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, i), q[k])
+        for k, i in enumerate(ok)
+    ]
+
+
+def _closely(
+    body: Body, job: Job, checker: Checker, group: list[_Entry], tally: Tally
+) -> Iterator[tuple[float, Choice]]:
+    """Those of a group (of one hand) that also pass at all other poses."""
+    side = group[0].side
+    arm = body.arms[side]
+    poses, q, ok, steady = _all_poses(body, job, side, group)
+    lifts = range(len(job.lifts_m))
+    for i, entry in enumerate(group):
+        main, middle, back = (poses[k].take(np.array([i])) for k in range(3))
+        if not (ok[1, i] and ok[2, i]) or np.max(np.abs(q[2, i] - entry.q_main)) > MAX_TURN_RAD:
+            tally.touched[END] += 1
             continue
-        q_back = back_reached.q[i]
-        if np.max(np.abs(q_back - q_main[i])) > 1.2:
-            continue
-        option = job.options[int(candidate.option[0])]
-        for (_, up), up_reached in zip(ups, ups_reached, strict=True):
-            if not up_reached.ok[i]:
+        checker.prepare(entry.candidate, side, main)
+        touch = checker.on_line(q[1, i], q[2, i])
+        q_ready: Array | None = None
+        for k in (3 + lift for lift in lifts):
+            if touch is not None or not ok[k, i]:
                 continue
-            touch, q_ready = checker.passes(
-                job, option, candidate, side,
-                main=_row(main, i), back=_row(back, i), up=_row(up, i),
-                q=(q_main[i], middle.q[i], q_back, up_reached.q[i]),
-            )  # fmt: skip
+            touch = checker.lifted(q[k, i])
             if touch is not None:
-                tally.touched[touch] += 1
+                touch = None if k < 2 + len(lifts) else touch
                 continue
-            assert q_ready is not None
-            q_all = np.stack([q_main[i], q_back, up_reached.q[i]])
-            margin = float(np.min(reach.margins(arm, q_all)))
-            total = margin - float(candidate.cost[0]) - WOBBLE_COST * (1.0 - steady[i])
-            yield total, Choice(
-                side, candidate, option, _row(main, i), _row(back, i), _row(up, i),
-                q_main[i], q_back, up_reached.q[i], q_ready, margin * steady[i],
-            )  # fmt: skip
+            up = poses[k].take(np.array([i]))
+            first, last = (2, k) if job.kind == "pick" else (k, 2)
+            touch = checker.leaving(q[last, i])
+            if touch is None:
+                touch, q_ready = checker.ready(back if first == 2 else up, q[first, i])
+            if q_ready is None:
+                continue
+            margin = float(np.min(reach.margins(arm, q[[0, 2, k], i])))
+            score = margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady[i])
+            yield score, Choice(
+                side=side,
+                candidate=entry.candidate,
+                option=job.options[int(entry.candidate.option[0])],
+                main=main,
+                back=back,
+                up=up,
+                q_main=q[0, i],
+                q_back=q[2, i],
+                q_up=q[k, i],
+                q_ready=q_ready,
+                margin=margin * float(steady[i]),
+            )
             break
+        if q_ready is None:
+            tally.touched[touch or END] += 1
+        del middle
 
 
-def _steadiness(arm, bases: Bases, main: Targets, back: Targets, q: Array) -> Array:
-    """Share of small errors of the stance at which the poses are still reached, shape (n,)."""
-    n = len(q)
-    off = [reach.wobbled(bases, error) for error in reach.WOBBLE] * 2
-    stacked = Bases(
-        np.concatenate([b.p for b in off]),
-        np.concatenate([b.yaw for b in off]),
-        np.concatenate([b.q_chain for b in off]),
+def _all_poses(
+    body: Body, job: Job, side: Side, group: list[_Entry]
+) -> tuple[list[Targets], Array, np.ndarray, Array]:
+    """Main, middle, back and the lifts of a group.
+
+    Returns the targets, joints (poses, n, k), whether reached (poses, n), and the share of small
+    errors of the stance under which main and back are still reached (n,).
+    """
+    arm = body.arms[side]
+    candidates = _join([entry.candidate for entry in group])
+    trunks = reach.trunks_of(body, side, candidates)
+    main = reach.targets_of(candidates, job.options, job.references)
+    back_m = np.array([-job.options[option].back_m for option in candidates.option])
+    back = main.moved(along_m=back_m)
+    poses = [main, main.moved(along_m=0.5 * back_m), back]
+    poses += [main.moved(up_m=lift) for lift in job.lifts_m]
+    off = [trunks.wobbled(error) for error in reach.WOBBLE]
+    everything = poses[1:] + [main, back] * len(off)
+    hanging = [trunks] * (len(poses) - 1) + [one for one in off for _ in range(2)]
+    n, q_main = len(group), np.stack([entry.q_main for entry in group])
+    reached = reach.reach(
+        arm,
+        reach.joined(hanging),
+        Targets(
+            np.concatenate([targets.R for targets in everything]),
+            np.concatenate([targets.p for targets in everything]),
+        ),
+        np.tile(q_main, (len(everything), 1)),
     )
-    half = len(reach.WOBBLE)
-    targets = Targets(
-        np.concatenate([main.R] * half + [back.R] * half),
-        np.concatenate([main.p] * half + [back.p] * half),
-    )
-    reached: Reached = reach.reach(arm, stacked, targets, np.tile(q, (2 * half, 1)), iterations=10)
-    return reached.ok.reshape(2 * half, n).mean(axis=0)
+    count = len(poses) - 1
+    q = np.concatenate([q_main[None], reached.q.reshape(len(everything), n, -1)[:count]])
+    ok = reached.ok.reshape(len(everything), n)
+    met = np.concatenate([np.ones((1, n), dtype=bool), ok[:count]])
+    return poses, q, met, ok[count:].mean(axis=0)
 
 
 def _row(targets: Targets, i: int) -> Targets:
@@ -249,8 +312,3 @@ def _explain(job: Job, floor: Floor, candidates: int, total: int, tally: Tally) 
         tried=float(tally.reached),
         blocked=float(count),
     )
-
-
-def leans_of(choice: Choice) -> int:
-    """Index of the choice's lean in `LEANS`."""
-    return int(choice.candidate.lean[0]) % len(LEANS)

@@ -16,6 +16,9 @@ from robot.se3 import Array
 
 STEP_LIMIT_RAD = 0.4
 """Largest change of a joint in one iteration [rad]."""
+RELAX_GAIN = 0.25
+STALL_STEPS, STALL_SHARE = 6, 0.7
+"""A target is given up when so many iterations leave more than this share of the error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +32,33 @@ class Solutions:
     def ok(self, position_m: float = 1e-3, rotation_rad: float = 5e-3) -> np.ndarray:
         """Which targets were met, shape (n,), bool."""
         return (self.position_error_m < position_m) & (self.rotation_error_rad < rotation_rad)
+
+
+@dataclass(frozen=True, slots=True)
+class _Link:
+    """A hinge: its body's place on the link before (None: the identity), and its axis."""
+
+    name: str
+    fixed: Array | None
+    offset: Array | None
+    axis: Array
+    skew: Array
+    skew2: Array
+
+    @staticmethod
+    def of(name: str, fixed: Array, offset: Array, axis: Array) -> _Link:
+        """With what follows from the axis; identities left out."""
+        skew = _skew(axis)
+        turned, shifted = not np.allclose(fixed, np.eye(3)), bool(np.any(offset != 0.0))
+        return _Link(
+            name, fixed if turned else None, offset if shifted else None, axis, skew, skew @ skew
+        )
+
+    def on(self, fixed: Array, offset: Array) -> _Link:
+        """The same hinge seen from one body further in, which has no joint of its own."""
+        own = np.eye(3) if self.fixed is None else self.fixed
+        at = np.zeros(3) if self.offset is None else self.offset
+        return _Link.of(self.name, fixed @ own, fixed @ at + offset, self.axis)
 
 
 class Chain:
@@ -45,36 +75,36 @@ class Chain:
         Raises:
             ValueError: if the site is not a descendant of the body, or a joint is no hinge.
         """
+        self.body = body
         root = model.body(body).id
-        at = int(model.site(site).bodyid[0])
-        tip = (_matrix(model.site_quat[model.site(site).id]), model.site_pos[model.site(site).id])
-        links: list[tuple[Array, Array, str, Array]] = []
+        tip_id = model.site(site).id
+        at = int(model.site_bodyid[tip_id])
+        self._tip = (_matrix(model.site_quat[tip_id]), model.site_pos[tip_id].copy())
+        links: list[_Link] = []
         while at != root:
             if at == 0:
                 raise ValueError(f"site {site!r} does not hang on body {body!r}")
             count, first = int(model.body_jntnum[at]), int(model.body_jntadr[at])
             if count > 1 or (count and model.jnt_type[first] != mujoco.mjtJoint.mjJNT_HINGE):
                 raise ValueError(f"body {model.body(at).name!r} moves on other than one hinge")
-            rotation, position = _matrix(model.body_quat[at]), model.body_pos[at].copy()
+            if count and np.any(model.jnt_pos[first] != 0.0):
+                raise ValueError(f"joint {model.joint(first).name!r} is off its body's origin")
+            fixed, offset = _matrix(model.body_quat[at]), model.body_pos[at].copy()
             if count:
-                anchor = model.jnt_pos[first]
-                if np.any(anchor != 0.0):
-                    raise ValueError(f"joint {model.joint(first).name!r} is off its body's origin")
-                axis = model.jnt_axis[first].copy()
-                links.append((rotation, position, model.joint(first).name, axis))
+                name = model.joint(first).name
+                links.append(_Link.of(name, fixed, offset, model.jnt_axis[first].copy()))
+            elif links:
+                links[-1] = links[-1].on(fixed, offset)
             else:
-                links.append((rotation, position, "", np.zeros(3)))
+                self._tip = (fixed @ self._tip[0], fixed @ self._tip[1] + offset)
             at = int(model.body_parentid[at])
         links.reverse()
         self._links = links
-        self._tip = tip
-        self.joints = tuple(name for *_, name, _ in links if name)
+        self.joints = tuple(link.name for link in links)
         ranges = np.array([model.joint(name).range for name in self.joints])
         self.lower, self.upper = ranges[:, 0].copy(), ranges[:, 1].copy()
         self._middle = 0.5 * (self.lower + self.upper)
         self._half_range = 0.5 * (self.upper - self.lower)
-        self._skew = [_skew(axis) for *_, name, axis in links if name]
-        self._skew2 = [k @ k for k in self._skew]
 
     def forward(self, q: Array) -> tuple[Array, Array]:
         """Pose of the site in the body's frame: rotations (n, 3, 3), positions (n, 3) of q (n, k)."""
@@ -88,101 +118,119 @@ class Chain:
         rotation = np.broadcast_to(np.eye(3), (n, 3, 3))
         position = np.zeros((n, 3))
         axes, anchors = np.empty((n, k, 3)), np.empty((n, k, 3))
-        j = 0
-        for fixed, offset, name, axis in self._links:
-            position = position + rotation @ offset
-            rotation = rotation @ fixed
-            if name:
-                axes[:, j] = rotation @ axis
-                anchors[:, j] = position
-                turn = sin[:, j, None, None] * self._skew[j] + cos[:, j, None, None] * self._skew2[j]
-                rotation = rotation + rotation @ turn
-                j += 1
+        for j, link in enumerate(self._links):
+            if link.offset is not None:
+                position = position + rotation @ link.offset
+            if link.fixed is not None:
+                rotation = rotation @ link.fixed
+            axes[:, j] = rotation @ link.axis
+            anchors[:, j] = position
+            turn = sin[:, j, None, None] * link.skew + cos[:, j, None, None] * link.skew2
+            rotation = rotation + rotation @ turn
         position = position + rotation @ self._tip[1]
         return rotation @ self._tip[0], position, axes, anchors
 
     def solve(
-        self,
-        rotations: Array,
-        positions: Array,
-        q0: Array,
-        *,
-        free: list[int] | None = None,
-        iterations: int = 30,
+        self, rotations: Array, positions: Array, q0: Array, *, iterations: int = 30
     ) -> Solutions:
         """Joint values that bring the site to the targets, inside the limits.
 
         Levenberg-Marquardt with the damping of [Sugihara2011] and a pull to the middle of the
-        ranges in the null space; values are clamped to the limits after every step.
+        ranges in the null space; values are clamped to the limits after every step. A target that
+        is not approached any more is given up.
 
         Args:
             rotations, positions: targets in the body's frame, shapes (n, 3, 3), (n, 3).
             q0: where to start, shape (n, k).
-            free: which joints may move (all).
             iterations: at most so many.
         """
-        free = list(range(len(self.joints))) if free is None else free
         q = np.clip(q0, self.lower, self.upper)
-        best_q, best = q.copy(), np.full((len(q), 2), np.inf)
-        active = np.arange(len(q))
-        lower, upper = self.lower[free], self.upper[free]
-        middle, half = self._middle[free], self._half_range[free]
+        n = len(q)
+        best_q, best = q.copy(), np.full((n, 2), np.inf)
+        active, before = np.arange(n), np.full(n, np.inf)
         for step in range(iterations + 1):
             here, at, axes, anchors = self._sweep(q[active])
             error = np.empty((len(active), 6))
             error[:, :3] = positions[active] - at
             error[:, 3:] = _rotation_vector(rotations[active] @ here.transpose(0, 2, 1))
-            size = np.stack(
-                [np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)], axis=1
-            )
-            better = size @ (1.0, 0.2) < best[active] @ (1.0, 0.2)
+            size = np.sqrt((error**2).reshape(-1, 2, 3).sum(axis=2))
+            weight = size[:, 0] + 0.2 * size[:, 1]
+            better = weight < best[active] @ (1.0, 0.2)
             best[active[better]], best_q[active[better]] = size[better], q[active[better]]
             going = (size[:, 0] > 2e-4) | (size[:, 1] > 1e-3)
+            if step % STALL_STEPS == STALL_STEPS - 1:
+                going &= weight < STALL_SHARE * before[active]
+                before[active] = weight
             if step == iterations or not going.any():
                 break
             active, error = active[going], error[going]
-            arms = at[going, None, :] - anchors[going]
-            jacobian = np.concatenate(
-                [np.cross(axes[going], arms), axes[going]], axis=2
-            ).transpose(0, 2, 1)[:, :, free]
-            change = _damped_step(jacobian, error, (middle - q[np.ix_(active, free)]) / half**2)
-            q[np.ix_(active, free)] = np.clip(q[np.ix_(active, free)] + change, lower, upper)
+            axes = axes[going]
+            jacobian = np.empty((len(active), len(self.joints), 6))
+            jacobian[:, :, :3] = _cross(axes, at[going, None, :] - anchors[going])
+            jacobian[:, :, 3:] = axes
+            pull = (self._middle - q[active]) / self._half_range**2
+            change = _damped_step(jacobian, error, pull)
+            q[active] = np.clip(q[active] + change, self.lower, self.upper)
         return Solutions(best_q, best[:, 0], best[:, 1])
 
-    def margin(self, q: Array, free: list[int]) -> Array:
-        """Distance to the nearest limit as a share of half the joint's range, shape (n,)."""
-        room = np.minimum(q - self.lower, self.upper - q)[:, free]
-        return np.min(room / self._half_range[free], axis=1)
+    def relax(self, q: Array, *, iterations: int = 8) -> Array:
+        """Joints with the site where it is at q, shape (n, k), and further from the limits."""
+        if not len(q):
+            return q
+        q, (rotations, positions) = q.copy(), self.forward(q)
+        for _ in range(iterations):
+            here, at, axes, anchors = self._sweep(q)
+            error = np.concatenate(
+                [positions - at, _rotation_vector(rotations @ here.transpose(0, 2, 1))], axis=1
+            )
+            jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), axes], axis=2)
+            pull = (self._middle - q) / self._half_range**2
+            change = _damped_step(jacobian, error, pull, gain=np.full((len(q), 1), RELAX_GAIN))
+            q = np.clip(q + change, self.lower, self.upper)
+        return self.solve(rotations, positions, q, iterations=6).q
 
-    def dexterity(self, q: Array, free: list[int]) -> Array:
+    def margin(self, q: Array) -> Array:
+        """Distance to the nearest limit as a share of half the joint's range, shape (n,)."""
+        return np.min(np.minimum(q - self.lower, self.upper - q) / self._half_range, axis=1)
+
+    def dexterity(self, q: Array) -> Array:
         """Smallest singular value of the Jacobian in metres and radians / 2, shape (n,)."""
         _, at, axes, anchors = self._sweep(q)
-        linear = np.cross(axes, at[:, None, :] - anchors)
-        jacobian = np.concatenate([linear, 0.5 * axes], axis=2)[:, free, :]
+        jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), 0.5 * axes], axis=2)
         return np.linalg.svd(jacobian, compute_uv=False)[:, -1]
 
 
-def _damped_step(jacobian: Array, error: Array, pull: Array) -> Array:
-    """One step for every target, shape (n, free)."""
-    transposed = jacobian.transpose(0, 2, 1)
-    damping = 1e-4 + 0.02 * np.sum(error**2, axis=1)
+def _damped_step(
+    transposed: Array, error: Array, pull: Array, gain: Array | None = None
+) -> Array:
+    """One step for every target, shape (n, k); the Jacobians come transposed, (n, k, 6)."""
+    jacobian = transposed.transpose(0, 2, 1)
+    squared = np.sum(error**2, axis=1)
+    damping = 1e-4 + 0.02 * squared
     normal = jacobian @ transposed + damping[:, None, None] * np.eye(6)
-    size = np.linalg.norm(error, axis=1)
-    gain = np.minimum(0.05, size)[:, None]
+    if gain is None:
+        gain = np.minimum(0.05, np.sqrt(squared))[:, None]
     wanted = error - (jacobian @ (gain * pull)[..., None])[..., 0]
     change = (transposed @ np.linalg.solve(normal, wanted[..., None]))[..., 0] + gain * pull
     largest = np.max(np.abs(change), axis=1, keepdims=True)
     return change * np.minimum(1.0, STEP_LIMIT_RAD / np.maximum(largest, 1e-9))
 
 
-def _rotation_vector(rotation: Array) -> Array:
+def _cross(a: Array, b: Array) -> Array:
+    """Cross product over the last axis (numpy's own is slow for small arrays)."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+
+
+def _rotation_vector(r: Array) -> Array:
     """Axis times angle of rotation matrices, shape (n, 3); exact but near pi, where it is safe."""
-    r = rotation
-    axis = 0.5 * np.stack(
-        [r[:, 2, 1] - r[:, 1, 2], r[:, 0, 2] - r[:, 2, 0], r[:, 1, 0] - r[:, 0, 1]], axis=1
-    )
-    sin = np.linalg.norm(axis, axis=1)
-    cos = 0.5 * (np.trace(r, axis1=1, axis2=2) - 1.0)
+    axis = np.empty((len(r), 3))
+    axis[:, 0] = 0.5 * (r[:, 2, 1] - r[:, 1, 2])
+    axis[:, 1] = 0.5 * (r[:, 0, 2] - r[:, 2, 0])
+    axis[:, 2] = 0.5 * (r[:, 1, 0] - r[:, 0, 1])
+    sin = np.sqrt(np.sum(axis**2, axis=1))
+    cos = 0.5 * (r[:, 0, 0] + r[:, 1, 1] + r[:, 2, 2] - 1.0)
     angle = np.arctan2(sin, cos)
     return axis * (angle / np.maximum(sin, 1e-6))[:, None]
 

@@ -11,10 +11,11 @@ from robot.planning.body import UPRIGHT, Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import pick_options
 from robot.planning.handling import Choice, Job, search
-from robot.planning.reach import Bases, Targets
+from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
-from robot.planning.solids import solids_of
+from robot.planning.solids import Solid, solids_of
 from robot.planning.stances import LEANS
+from robot.se3 import SE3, Array
 
 LIFTS_M = (0.10, 0.06, 0.04)
 CARRY_AHEAD_M = (0.20, 0.26, 0.32)
@@ -53,41 +54,45 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
     choice = search(body, job, floor, sides=sides, start=request.start, seed=request.seed)
     if isinstance(choice, Failure):
         return choice
-    carry = carry_posture(body, choice, thing)
+    carry = carry_posture(body, choice, thing, others)
     if carry is None:
         return failure(
             "goal_in_collision",
             f"{job.what} cannot be held upright near the body with this grasp",
             blocked_by="the body",
         )
-    return _plan(body, choice, thing, carry)
+    return _plan(choice, thing, carry)
 
 
-def _plan(body: Body, choice: Choice, thing: ObjectPose, carry: Joints) -> PickPlan:
-    arm = body.arms[choice.side]
+def _plan(choice: Choice, thing: ObjectPose, carry: Joints) -> PickPlan:
     X_WG = choice.main.pose(0)
     return PickPlan(
         side=choice.side,
         standoff=choice.candidate.standoff_of(0),
         stance=choice.candidate.stance_of(0),
         posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
-        ready_rad=arm.joints(choice.q_ready),
+        ready_rad=_joints(choice.q_ready),
         X_OG=thing.X_WO.inverse() @ X_WG,
         X_WG_pre=choice.back.pose(0),
         X_WG_grasp=X_WG,
         X_WG_lift=choice.up.pose(0),
-        pre_rad=arm.joints(choice.q_back),
+        pre_rad=_joints(choice.q_back),
         carry_rad=carry,
         opening_m=choice.option.opening_m,
         margin=choice.margin,
     )
 
 
-def carry_posture(body: Body, choice: Choice, thing: ObjectPose) -> Joints | None:
-    """Joints that hold the object as upright as it stood, near the body and clear of it."""
+def carry_posture(
+    body: Body, choice: Choice, thing: ObjectPose, others: tuple[Solid, ...]
+) -> Joints | None:
+    """Joints that hold the object as upright as it stood, near the body and clear of it.
+
+    They are free at the standoff, where the arm is brought to them.
+    """
     side, arm = choice.side, body.arms[choice.side]
     sign = 1.0 if side == "left" else -1.0
-    X_SB, q_body = body.standing(UPRIGHT)
+    standing = body.standing(UPRIGHT)
     grid = np.array(
         [
             (x, sign * y, z, -sign * turn)
@@ -98,22 +103,29 @@ def carry_posture(body: Body, choice: Choice, thing: ObjectPose) -> Joints | Non
         ]
     )
     n = len(grid)
-    R0 = choice.option.R0
-    bases = Bases(np.zeros((n, 3)), np.zeros(n), np.tile(q_body[arm.motors], (n, 1)))
-    targets = Targets(reach.rotations_z(grid[:, 3]) @ R0, grid[:, :3])
-    reached = reach.first_reach(body, arm, bases, targets)
-    liked = reach.margins(arm, reached.q) - 0.8 * np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
+    stance, X_ST = np.zeros((n, 3)), standing.X_ST[side]
+    trunks = Trunks(stance, np.tile(X_ST.rotation(), (n, 1, 1)), np.tile(X_ST.p, (n, 1)))
+    at = grid[:, :3] + np.array(standing.X_SB.p)
+    targets = Targets(reach.rotations_z(grid[:, 3]) @ choice.option.R0, at)
+    reached = reach.first_reach(body, arm, trunks, targets)
+    q_arm = arm.chain.relax(reached.q)
+    liked = reach.margins(arm, q_arm) - 0.8 * np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
     held = Held(id=thing.id, shape=thing.shape, X_GO=choice.option.X_GO)
-    scene = body.scenes.get((), (side, held))
-    scene.set_clearance(0.0, held_m=CARRY_CLEARANCE_M)
+    scene = body.scenes.get(others, (side, held))
+    scene.set_clearance(CARRY_CLEARANCE_M, held_m=CARRY_CLEARANCE_M)
+    X_WB = SE3.from_xy_yaw(*choice.candidate.standoff_of(0)) @ standing.X_SB
     hand = body.description.hands[side]
-    q = q_body.copy()
+    q = standing.q.copy()
     q[body.motor(hand.motor)] = choice.option.opening_m / hand.opening_per_motor
     for i in np.argsort(-liked, kind="stable").tolist():
         if reached.ok[i]:
-            q[arm.motors] = reached.q[i]
-            scene.pose(X_SB, q)
+            q[arm.motors] = q_arm[i]
+            scene.pose(X_WB, q)
             scene.update()
             if not scene.touches(scene.arm_geoms(side)):
-                return arm.joints(reached.q[i])
+                return _joints(q_arm[i])
     return None
+
+
+def _joints(q: Array) -> Joints:
+    return tuple(q.tolist())

@@ -71,23 +71,22 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
     choice = search(
         body, job, floor, sides=(request.side,), start=request.start, seed=request.seed
     )
-    return choice if isinstance(choice, Failure) else _plan(body, choice, request)
+    return choice if isinstance(choice, Failure) else _plan(choice, request)
 
 
-def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
-    arm = body.arms[choice.side]
+def _plan(choice: Choice, request: PlaceRequest) -> PlacePlan:
     X_WG = choice.main.pose(0)
     return PlacePlan(
         side=choice.side,
         standoff=choice.candidate.standoff_of(0),
         stance=choice.candidate.stance_of(0),
         posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
-        ready_rad=arm.joints(choice.q_ready),
+        ready_rad=tuple(choice.q_ready.tolist()),
         X_WO=X_WG @ request.held.X_GO,
         X_WG_pre=choice.up.pose(0),
         X_WG_release=X_WG,
         X_WG_retreat=choice.back.pose(0),
-        pre_rad=arm.joints(choice.q_up),
+        pre_rad=tuple(choice.q_up.tolist()),
         margin=choice.margin,
     )
 
@@ -151,7 +150,3 @@ def _spread(spots: Array, cost: Array) -> tuple[Array, Array]:
                 chosen.append(i)
     return spots[chosen], cost[chosen]
 
-
-def upright_at(X_WP: SE3, shape: Shape) -> SE3:
-    """X_WO of a shape standing in the middle of a surface."""
-    return X_WP @ SE3((0.0, 0.0, 0.5 * shape.size_m[2] - shape.X_BodyShape.p[2]))

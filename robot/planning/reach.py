@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,18 +30,47 @@ class Targets:
         shift = self.R[:, :, 0] * np.reshape(along_m, (-1, 1))
         return Targets(self.R, self.p + shift + np.array([0.0, 0.0, up_m]))
 
+    def take(self, rows: np.ndarray) -> Targets:
+        """Some of them, or some several times."""
+        return Targets(self.R[rows], self.p[rows])
+
     def pose(self, i: int) -> SE3:
         """X_WG of one."""
         return SE3.from_rotation(self.R[i], self.p[i])
 
 
 @dataclass(frozen=True, slots=True)
-class Bases:
-    """Poses of the base in W, upright: position (n, 3), yaw (n,); and the chain's waist (n, k)."""
+class Trunks:
+    """Where the arm hangs: stances (n, 3) and the arm's root T in S, (n, 3, 3) and (n, 3)."""
 
-    p: Array
-    yaw: Array
-    q_chain: Array
+    stance: Array
+    R_ST: Array
+    p_ST: Array
+
+    def into(self, targets: Targets) -> tuple[Array, Array]:
+        """The targets in T."""
+        turn = rotations_z(-self.stance[:, 2])
+        p_W = targets.p - np.pad(self.stance[:, :2], ((0, 0), (0, 1)))
+        p_S = (turn @ p_W[..., None])[..., 0]
+        back = self.R_ST.transpose(0, 2, 1)
+        return back @ turn @ targets.R, (back @ (p_S - self.p_ST)[..., None])[..., 0]
+
+    def wobbled(self, error: tuple[float, float, float]) -> Trunks:
+        """The same, standing off by (x, y, yaw) in S."""
+        shift = rotations_z(self.stance[:, 2])[:, :, :2] @ np.array(error[:2])
+        off = self.stance + shift
+        off[:, 2] = self.stance[:, 2] + error[2]
+        return Trunks(off, self.R_ST, self.p_ST)
+
+    def take(self, rows: np.ndarray) -> Trunks:
+        """Some of them, or some several times."""
+        return Trunks(self.stance[rows], self.R_ST[rows], self.p_ST[rows])
+
+
+def joined(parts: list[Trunks]) -> Trunks:
+    """One after the other."""
+    names = ("stance", "R_ST", "p_ST")
+    return Trunks(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,70 +91,54 @@ def targets_of(candidates: Candidates, options: list[HandOption], references: Ar
     return Targets(turn @ R0, at)
 
 
-def bases_of(body: Body, side: Side, candidates: Candidates, *, upright: bool = False) -> Bases:
-    """Where the base is at every candidate's stance, in its posture (or standing upright)."""
-    arm = body.arms[side]
-    standing = [body.standing(lean.posture(side)) for lean in LEANS]
-    if upright:
-        standing = [standing[0]] * len(LEANS)
-    offset = np.array([X_SB.p for X_SB, _ in standing])[candidates.lean]
-    chain = np.array([q[arm.motors] for _, q in standing])[candidates.lean]
-    yaw = candidates.stance[:, 2]
-    feet = np.concatenate([candidates.stance[:, :2], np.zeros((len(yaw), 1))], axis=1)
-    return Bases(feet + (rotations_z(yaw) @ offset[..., None])[..., 0], yaw, chain)
-
-
-def wobbled(bases: Bases, error: tuple[float, float, float]) -> Bases:
-    """The same, standing off by (x, y, yaw) in the base's own frame."""
-    shift = rotations_z(bases.yaw) @ np.array([error[0], error[1], 0.0])
-    return Bases(bases.p + shift, bases.yaw + error[2], bases.q_chain)
+def trunks_of(
+    body: Body, side: Side, candidates: Candidates, *, upright: bool = False
+) -> Trunks:
+    """Where the arm hangs at every candidate's stance, in its posture (or standing upright)."""
+    poses = [body.standing(lean.posture(side)).X_ST[side] for lean in LEANS]
+    lean = np.zeros_like(candidates.lean) if upright else candidates.lean
+    R_ST = np.stack([pose.rotation() for pose in poses])[lean]
+    return Trunks(candidates.stance, R_ST, np.array([pose.p for pose in poses])[lean])
 
 
 def reach(
-    arm: Arm, bases: Bases, targets: Targets, q_near: Array, *, iterations: int = 24
+    arm: Arm, trunks: Trunks, targets: Targets, q_near: Array, *, iterations: int = 24
 ) -> Reached:
-    """Joints for every target, starting at `q_near`, shape (n, k); the waist stays as in `bases`."""
-    into = rotations_z(-bases.yaw)
-    q0 = bases.q_chain.copy()
-    q0[:, arm.free] = q_near[:, arm.free]
-    solved = arm.chain.solve(
-        into @ targets.R,
-        (into @ (targets.p - bases.p)[..., None])[..., 0],
-        q0,
-        free=arm.free,
-        iterations=iterations,
-    )
+    """Joints for every target, starting at `q_near`, shape (n, k)."""
+    rotations, positions = trunks.into(targets)
+    solved = arm.chain.solve(rotations, positions, q_near, iterations=iterations)
     return Reached(solved.q, solved.ok(), solved.position_error_m)
 
 
-def first_reach(body: Body, arm: Arm, bases: Bases, targets: Targets) -> Reached:
-    """From the robot's own postures; the second is tried where the first led nowhere."""
-    result: Reached | None = None
-    for name in ("carry", "nominal"):
-        posture = name if name in body.description.postures else "nominal"
-        seed = np.array(body.description.posture(posture))[arm.motors]
-        rows = np.arange(len(targets.p)) if result is None else np.flatnonzero(~result.ok)
+def first_reach(body: Body, arm: Arm, trunks: Trunks, targets: Targets) -> Reached:
+    """From the robot's own postures and the middle of the ranges; each where the last failed."""
+    postures = body.description.postures
+    seeds = [
+        np.array(body.description.posture(name))[arm.motors]
+        for name in ("carry", "nominal")
+        if name in postures
+    ]
+    seeds.append(0.5 * (arm.lower + arm.upper))
+    n = len(targets.p)
+    result = Reached(np.tile(seeds[0], (n, 1)), np.zeros(n, dtype=bool), np.full(n, np.inf))
+    for seed in seeds:
+        rows = np.flatnonzero(~result.ok)
         if not len(rows):
             break
-        some = Bases(bases.p[rows], bases.yaw[rows], bases.q_chain[rows])
         tried = reach(
-            arm, some, Targets(targets.R[rows], targets.p[rows]), np.tile(seed, (len(rows), 1))
+            arm, trunks.take(rows), targets.take(rows), np.tile(seed, (len(rows), 1))
         )
-        if result is None:
-            result = tried
-        else:
-            better = tried.short_m < result.short_m[rows]
-            result.q[rows[better]] = tried.q[better]
-            result.ok[rows[better]] = tried.ok[better]
-            result.short_m[rows[better]] = tried.short_m[better]
-    assert result is not None
+        better = tried.ok | (tried.short_m < result.short_m[rows])
+        result.q[rows[better]] = tried.q[better]
+        result.ok[rows[better]] = tried.ok[better]
+        result.short_m[rows[better]] = tried.short_m[better]
     return result
 
 
 def margins(arm: Arm, q: Array) -> Array:
     """0 (at a limit or stretched out) to 1 (far from both), shape (n,)."""
-    limits = LIMIT_SHARE * arm.chain.margin(q, arm.free)
-    dexterity = DEXTERITY_SHARE * arm.chain.dexterity(q, arm.free)
+    limits = LIMIT_SHARE * arm.chain.margin(q)
+    dexterity = DEXTERITY_SHARE * arm.chain.dexterity(q)
     return np.clip(np.minimum(limits, dexterity), 0.0, 1.0)
 
 
@@ -138,10 +150,3 @@ def rotations_z(yaw: Array) -> Array:
     result[:, 1, 0], result[:, 1, 1] = s, c
     result[:, 2, 2] = 1.0
     return result
-
-
-def base_pose(bases: Bases, i: int) -> SE3:
-    """X_WB of one."""
-    half = 0.5 * float(bases.yaw[i])
-    x, y, z = (float(value) for value in bases.p[i])
-    return SE3((x, y, z), (math.cos(half), 0.0, 0.0, math.sin(half)))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -52,10 +53,11 @@ class Scene:
         robot: RobotDescription,
         solids: tuple[Solid, ...] = (),
         held: tuple[Side, Held] | None = None,
+        thing: Solid | None = None,
     ) -> None:
-        """Compile the model."""
+        """Compile the model; `thing` is one more solid, which `move_thing` can put elsewhere."""
         self.robot = robot
-        self.model, self._owner = _compile(robot, solids, held)
+        self.model, self._owner = _compile(robot, solids, held, thing)
         self.data = mujoco.MjData(self.model)
         self._bind()
 
@@ -100,9 +102,19 @@ class Scene:
         for driven, driver, poly in self._couplings:
             qpos[driven] = poly[0] + poly[1] * qpos[driver]
 
+    def move_thing(self, X_WG: SE3) -> None:
+        """Put the movable solid elsewhere."""
+        self.data.mocap_pos[0] = X_WG.p
+        self.data.mocap_quat[0] = X_WG.quat_wxyz
+
     def update(self) -> None:
         """Recompute where everything is."""
         mujoco.mj_kinematics(self.model, self.data)
+
+    def body_pose(self, name: str) -> SE3:
+        """Pose of a body in W, after `update`."""
+        body = self.model.body(name).id
+        return SE3.from_rotation(self.data.xmat[body].reshape(3, 3), self.data.xpos[body])
 
     def grasp_pose(self, side: Side) -> SE3:
         """X_WG of a hand, after `update`."""
@@ -191,6 +203,9 @@ class Scene:
         return found
 
 
+_Key: TypeAlias = tuple[tuple[Solid, ...], tuple[Side, Held] | None, Solid | None]
+
+
 class SceneCache:
     """The last few scenes, by content: requests of one moment share their model."""
 
@@ -198,14 +213,17 @@ class SceneCache:
         """Start empty."""
         self._robot = robot
         self._size = size
-        self._scenes: OrderedDict[tuple[tuple[Solid, ...], tuple[Side, Held] | None], Scene] = (
-            OrderedDict()
-        )
+        self._scenes: OrderedDict[_Key, Scene] = OrderedDict()
 
-    def get(self, solids: tuple[Solid, ...], held: tuple[Side, Held] | None = None) -> Scene:
-        """A scene of these solids; its pose and clearance are whatever was asked for last."""
-        key = (solids, held)
-        scene = self._scenes.pop(key, None) or Scene(self._robot, solids, held)
+    def get(
+        self,
+        solids: tuple[Solid, ...],
+        held: tuple[Side, Held] | None = None,
+        thing: Solid | None = None,
+    ) -> Scene:
+        """A scene of these; its poses and clearance are whatever was asked for last."""
+        key = (solids, held, thing)
+        scene = self._scenes.pop(key, None) or Scene(self._robot, solids, held, thing)
         self._scenes[key] = scene
         while len(self._scenes) > self._size:
             self._scenes.popitem(last=False)
@@ -232,7 +250,10 @@ def _robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
 
 
 def _compile(
-    robot: RobotDescription, solids: tuple[Solid, ...], held: tuple[Side, Held] | None
+    robot: RobotDescription,
+    solids: tuple[Solid, ...],
+    held: tuple[Side, Held] | None,
+    thing: Solid | None,
 ) -> tuple[mujoco.MjModel, list[str]]:
     """The model, and the owner of each geom: a body's name, `held`, or `solid:` and an id."""
     spec = _robot_spec(robot)
@@ -240,15 +261,20 @@ def _compile(
         geom = spec.worldbody.add_geom(name=f"solid/{index}", contype=0, conaffinity=1)
         _shape(geom, solid.kind, solid.size_m, solid.X_WG)
     if held is not None:
-        side, thing = held
+        side, load = held
         hand = spec.body(robot.hands[side].body)
         geom = hand.add_geom(name=HELD, contype=1, conaffinity=1)
         X_HandG = _site_pose(spec, robot.hands[side].grasp_site)
         _shape(
-            geom, thing.shape.kind, thing.shape.size_m, X_HandG @ thing.X_GO @ thing.shape.X_BodyShape
+            geom, load.shape.kind, load.shape.size_m, X_HandG @ load.X_GO @ load.shape.X_BodyShape
         )
         for finger in robot.hands[side].finger_bodies:
             spec.add_exclude(bodyname1=robot.hands[side].body, bodyname2=finger)
+    if thing is not None:
+        body = spec.worldbody.add_body(name="thing", mocap=True)
+        body.pos, body.quat = list(thing.X_WG.p), list(thing.X_WG.quat_wxyz)
+        geom = body.add_geom(name="thing", contype=0, conaffinity=1)
+        _shape(geom, thing.kind, thing.size_m, SE3())
     model = spec.compile()
     owners: list[str] = []
     for geom in range(model.ngeom):
@@ -257,6 +283,8 @@ def _compile(
             owners.append("solid:" + solids[int(name.removeprefix("solid/"))].id)
         elif name == HELD:
             owners.append(HELD)
+        elif name == "thing" and thing is not None:
+            owners.append("solid:" + thing.id)
         else:
             owners.append(model.body(int(model.geom_bodyid[geom])).name)
     return model, owners

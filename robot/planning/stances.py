@@ -20,8 +20,11 @@ from robot.se3 import Array
 HEADINGS = 24
 NARROW_M = 0.09
 """Least distance of the stance's middle to any outline: trunk and feet [m]."""
-STEP_IN_M = (0.20, 0.28, 0.36, 0.44, 0.52, 0.60)
+STEP_IN_M = (0.25, 0.32, 0.40, 0.48, 0.56)
 """Lengths of the last straight steps from the standoff, tried in this order [m]."""
+ARM_ROOM_M = 0.42
+"""Clearance of a standoff at which the arm can be raised freely [m]."""
+CHUNK = 6000
 REACH_M = 0.38
 """Ahead of the feet; further out the trunk leans, or the arm is stretched [m]."""
 ASIDE_M = (0.06, 0.13, 0.20, 0.27, 0.34)
@@ -49,8 +52,8 @@ class Lean:
 
 
 LEANS = (
-    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38), 0.0),
-    Lean(0.25, 0.0, (0.36, 0.40, 0.44), 0.20),
+    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38, 0.42), 0.0),
+    Lean(0.25, 0.0, (0.36, 0.40, 0.44, 0.48), 0.20),
     Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40),
 )
 
@@ -117,6 +120,7 @@ def propose(
     radius_m: float,
     reference_cost: Array,
     seed: int,
+    limit: int,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
 
@@ -129,6 +133,7 @@ def propose(
         radius_m: of the body with its arms, where it turns and walks.
         reference_cost: cost of each reference, shape (m,).
         seed: of the spread.
+        limit: how many are enough.
     """
     parts = [
         _local(options, option, references, reference, side, lean)
@@ -143,12 +148,19 @@ def propose(
     walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
     cost = cost + reference_cost[tags[:, 1]] + SHARE_PER_M * walk
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
-    clearance = floor.clearances_m(stance[:, :2])
-    cost = cost + 0.5 * np.maximum(0.0, 0.16 - clearance)
-    order = np.argsort(np.where(clearance >= NARROW_M, cost, np.inf), kind="stable")
-    order = order[: int(np.sum(clearance >= NARROW_M))]
-    standoff = _standoffs(stance[order], floor, start, radius_m)
-    order, standoff = order[standoff > 0.0], standoff[standoff > 0.0]
+    order = np.argsort(cost, kind="stable")
+    standoffs = _Standoffs(floor, start, radius_m)
+    kept: list[np.ndarray] = []
+    backs: list[Array] = []
+    for first in range(0, total, CHUNK):
+        rows = order[first : first + CHUNK]
+        rows = rows[floor.clearances_m(stance[rows, :2]) >= NARROW_M]
+        back = standoffs.lengths(stance[rows])
+        kept.append(rows[back > 0.0])
+        backs.append(back[back > 0.0])
+        if sum(map(len, kept)) >= limit:
+            break
+    order, standoff = np.concatenate(kept), np.concatenate(backs)
     found = Candidates(
         stance=stance[order],
         standoff_m=standoff,
@@ -201,20 +213,31 @@ def _local(
     return stance, heading, cost, tags
 
 
-def _standoffs(stance: Array, floor: Floor, start: Stance, radius_m: float) -> Array:
-    """Length of the last straight steps: the first from a place that can be walked to (0: none)."""
-    labels = floor.regions(radius_m)
-    home = _home(floor, labels, start)
-    result = np.zeros(len(stance))
-    back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
-    for length in STEP_IN_M:
-        rows = np.flatnonzero(result == 0.0)
-        at = stance[rows, :2] + length * back[rows]
-        label = floor.label_at(labels, at)
-        free = (label > 0) & ((label == home) if home else True)
-        free &= floor.clearances_m(at) >= radius_m
-        result[rows[free]] = length
-    return result
+class _Standoffs:
+    """Lengths of the last straight steps, from places that can be walked to.
+
+    A place with room for the arm is preferred to one that only has room for the body.
+    """
+
+    def __init__(self, floor: Floor, start: Stance, radius_m: float) -> None:
+        self._floor = floor
+        self._radius = radius_m
+        self._labels = floor.regions(radius_m)
+        self._home = _home(floor, self._labels, start)
+
+    def lengths(self, stance: Array) -> Array:
+        """The first length that leads to such a place (0: none), shape (n,)."""
+        result = np.zeros(len(stance))
+        back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
+        for room in (ARM_ROOM_M, self._radius):
+            for length in STEP_IN_M:
+                rows = np.flatnonzero(result == 0.0)
+                at = stance[rows, :2] + length * back[rows]
+                label = self._floor.label_at(self._labels, at)
+                free = (label > 0) & ((label == self._home) if self._home else True)
+                free &= self._floor.clearances_m(at) >= room
+                result[rows[free]] = length
+        return result
 
 
 def _home(floor: Floor, labels: Array, start: Stance) -> int:
