@@ -68,15 +68,23 @@ class LivePlant:
         self._pace()
 
     def _exchange(self, *, patience_s: float) -> None:
-        """Take the controller's answer, waiting for it if need be."""
+        """Take the controller's answer to the state just published, waiting for it if need be.
+
+        A late answer to an older state is taken as well, but waited past: else the controller
+        would stay a period behind for ever.
+        """
+        asked_s = self._plant.time_s
         until_s = self._clock.now_s() + patience_s
-        while (command := self._motors.take()) is None:
+        while True:
+            if (command := self._motors.take()) is not None:
+                self._plant.write(command)
+                self._begun = True
+                if command.stamp_s >= asked_s:
+                    return
             now_s = self._clock.now_s()
             if now_s >= until_s:
                 return
             self._clock.sleep_until(now_s + POLL_S)
-        self._plant.write(command)
-        self._begun = True
 
     def _pace(self) -> None:
         """Sleep until the next period is due, and report once a second."""

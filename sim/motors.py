@@ -108,18 +108,17 @@ class Motors:
         Raises:
             DriverError: if a value is not finite or a shape is wrong; then nothing changes.
         """
-        rows = self._command
         fields = (command.q_des, command.qd_des, command.tau_ff, command.kp, command.kd)
-        sent = np.empty_like(rows)
-        for row, field in zip(sent, fields, strict=True):
-            if field.shape != row.shape:
-                raise DriverError(f"a command has shape {field.shape}, motors want {row.shape}")
-            row[:] = field
+        shape = self.limit_nm.shape
+        for field in fields:
+            if field.shape != shape:
+                raise DriverError(f"a command has shape {field.shape}, motors want {shape}")
+        sent = np.stack(fields)
         if not np.isfinite(sent).all():
             raise DriverError(f"a command is not finite: {_not_finite(sent)}")
         np.minimum(sent, self._upper, out=sent)
         np.maximum(sent, self._lower, out=sent)
-        rows[:] = sent
+        self._command[:] = sent
         self.command_stamp_s = command.stamp_s
         self.watchdog = False
         self._apply()

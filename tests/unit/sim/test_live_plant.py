@@ -48,14 +48,35 @@ def test_a_dead_controller_is_waited_for_then_the_motors_damp(parts, hold):
     assert clock.now_s() - before_s < 0.03  # no longer waited for
 
 
-def test_an_answering_controller_keeps_the_wall_clock(parts, hold):
+def test_an_answering_controller_keeps_the_wall_clock(parts, hold, monkeypatch):
     plant, live, motors, _, clock = parts
     begun_s = clock.now_s()
+    sleep, answered = clock.sleep_until, []
+
+    def answer_after_half_a_millisecond(time_s):
+        sleep(time_s)
+        if not answered or plant.time_s > answered[-1]:
+            answered.append(plant.time_s)
+            sleep(clock.now_s() + 0.0005)
+            motors.write(hold(plant.time_s))
+
+    monkeypatch.setattr(clock, "sleep_until", answer_after_half_a_millisecond)
     for _ in range(100):
-        motors.write(hold(motors.read().stamp_s))
         live.period()
-    assert plant.time_s == pytest.approx(0.2)
+    assert plant.time_s == pytest.approx(0.2, abs=0.003)
     assert clock.now_s() - begun_s == pytest.approx(0.2, abs=0.005)
+    assert plant.read().command_stamp_s >= plant.time_s - 0.003
+
+
+def test_a_late_answer_is_taken_and_the_next_one_waited_for(parts, hold):
+    plant, live, motors, _, clock = parts
+    motors.write(hold(plant.time_s))
+    live.period()
+    before_s = clock.now_s()
+    motors.write(hold(plant.time_s - 0.002))
+    live.period()
+    assert plant.read().command_stamp_s == pytest.approx(plant.time_s - 0.004)
+    assert clock.now_s() - before_s >= PATIENCE_S
 
 
 def test_faults_come_over_the_bus_and_wrong_ones_are_counted(parts):
