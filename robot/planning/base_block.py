@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from scipy import ndimage
 
@@ -21,7 +19,7 @@ def explain_no_path(floor: Floor, start: Stance, goal: Stance, *, needed_m: floa
     wider: Array | None = None
     for radius in np.arange(0.5 * needed_m, 0.0, -STEP_M).tolist():
         labels = floor.regions(radius)
-        at = _near_labels(floor, labels, ends)
+        at = [floor.home(labels, *end) for end in ends.tolist()]
         if at[0] and at[0] == at[1]:
             place = ends.mean(axis=0) if wider is None else _meeting(floor, wider, labels, ends)
             names = _neighbours(floor, place)
@@ -47,25 +45,9 @@ def explain_no_path(floor: Floor, start: Stance, goal: Stance, *, needed_m: floa
     )
 
 
-def _near_labels(floor: Floor, labels: Array, ends: Array) -> list[int]:
-    """Label of the free region nearest to each end, within 0.8 m (0: none)."""
-    result: list[int] = []
-    for end in ends:
-        best = 0
-        for radius in np.arange(0.0, 0.81, 2 * CELL_M).tolist():
-            angles = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
-            ring = end + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-            found = floor.label_at(labels, ring)
-            if found.any():
-                best = int(found[found > 0][0])
-                break
-        result.append(best)
-    return result
-
-
 def _meeting(floor: Floor, wider: Array, labels: Array, ends: Array) -> Array:
     """Where the two regions of the wider clearance meet through the narrower free space."""
-    first, second = _near_labels(floor, wider, ends)
+    first, second = (floor.home(wider, *end) for end in ends.tolist())
     grown, target, free = wider == first, wider == second, labels > 0
     if not first or not second:
         return ends[0 if not first else 1]

@@ -72,6 +72,24 @@ class Floor:
         found = labels[np.clip(row, 0, self._height - 1), np.clip(column, 0, self._width - 1)]
         return np.where(inside, found, 0)
 
+    def distance_to_m(self, mask: np.ndarray, xy: Array) -> Array:
+        """Distance of points, shape (n, 2), to the nearest cell of a mask of the grid [m], (n,)."""
+        if not mask.any():
+            return np.zeros(len(xy))
+        far = CELL_M * ndimage.distance_transform_edt(~mask)
+        at = [(xy[:, 1] - self._y0) / CELL_M, (xy[:, 0] - self._x0) / CELL_M]
+        return ndimage.map_coordinates(far, at, order=1, mode="nearest")
+
+    def home(self, labels: Array, x_m: float, y_m: float) -> int:
+        """Label of the free region nearest to a point, within 1 m (0: none)."""
+        angles = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+        circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        for radius in np.arange(0.0, 1.01, 0.1).tolist():
+            found = self.label_at(labels, radius * circle + (x_m, y_m))
+            if found.any():
+                return int(found[found > 0][0])
+        return 0
+
     def nearest(self, x_m: float, y_m: float) -> tuple[str, float]:
         """The solid nearest to a point and its distance [m] ("the edge of the map", if that is)."""
         best = ("the edge of the map", self._edge(x_m, y_m))

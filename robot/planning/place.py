@@ -20,7 +20,9 @@ from robot.se3 import SE3, Array
 LIFTS_M = (0.05, 0.03, 0.02)
 SPOT_STEP_M = 0.05
 MAX_SPOTS = 16
-EDGE_M = 0.02
+SHARE_PER_M = 1.5
+"""Cost of a metre between a spot and where the robot can stand."""
+EDGE_M = 0.025
 """Between an object and the edge of what it is put on [m]."""
 GAP_M = 0.04
 """Between two objects, or an object and the fingers around another [m]."""
@@ -42,11 +44,17 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
             clearance_m=place.clearance_m,
             height_m=shape.size_m[2],
         )
+    others = tuple(s for s in solids_of(around) if s.id != request.held.id)
+    floor = Floor(others, around.map.bounds_m)
     objects = tuple(thing for thing in around.objects if thing.id != request.held.id)
     if request.target is not None:
         spots, cost = np.array([request.target.p]), np.zeros(1)
     else:
         spots, cost = _free_spots(place, shape, objects, request.seed)
+        labels = floor.regions(body.description.body_radius_m)
+        walkable = (labels > 0) & (labels == floor.home(labels, *request.start[:2]))
+        far = floor.distance_to_m(walkable, spots[:, :2])
+        spots, cost = _spread(spots, cost + SHARE_PER_M * (far - np.min(far, initial=np.inf)))
         if not len(spots):
             return failure(
                 "no_free_spot",
@@ -54,7 +62,6 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
                 width_m=2 * _radius(shape),
                 objects=float(len(objects)),
             )
-    others = tuple(s for s in solids_of(around) if s.id != request.held.id)
     names = {info.id: info.name for info in around.map.objects}
     job = Job(
         kind="place",
@@ -67,7 +74,6 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         lifts_m=LIFTS_M,
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
-    floor = Floor(others, around.map.bounds_m)
     choice = search(
         body, job, floor, sides=(request.side,), start=request.start, seed=request.seed
     )
@@ -111,7 +117,7 @@ def _radius(shape: Shape) -> float:
 def _free_spots(
     place: Place, shape: Shape, objects: tuple[ObjectPose, ...], seed: int
 ) -> tuple[Array, Array]:
-    """Spots for the object's origin, shape (m, 3), and their costs (m,), best first.
+    """Spots for the object's origin, shape (m, 3), and their costs (m,).
 
     Spots away from other things and near the middle of the place are liked.
     """
@@ -132,13 +138,14 @@ def _free_spots(
         gap = np.minimum(gap, distance - _radius(thing.shape))
     cost = 0.15 * np.hypot(x, y) + 0.6 * np.maximum(0.0, 0.25 - gap)
     cost = cost + 0.05 * np.random.default_rng(seed).random(len(cost))
-    order = np.argsort(cost, kind="stable")
-    order = order[gap[order] > max(radius, FINGERS_M) + GAP_M]
-    return _spread(spots[order], cost[order])
+    free = gap > max(radius, FINGERS_M) + GAP_M
+    return spots[free], cost[free]
 
 
 def _spread(spots: Array, cost: Array) -> tuple[Array, Array]:
-    """At most `MAX_SPOTS` of them: the best, then each time the best 8 cm off those chosen."""
+    """At most `MAX_SPOTS` of them: the best, then the best that are 16 cm off those, and so on."""
+    order = np.argsort(cost, kind="stable")
+    spots, cost = spots[order], cost[order]
     chosen: list[int] = []
     for apart in (0.16, 0.08, 0.0):
         for i in range(len(spots)):

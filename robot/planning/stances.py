@@ -223,7 +223,7 @@ class _Standoffs:
         self._floor = floor
         self._radius = radius_m
         self._labels = floor.regions(radius_m)
-        self._home = _home(floor, self._labels, start)
+        self._home = floor.home(self._labels, start[0], start[1])
 
     def lengths(self, stance: Array) -> Array:
         """The first length that leads to such a place (0: none), shape (n,)."""
@@ -239,13 +239,3 @@ class _Standoffs:
                 result[rows[free]] = length
         return result
 
-
-def _home(floor: Floor, labels: Array, start: Stance) -> int:
-    """Label of the free region nearest to the start (0: none near)."""
-    angles = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
-    for radius in np.arange(0.0, 1.01, 0.1).tolist():
-        ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) * radius + start[:2]
-        found = floor.label_at(labels, ring)
-        if found.any():
-            return int(found[found > 0][0])
-    return 0
