@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from executive.skills.asking import pose_of
 from executive.skills.body import Body
 from executive.skills.reaching import move_arm
 from executive.skills.script import Script
-from executive.skills.stepping import miss, step_to
+from executive.skills.stepping import is_at_stance, step_to
 from executive.skills.walking import stand_still, walk_to
 from robot.messages import Side
-from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
-
-THERE_M = 0.025
-THERE_RAD = 0.05
+from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan
 
 
 def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
     """Walk to the standoff, raise the hand, step in to the stance and take the posture."""
     keep_upright = body.context.holdings.at(plan.side) is not None
-    if not _is_there(body, plan.stance):
+    if not is_at_stance(body, plan.stance):
         body.phase = f"walking to the {what}"
         yield from walk_to(body, plan.standoff)
     body.phase = f"raising the {plan.side} hand"
@@ -28,7 +24,7 @@ def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[Non
 
 def step_in(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
     """Step to the stance, the hand being raised, and take the posture."""
-    if not _is_there(body, plan.stance):
+    if not is_at_stance(body, plan.stance):
         body.phase = f"stepping up to the {what}"
         yield from step_to(body, plan.stance)
     if plan.posture != BodyPosture():
@@ -53,8 +49,3 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     body.phase = f"bringing the {side} arm in"
     keep_upright = body.context.holdings.at(side) is not None
     yield from move_arm(body, side, arm_rad, keep_upright=keep_upright)
-
-
-def _is_there(body: Body, stance: Stance) -> bool:
-    off_m, off_rad = miss(body.X_WS, pose_of(stance))
-    return off_m < THERE_M and off_rad < THERE_RAD

@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from robot.messages import Side
+from robot.planning.requests import Joints
 from robot.se3 import SE3
 
 
@@ -17,6 +18,7 @@ class Held(msgspec.Struct, frozen=True, kw_only=True):
         X_GO: the object in the grasp frame, as it sits between the fingers.
         gap_m: opening of the fingers around it.
         mass_kg: what the body was told it weighs.
+        carry_rad: joints of the arm that carry it upright near the body.
     """
 
     object_id: str
@@ -24,6 +26,7 @@ class Held(msgspec.Struct, frozen=True, kw_only=True):
     X_GO: SE3
     gap_m: float
     mass_kg: float
+    carry_rad: Joints
 
 
 class Holdings:

@@ -47,6 +47,7 @@ class Pick(ScriptedSkill):
         super().__init__(context)
         self.parameters = parameters
         self._tare_n = 0.0
+        self._reached = False
         self._X_WG_closed: SE3 | None = None
 
     def script(self) -> Script[None]:
@@ -111,10 +112,18 @@ class Pick(ScriptedSkill):
         self._tare_n = body.hand(side).load_n
         gap_m = yield from close_fingers(body, side)
         self._X_WG_closed = body.X_WG(side)
-        X_GO = body.X_WG(side).inverse() @ self._where(info, X_WO)
+        X_GO = _centred(body.X_WG(side).inverse() @ self._where(info, X_WO))
         self._check_gap(info, plan, gap_m)
-        held = Held(object_id=info.id, side=side, X_GO=X_GO, gap_m=gap_m, mass_kg=info.mass_kg)
-        body.context.holdings.take(held)
+        body.context.holdings.take(
+            Held(
+                object_id=info.id,
+                side=side,
+                X_GO=X_GO,
+                gap_m=gap_m,
+                mass_kg=info.mass_kg,
+                carry_rad=plan.carry_rad,
+            )
+        )
         set_payload(body, side, info.mass_kg)
         return plan
 
@@ -136,6 +145,7 @@ class Pick(ScriptedSkill):
                 plan = yield from self._plan(info, attempt=attempt + 1)
                 yield from self._step_over(plan, info)
                 continue
+            self._reached = True
             return plan, X_WO
         raise AssertionError("unreachable")
 
@@ -198,11 +208,16 @@ class Pick(ScriptedSkill):
             if self._X_WG_closed is not None:
                 X_WG_closed = self._X_WG_closed  # never let go above nothing
                 yield from move_hand(body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S)
-            yield from open_fingers(body, side)
-            back = plan.X_WG_grasp.inverse() @ plan.X_WG_pre
-            X_WG_back = body.X_WG(side) @ back
-            body.phase = "drawing the hand back"
-            yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=APPROACH_M_S)
+            if self._reached:
+                yield from open_fingers(body, side)
+                body.phase = "drawing the hand back"
+                X_WG_back = body.X_WG(side) @ (plan.X_WG_grasp.inverse() @ plan.X_WG_pre)
+                yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=APPROACH_M_S)
             yield from withdraw(body, plan, posture_rad(body, side, HOME), what=info.name)
         except GaveUp:
             return  # the first failure is the one to report; the halting script does the rest
+
+
+def _centred(X_GO: SE3) -> SE3:
+    """The two coupled fingers centre what they close on: no offset along their direction y."""
+    return SE3((X_GO.p[0], 0.0, X_GO.p[2]), X_GO.quat_wxyz)

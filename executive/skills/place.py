@@ -57,7 +57,11 @@ class PutDown(ScriptedSkill):
         body.progress = 0.1
         yield from approach(body, plan, what=place.name)
         body.progress = 0.5
-        yield from self._lower(info, place, plan, held)
+        try:
+            yield from self._lower(info, place, plan, held)
+        except GaveUp as end:
+            yield from self._back_off(place, plan, held)
+            raise end
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
         yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
@@ -114,6 +118,19 @@ class PutDown(ScriptedSkill):
             f"something holds the {info.name} {high_m * 100:.0f} cm above the {place.name}",
             high_m=round(high_m, 3),
         )
+
+    def _back_off(self, place: Place, plan: PlacePlan, held: Held) -> Script[None]:
+        """After a failure over the place: raise what is still held, step back, arm in."""
+        body, side = self.body, plan.side
+        holding = body.context.holdings.at(side) is not None
+        try:
+            if body.X_WG(side).p[2] < plan.X_WG_pre.p[2]:
+                X_WG_up = _shifted(body.X_WG(side), plan.X_WG_pre.p[2] - body.X_WG(side).p[2])
+                yield from move_hand(body, side, lambda: X_WG_up, speed_m_s=MOVE_M_S)
+            arm_rad = held.carry_rad if holding else posture_rad(body, side, HOME)
+            yield from withdraw(body, plan, arm_rad, what=place.name)
+        except GaveUp:
+            return  # the first failure is the one to report; the halting script does the rest
 
     def _let_go(self, info: ObjectInfo, plan: PlacePlan, held: Held) -> Script[None]:
         """Open and draw the hand back straight."""

@@ -8,16 +8,21 @@ from executive.skills.asking import pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.gripping import check_grips
 from executive.skills.script import Script, give_up
-from robot.messages import WalkTo
+from robot.messages import Stand, WalkTo
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
 POSITION_TOLERANCE_M = 0.03
 YAW_TOLERANCE_RAD = math.radians(3.0)
 CORRECTIONS = 2
+THERE_M = 0.02
+THERE_RAD = 0.035
 MOVED_M = 0.015
 MOVED_RAD = 0.015
 REAIM_EVERY_S = 0.5
+AIM_TOLERANCE_M = 0.02
+AIM_TOLERANCE_RAD = 0.035
+STAND_TIMEOUT_S = 5.0
 SETTLE_S = 0.3
 SECONDS_PER_METRE = 15.0
 SECONDS_PER_RADIAN = 6.0
@@ -53,6 +58,12 @@ def step_to(
     )
 
 
+def is_at_stance(body: Body, goal: Stance) -> bool:
+    """Whether the robot stands there already, exactly enough not to step at all."""
+    off_m, off_rad = miss(body.X_WS, pose_of(goal))
+    return body.state.mode == "stand" and off_m <= THERE_M and off_rad <= THERE_RAD
+
+
 def miss(X_WA: SE3, X_WB: SE3) -> tuple[float, float]:
     """Distance on the floor [m] and angle between headings [rad] of two stances."""
     off_rad = abs(wrap_angle(X_WA.yaw_rad - X_WB.yaw_rad))
@@ -75,7 +86,8 @@ def _step_once(body: Body, X_WS_goal: SE3) -> Script[None]:
         if activity is not None and activity.status == "failed":
             raise give_up("walk_stalled", f"while {body.phase}: {activity.detail or 'no step'}")
         if body.now_s > end_s:
-            raise give_up("walk_stalled", f"while {body.phase}: not there in {timeout_s:.0f} s")
+            yield from _stand(body)  # near enough or not: the caller looks
+            return
         moved_m, moved_rad = miss(aim, body.to_N(X_WS_goal))
         if body.now_s - aimed_s > REAIM_EVERY_S and (moved_m > MOVED_M or moved_rad > MOVED_RAD):
             aim, command_id = _aim(body, X_WS_goal)
@@ -86,7 +98,23 @@ def _aim(body: Body, X_WS_goal: SE3) -> tuple[SE3, int]:
     """Send the body to a stance; returns it in N, and the command's id."""
     X_NS = body.to_N(X_WS_goal)
     x_m, y_m, yaw_rad = stance_of(X_NS)
-    return X_NS, body.send(WalkTo(**body.header(), x_m=x_m, y_m=y_m, yaw_rad=yaw_rad))
+    command = WalkTo(
+        **body.header(),
+        x_m=x_m,
+        y_m=y_m,
+        yaw_rad=yaw_rad,
+        position_tolerance_m=AIM_TOLERANCE_M,
+        yaw_tolerance_rad=AIM_TOLERANCE_RAD,
+    )
+    return X_NS, body.send(command)
+
+
+def _stand(body: Body) -> Script[None]:
+    body.send(Stand(**body.header()))
+    end_s = body.now_s + STAND_TIMEOUT_S
+    yield
+    while body.state.mode != "stand" and body.now_s < end_s:
+        yield
 
 
 def _words(stance: Stance) -> str:

@@ -16,7 +16,7 @@ from executive.skills.gripping import check_grips
 from executive.skills.looking import look_at
 from executive.skills.obstructions import in_the_way
 from executive.skills.script import Script, give_up
-from executive.skills.stepping import miss, step_to
+from executive.skills.stepping import is_at_stance, miss, step_to
 from robot.messages import Obstacle, Stand, Walk
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import wrap_angle
@@ -47,6 +47,8 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
 
     Gives up with the planner's failure, `path_blocked`, `walk_stalled` or `object_dropped`.
     """
+    if is_at_stance(body, goal):
+        return
     if _is_near(body, goal):
         yield from step_to(body, goal)
         return
@@ -151,7 +153,7 @@ class _Watch:
         self.body = body
         self._end_s = body.now_s + LEAST_TIMEOUT_S + SECONDS_PER_METRE * whole_m
         self._looked_s = -math.inf
-        self._X_WS = body.X_WS
+        self._anchor = body.X_WS
         self._moved_s = body.now_s
         self._blocked_since_s: float | None = None
 
@@ -167,9 +169,9 @@ class _Watch:
     def check_progress(self, remaining_m: float) -> None:
         """Give up when the body has neither moved nor turned for long, or walks in circles."""
         X_WS, now_s = self.body.X_WS, self.body.now_s
-        moved_m, turned_rad = miss(X_WS, self._X_WS)
+        moved_m, turned_rad = miss(X_WS, self._anchor)
         if moved_m > STALLED_M or turned_rad > STALLED_RAD:
-            self._X_WS, self._moved_s = X_WS, now_s
+            self._anchor, self._moved_s = X_WS, now_s
         if now_s - self._moved_s > STALLED_S or now_s > self._end_s:
             raise give_up(
                 "walk_stalled",

@@ -4,8 +4,10 @@ import math
 
 import pytest
 
+from executive.skills.body import Body
 from executive.skills.holding import Held
 from executive.skills.parameters import FloorPose, NavigateParams, Step
+from executive.skills.reaching import posture_rad
 from robot.errors import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
 from robot.planning.requests import BasePathRequest
@@ -179,7 +181,14 @@ def test_a_dropped_object_stops_the_walk(stage):
     stage.puppet._openings["right"] = thing.width_m
     stage.puppet._wanted["right"] = 0.0
     stage.puppet.slips_at_s = 4.0
-    held = Held(object_id="cup", side="right", X_GO=SE3(), gap_m=0.07, mass_kg=0.2)
+    held = Held(
+        object_id="cup",
+        side="right",
+        X_GO=SE3(),
+        gap_m=0.07,
+        mass_kg=0.2,
+        carry_rad=posture_rad(Body(stage.context), "right", "nominal"),
+    )
     stage.context.holdings.take(held)
     report = stage.run(to(3.0, 0.0))
     assert report.failure.code == "object_dropped"

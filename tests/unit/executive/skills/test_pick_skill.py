@@ -228,9 +228,9 @@ def test_the_planners_refusal_is_reported_as_it_is(stage):
 
 
 PHASES = (
-    "planning,walking,raising,stepping up,leaning,looking,reaching,moving in,closing,lifting,"
-    "straightening,stepping back,bringing"
-).split(",")
+    *("planning", "walking", "raising", "stepping up", "leaning", "looking", "reaching"),
+    *("moving in", "closing", "lifting", "straightening", "stepping back", "bringing"),
+)
 
 
 @pytest.mark.parametrize("phase", PHASES)
