@@ -1,0 +1,109 @@
+"""The map explains what it can; what it cannot is reported where it is."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robot.fusion.unmapped import FORGET_S, SCANS_TO_BELIEVE, UnmappedObstacles
+from robot.messages import LidarScan, Obstacle, Shape
+from robot.se3 import SE3
+
+BEAMS = 180
+STEP_RAD = 2 * math.pi / BEAMS
+TABLE = Obstacle(
+    id="table", name="table", X_WO=SE3.from_xy_yaw(2.0, 0.0, 0.4),
+    shapes=(Shape(kind="box", size_m=(0.6, 1.2, 0.7), X_BodyShape=SE3((0.0, 0.0, 0.35))),),
+)  # fmt: skip
+
+
+def scan(stamp_s: float, X_WL: SE3, discs: list[tuple[float, float, float]]) -> LidarScan:
+    """What a lidar at X_WL (upright) measures of upright cylinders (x, y, radius) in W."""
+    ranges = []
+    for k in range(BEAMS):
+        angle = -math.pi + k * STEP_RAD + X_WL.yaw_rad
+        ux, uy = math.cos(angle), math.sin(angle)
+        best = math.inf
+        for x, y, radius in discs:
+            dx, dy = x - X_WL.p[0], y - X_WL.p[1]
+            along, across = dx * ux + dy * uy, dx * uy - dy * ux
+            if along > 0 and abs(across) < radius:
+                best = min(best, along - math.sqrt(radius**2 - across**2))
+        ranges.append(best)
+    return LidarScan(
+        stamp_s=stamp_s, angle_min_rad=-math.pi, angle_step_rad=STEP_RAD, ranges_m=tuple(ranges)
+    )
+
+
+@pytest.fixture
+def unmapped() -> UnmappedObstacles:
+    unmapped = UnmappedObstacles(body_radius_m=0.27)
+    unmapped.know((TABLE,))
+    return unmapped
+
+
+def look(unmapped, discs, *, scans=SCANS_TO_BELIEVE, X_WL=None, begin_s=0.0):
+    X_WL = X_WL or SE3.from_xy_yaw(0.0, 0.0, 0.3, z_m=0.6)
+    for k in range(scans):
+        unmapped.see(scan(begin_s + 0.1 * k, X_WL, discs), X_WL)
+    return unmapped.obstacles()
+
+
+def test_a_person_beside_the_map_is_found_where_they_stand(unmapped):
+    (found,) = look(unmapped, [(1.0, 1.5, 0.25)])
+    assert math.dist(found.X_WO.p[:2], (1.0, 1.5)) < 0.3
+    (shape,) = found.shapes
+    assert min(shape.size_m[:2]) > 0.1
+    assert max(shape.size_m[:2]) < 0.7
+
+
+def test_what_the_map_has_is_no_news(unmapped):
+    discs = [(2.0, 0.0, 0.05), (2.0 + 0.25 * math.cos(0.4), 0.25 * math.sin(0.4), 0.1)]
+    assert look(unmapped, discs, scans=10) == ()
+
+
+def test_one_scan_is_not_believed(unmapped):
+    assert look(unmapped, [(1.0, 1.5, 0.25)], scans=1) == ()
+
+
+def test_it_is_forgotten_when_it_is_gone(unmapped):
+    assert look(unmapped, [(1.0, 1.5, 0.25)])
+    assert look(unmapped, [], begin_s=0.3, scans=2)
+    assert look(unmapped, [], begin_s=0.5 + FORGET_S, scans=1) == ()
+
+
+def test_someone_who_walks_stays_one_obstacle(unmapped):
+    X_WL = SE3.from_xy_yaw(0.0, 0.0, 0.0, z_m=0.6)
+    for k in range(20):
+        unmapped.see(scan(0.1 * k, X_WL, [(-1.0, 1.5 - 0.1 * k, 0.25)]), X_WL)
+    found = [one for one in unmapped.obstacles() if one.X_WO.p[0] < 0]
+    assert [one for one in found if abs(one.X_WO.p[1] - (1.5 - 1.9)) < 0.3]
+    assert len({one.id for one in found}) <= 2
+
+
+def test_a_tilted_lidar_that_hits_the_floor_reports_nothing(unmapped):
+    X_WL = SE3.from_rpy(0.0, 0.3, 0.0, (0.0, 0.0, 0.6))
+    ranges = []
+    for k in range(BEAMS):
+        down = -(X_WL.rotation() @ [math.cos(-math.pi + k * STEP_RAD),
+                                    math.sin(-math.pi + k * STEP_RAD), 0.0])[2]  # fmt: skip
+        ranges.append(0.6 / down if down > 0.05 else math.inf)
+    for k in range(5):
+        unmapped.see(
+            LidarScan(
+                stamp_s=k, angle_min_rad=-math.pi, angle_step_rad=STEP_RAD, ranges_m=tuple(ranges)
+            ),
+            X_WL,
+        )
+    assert unmapped.obstacles() == ()
+
+
+def test_the_robots_own_hands_are_not_obstacles(unmapped):
+    assert look(unmapped, [(0.28, 0.1, 0.04)], scans=5) == ()
+
+
+def test_an_empty_scan_and_an_empty_map_are_fine():
+    unmapped = UnmappedObstacles(body_radius_m=0.27)
+    assert look(unmapped, []) == ()
+    assert len(look(unmapped, [(1.0, 1.0, 0.3)])) == 1
+    assert np.isfinite(unmapped.obstacles()[0].X_WO.p).all()
