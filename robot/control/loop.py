@@ -1,7 +1,7 @@
 """The controller: motor states in, motor commands out, at the bus rate.
 
-Every second tick the whole body is computed anew; the tick between repeats the last command with
-fresh measurements. Nothing here reads a clock: time comes with the state.
+At `solve_rate_hz` the whole body is computed anew; the ticks between repeat the last command, with
+the last clamp on fresh measurements. Nothing here reads a clock: time comes with the state.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ UPRIGHT_TILT_RAD = 0.35
 class ControlLoop:
     """One robot's controller."""
 
-    def __init__(self, description: RobotDescription, *, ticks_per_solve: int = 2) -> None:
+    def __init__(self, description: RobotDescription, *, solve_rate_hz: float = 200.0) -> None:
         """Compile the model; nothing is commanded before the first `tick`.
 
         Raises:
@@ -67,8 +67,8 @@ class ControlLoop:
         self.whole = WholeBody(self.body)
         self.limits = Limits(self.body)
         self.mode: Mode = "damping"
-        self._ticks_per_solve = ticks_per_solve
-        self._ticks = 0
+        self._ticks_per_solve = 1.0 / (solve_rate_hz * BUS_PERIOD_S)
+        self._ticks_to_solve = 0.0
         self._started = False
         self._failure: Failure | None = None
         self._nominal_mass: Array = np.array(self.body.model.body_mass)
@@ -211,11 +211,12 @@ class ControlLoop:
         self._gyro += state.gyro_rad_s
         self._accel += state.accel_m_s2
         self._samples += 1
-        self._ticks += 1
-        if (self._ticks - 1) % self._ticks_per_solve == 0:
+        if self._ticks_to_solve < 0.5:
+            self._ticks_to_solve += self._ticks_per_solve
             self._solve(state)
         else:
             self._command.stamp_s = state.stamp_s
+        self._ticks_to_solve -= 1.0
         self._command = self.limits.apply(self._command, state)
         if self.limits.tripped and self.mode not in ("damping", "fallen"):
             self.mode = "damping"

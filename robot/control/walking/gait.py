@@ -34,6 +34,10 @@ STOP_S = 0.40
 URGENT_START_S = 0.06
 SETTLE_S = 0.25
 TOUCHDOWN_LOAD = 0.02
+STAMP_LOAD = 0.3  # a swing foot that bears this much is down, whatever was planned
+STAMP_S = 0.12
+MAX_UNUSED_S = 0.1
+ESCAPE_MARGIN_M = 0.0
 LATE_S = 0.25
 DEADBAND_M = 0.02
 FREEZE_S = 0.08
@@ -163,6 +167,8 @@ class Gait:
         self.phase_s += dt_s
         if self.phase == "stand":
             self._update_stand(xi)
+        elif self.phase == "double" and not self._landings and self._escapes(xi):
+            self._begin(swing=self._trailing(xi), start_s=URGENT_START_S)
         elif self.phase == "double" and self.phase_s >= self.duration_s:
             if self._landings:
                 self._start_single()
@@ -173,12 +179,8 @@ class Gait:
         return self._reference(dt_s, xi)
 
     def _update_stand(self, xi: Point) -> None:
-        if self._polygon.margin_m(xi) < -0.005:
-            forward, left, _ = self._stance().relative(Sole(xi[0], xi[1], 0.0))
-            swing: Side = "left" if left > 0.0 else "right"
-            if abs(forward) > abs(left):
-                swing = "left" if left < 0.0 else "right"
-            self._begin(swing=swing, start_s=URGENT_START_S)
+        if self._escapes(xi):
+            self._begin(swing=self._trailing(xi), start_s=URGENT_START_S)
             return
         if self.phase_s > SETTLE_S and self._wants_step():
             assert self.wish is not None
@@ -192,6 +194,21 @@ class Gait:
                 swing = support
             self._begin(swing=swing, start_s=START_S)
 
+    def _escapes(self, xi: Point) -> bool:
+        """Is the DCM where no ZMP inside the support brings it back?"""
+        return self._polygon.margin_m(xi) < ESCAPE_MARGIN_M
+
+    def _trailing(self, xi: Point) -> Side:
+        """The foot that a step catches an escaping DCM with."""
+        stance = self._stance()
+        forward, left, _ = stance.relative(Sole(xi[0], xi[1], 0.0))
+        lead, _, _ = self.planted["left"].relative(self.planted["right"])
+        if abs(left) > abs(forward):
+            return "left" if left > 0.0 else "right"  # outward: the other way the legs would cross
+        if abs(lead) > 0.05:
+            return "left" if (lead > 0.0) == (forward > 0.0) else "right"
+        return "left" if left < 0.0 else "right"
+
     def _update_single(
         self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]
     ) -> None:
@@ -200,14 +217,16 @@ class Gait:
         if not self._one_leg_s:
             self._adjust(dt_s, xi)
         self.swing.advance(dt_s)
-        down = load[SIDES.index(side)] > TOUCHDOWN_LOAD
-        early = self.phase_s > 0.6 * self.duration_s and self.swing.vz <= 0.0
-        if (down and early) or self.phase_s > self.duration_s + LATE_S:
+        bears = load[SIDES.index(side)]
+        expected = self.phase_s > 0.6 * self.duration_s and self.swing.vz <= 0.0
+        touches = bears > TOUCHDOWN_LOAD and expected
+        stamps = bears > STAMP_LOAD and self.phase_s > STAMP_S
+        if touches or stamps or self.phase_s > self.duration_s + LATE_S:
             self._touch_down(side, measured)
 
     def _touch_down(self, side: Side, measured: dict[Side, Sole]) -> None:
         """The swing foot bears: plan the next double support from where it really stands."""
-        unused_s = max(0.0, self.duration_s - self.phase_s)
+        unused_s = max(0.0, min(MAX_UNUSED_S, self.duration_s - self.phase_s))
         going_on = len(self._landings) > 1
         before = self.support
         self.planted[side] = measured[side]
