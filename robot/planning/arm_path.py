@@ -75,7 +75,7 @@ class Corridor:
     def line_free(self, a: Array, b: Array) -> bool:
         """Whether the straight line between two free states is free."""
         count = max(2, math.ceil(float(np.linalg.norm(b - a)) / RESOLUTION_RAD))
-        order = sorted(range(1, count), key=lambda i: (i & -i), reverse=True)
+        order = sorted(range(1, count), key=lambda i: i & -i, reverse=True)
         return all(self.free(a + (b - a) * (i / count)) for i in order)
 
     def all_free(self, path: Array) -> bool:
@@ -159,10 +159,14 @@ def _goals(
             return found
     else:
         found = [np.array(request.goal)]
-        if len(found[0]) != len(start) or np.any(found[0] < arm.lower - 0.01) or np.any(
-            found[0] > arm.upper + 0.01
+        if (
+            len(found[0]) != len(start)
+            or np.any(found[0] < arm.lower - 0.01)
+            or np.any(found[0] > arm.upper + 0.01)
         ):
-            return failure("invalid_goal", "the joint values asked for are outside the arm's limits")
+            return failure(
+                "invalid_goal", "the joint values asked for are outside the arm's limits"
+            )
         found = [np.clip(found[0], arm.lower, arm.upper)]
     free = [q for q in found if not corridor.touches(q)]
     if free:
@@ -253,7 +257,9 @@ def _find(
     )
 
 
-def _timed(corridor: Corridor, corners: Array, velocity: Array, acceleration: Array) -> Timed | None:
+def _timed(
+    corridor: Corridor, corners: Array, velocity: Array, acceleration: Array
+) -> Timed | None:
     """The path with its corners cut as far as is free, timed; None if its spline is not free."""
     cuts = np.zeros(len(corners))
     for i in range(1, len(corners) - 1):

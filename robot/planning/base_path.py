@@ -17,7 +17,7 @@ from robot.planning.base_block import explain_no_path
 from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.requests import BasePath, BasePathRequest, Stance
-from robot.planning.solids import solids_of
+from robot.planning.solids import Solid, solids_of
 from robot.se3 import Array, wrap_angle
 
 ESCAPE_M = 1.0
@@ -25,6 +25,10 @@ ESCAPE_M = 1.0
 SPACING_M = 0.25
 CUT_M = 0.35
 """Distance of waypoints, and most that is cut off a corner [m]."""
+NARROW_M = 0.06
+"""Least distance of a goal's middle to any outline [m]."""
+START_OVERLAP_M = 0.03
+"""Where the robot stands it may seem to overlap things by this much [m]."""
 CHECKS = 20_000
 TRIES = 3
 TURN_ON_THE_SPOT_RAD = 0.35
@@ -34,21 +38,13 @@ def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
     """Waypoints from the start to the goal, or why there are none."""
     solids = solids_of(request.around)
     floor = Floor(solids, request.around.map.bounds_m)
-    for stance, code, verb in (
-        (request.start, "start_in_collision", "stands"),
-        (request.goal, "goal_in_collision", "would stand"),
+    for stance, code, overlap in (
+        (request.start, "start_in_collision", START_OVERLAP_M),
+        (request.goal, "goal_in_collision", 0.0),
     ):
-        touch = body.trunk_touch(solids, stance)
-        if touch is not None:
-            x, y, _ = stance
-            return failure(
-                code,
-                f"where the robot {verb}, its {touch.first} touches {touch.second}",
-                x_m=x,
-                y_m=y,
-                blocked_by=touch.second,
-                overlap_m=-touch.distance_m,
-            )
+        problem = _standing_problem(body, solids, floor, stance, code=code, overlap_m=overlap)
+        if problem is not None:
+            return problem
     robot = body.description
     radius = robot.body_radius_m
     for level in (radius + request.clearance_m, radius + 0.3 * request.clearance_m, 0.9 * radius):
@@ -56,6 +52,41 @@ def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
         if path is not None:
             return path
     return explain_no_path(floor, request.start, request.goal, needed_m=1.8 * radius)
+
+
+def _standing_problem(
+    body: Body,
+    solids: tuple[Solid, ...],
+    floor: Floor,
+    stance: Stance,
+    *,
+    code: str,
+    overlap_m: float,
+) -> Failure | None:
+    """What the robot touches where it stands or would stand, by more than `overlap_m`."""
+    x, y, _ = stance
+    verb = "stands" if code == "start_in_collision" else "would stand"
+    touch = body.trunk_touch(solids, stance)
+    if touch is not None and touch.distance_m < -overlap_m:
+        return failure(
+            code,
+            f"where the robot {verb}, its {touch.first} touches {touch.second}",
+            x_m=x,
+            y_m=y,
+            blocked_by=touch.second,
+            overlap_m=-touch.distance_m,
+        )
+    if code == "goal_in_collision" and floor.clearance_m(x, y) < NARROW_M:
+        name, distance = floor.nearest(x, y)
+        return failure(
+            code,
+            f"where the robot {verb}, there is {name}",
+            x_m=x,
+            y_m=y,
+            blocked_by=name,
+            distance_m=distance,
+        )
+    return None
 
 
 def _plan_at(

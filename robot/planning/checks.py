@@ -198,4 +198,3 @@ class Checker:
             if touch is not None:
                 return touch
         return None
-

@@ -147,9 +147,7 @@ def _lifts(height_m: float) -> list[tuple[float, float]]:
     return sorted(lifts.items())
 
 
-def _standing_cylinder(
-    shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float
-) -> list[HandOption]:
+def _standing_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
     diameter, _, height = shape.size_m
     if diameter > limit_m:
         return []

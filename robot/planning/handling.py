@@ -167,9 +167,7 @@ class _Entry:
     q_main: Array
 
 
-def _reachable(
-    body: Body, job: Job, side: Side, some: Candidates, tally: Tally
-) -> list[_Entry]:
+def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally) -> list[_Entry]:
     """Those of one hand whose main pose is reached."""
     arm = body.arms[side]
     main = reach.targets_of(some, job.options, job.references)
@@ -217,18 +215,21 @@ def _closely(
                 continue
             margin = float(np.min(reach.margins(arm, q[[0, 2, k], i])))
             score = margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady[i])
-            yield score, Choice(
-                side=side,
-                candidate=entry.candidate,
-                option=job.options[int(entry.candidate.option[0])],
-                main=main,
-                back=back,
-                up=up,
-                q_main=q[0, i],
-                q_back=q[2, i],
-                q_up=q[k, i],
-                q_ready=q_ready,
-                margin=margin * float(steady[i]),
+            yield (
+                score,
+                Choice(
+                    side=side,
+                    candidate=entry.candidate,
+                    option=job.options[int(entry.candidate.option[0])],
+                    main=main,
+                    back=back,
+                    up=up,
+                    q_main=q[0, i],
+                    q_back=q[2, i],
+                    q_up=q[k, i],
+                    q_ready=q_ready,
+                    margin=margin * float(steady[i]),
+                ),
             )
             break
         if q_ready is None:

@@ -200,9 +200,7 @@ class Chain:
         return np.linalg.svd(jacobian, compute_uv=False)[:, -1]
 
 
-def _damped_step(
-    transposed: Array, error: Array, pull: Array, gain: Array | None = None
-) -> Array:
+def _damped_step(transposed: Array, error: Array, pull: Array, gain: Array | None = None) -> Array:
     """One step for every target, shape (n, k); the Jacobians come transposed, (n, k, 6)."""
     jacobian = transposed.transpose(0, 2, 1)
     squared = np.sum(error**2, axis=1)

@@ -74,9 +74,7 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         lifts_m=LIFTS_M,
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
-    choice = search(
-        body, job, floor, sides=(request.side,), start=request.start, seed=request.seed
-    )
+    choice = search(body, job, floor, sides=(request.side,), start=request.start, seed=request.seed)
     return choice if isinstance(choice, Failure) else _plan(choice, request)
 
 
@@ -156,4 +154,3 @@ def _spread(spots: Array, cost: Array) -> tuple[Array, Array]:
             ):
                 chosen.append(i)
     return spots[chosen], cost[chosen]
-

@@ -91,9 +91,7 @@ def targets_of(candidates: Candidates, options: list[HandOption], references: Ar
     return Targets(turn @ R0, at)
 
 
-def trunks_of(
-    body: Body, side: Side, candidates: Candidates, *, upright: bool = False
-) -> Trunks:
+def trunks_of(body: Body, side: Side, candidates: Candidates, *, upright: bool = False) -> Trunks:
     """Where the arm hangs at every candidate's stance, in its posture (or standing upright)."""
     poses = [body.standing(lean.posture(side)).X_ST[side] for lean in LEANS]
     lean = np.zeros_like(candidates.lean) if upright else candidates.lean
@@ -125,9 +123,7 @@ def first_reach(body: Body, arm: Arm, trunks: Trunks, targets: Targets) -> Reach
         rows = np.flatnonzero(~result.ok)
         if not len(rows):
             break
-        tried = reach(
-            arm, trunks.take(rows), targets.take(rows), np.tile(seed, (len(rows), 1))
-        )
+        tried = reach(arm, trunks.take(rows), targets.take(rows), np.tile(seed, (len(rows), 1)))
         better = tried.ok | (tried.short_m < result.short_m[rows])
         result.q[rows[better]] = tried.q[better]
         result.ok[rows[better]] = tried.ok[better]

@@ -181,8 +181,7 @@ def _local(
     choice, posture = options[option], LEANS[lean]
     sign = 1.0 if side == "left" else -1.0
     ahead, aside, turn = (
-        values.ravel()
-        for values in np.meshgrid(posture.ahead_m, ASIDE_M, TURNS_RAD, indexing="ij")
+        values.ravel() for values in np.meshgrid(posture.ahead_m, ASIDE_M, TURNS_RAD, indexing="ij")
     )
     natural = -sign * (0.75 - 3.0 * aside) * (0.5 if posture.pitch_rad else 1.0)
     beta = natural + turn
@@ -238,4 +237,3 @@ class _Standoffs:
                 free &= self._floor.clearances_m(at) >= room
                 result[rows[free]] = length
         return result
-

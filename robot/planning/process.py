@@ -1,0 +1,164 @@
+"""The planner of `live` runs: a process of its own, with a budget of wall time.
+
+What runs over its budget, or is cancelled, is killed with its process; another is started.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+
+from robot.clock import Clock, WallClock
+from robot.errors import failure
+from robot.model.description import RobotDescription
+from robot.planning.requests import PlanRequest, PlanResult
+
+BUDGET_S = 5.0
+
+
+@dataclass(slots=True)
+class _Waiting:
+    """A request in line or in work; `deadline_s` on the wall, set when it is sent."""
+
+    request: PlanRequest
+    deadline_s: float | None = None
+
+
+class ProcessPlanner:
+    """One worker process, one request at a time, in the order they came. A context manager.
+
+    The process is started at once (it takes about a second) and again after each kill.
+    """
+
+    def __init__(
+        self,
+        description: RobotDescription,
+        *,
+        budget_s: float = BUDGET_S,
+        clock: Clock | None = None,
+    ) -> None:
+        """Start the worker; `budget_s` of wall time a request, starting up not counted."""
+        self._description = description
+        self._budget_s = budget_s
+        self._clock = clock or WallClock()
+        self._waiting: dict[int, _Waiting] = {}
+        self._answers: dict[int, PlanResult] = {}
+        self._last = 0
+        self._running: int | None = None
+        self._ready = False
+        self._start()
+
+    def __enter__(self) -> ProcessPlanner:
+        """Itself; the worker is already starting."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the worker."""
+        self.close()
+
+    def submit(self, request: PlanRequest, *, now_s: float) -> int:
+        """Put a request in line."""
+        self._last += 1
+        self._waiting[self._last] = _Waiting(request)
+        self._advance()
+        return self._last
+
+    def poll(self, ticket: int, *, now_s: float) -> PlanResult | None:
+        """The answer once the worker has sent it, or a `planner_timeout`."""
+        self._advance()
+        if ticket in self._answers:
+            return self._answers.pop(ticket)
+        if ticket not in self._waiting:
+            raise KeyError(ticket)
+        return None
+
+    def cancel(self, ticket: int) -> None:
+        """Forget a request; if it is being worked on, the worker is killed and started anew."""
+        self._answers.pop(ticket, None)
+        self._waiting.pop(ticket, None)
+        if ticket == self._running:
+            self._restart()
+        self._advance()
+
+    def close(self) -> None:
+        """End the worker; safe to call twice."""
+        self._kill()
+        self._waiting.clear()
+
+    def _advance(self) -> None:
+        """Take what the worker sent, stop what ran over, send what is next."""
+        self._receive()
+        running = self._running
+        if running is not None:
+            deadline_s = self._waiting[running].deadline_s
+            if deadline_s is not None and self._clock.now_s() > deadline_s:
+                self._finish(
+                    running,
+                    failure(
+                        "planner_timeout",
+                        f"planning took longer than {self._budget_s:.1f} s",
+                        budget_s=self._budget_s,
+                    ),
+                )
+                self._restart()
+        if self._running is None and self._waiting and self._ready:
+            ticket = min(self._waiting)
+            self._running = ticket
+            self._waiting[ticket].deadline_s = self._clock.now_s() + self._budget_s
+            self._pipe.send((ticket, self._waiting[ticket].request))
+
+    def _receive(self) -> None:
+        try:
+            while self._pipe.poll():
+                message = self._pipe.recv()
+                if message is None:
+                    self._ready = True
+                elif message[0] == self._running:
+                    self._finish(*message)
+        except (EOFError, OSError):
+            if self._running is not None:
+                cause = "the planner's process died"
+                self._finish(self._running, failure("internal", cause))
+            self._restart()
+
+    def _finish(self, ticket: int, answer: PlanResult) -> None:
+        self._waiting.pop(ticket, None)
+        self._answers[ticket] = answer
+        self._running = None
+
+    def _start(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        self._process: SpawnProcess = context.Process(
+            target=_work, args=(self._description, theirs), name="planner", daemon=True
+        )
+        self._process.start()
+        theirs.close()
+        self._ready = False
+
+    def _restart(self) -> None:
+        self._kill()
+        self._start()
+
+    def _kill(self) -> None:
+        self._running = None
+        if self._process.is_alive():
+            self._process.kill()
+        self._process.join(timeout=2.0)
+        self._pipe.close()
+
+
+def _work(description: RobotDescription, pipe: Connection) -> None:
+    """The worker: answers requests until the pipe closes."""
+    from robot.planning.solve import Solver  # loads OMPL and MuJoCo, wanted only in the worker
+
+    solver = Solver(description)
+    try:
+        pipe.send(None)
+        while True:
+            ticket, request = pipe.recv()
+            pipe.send((ticket, solver.solve(request)))
+    except (EOFError, OSError, KeyboardInterrupt):
+        return
