@@ -60,7 +60,11 @@ class Executive:
         self._context = replace(context, say=self._say)
         self._make = make
         self.stage = Stage(self.board, journal, self._make_skill)
-        monitor = HealthMonitor(rates_hz, start_s=context.link.now_s())
+        monitor = HealthMonitor(
+            rates_hz,
+            start_s=context.link.now_s(),
+            motors=context.description.motor_names,
+        )
         sense = Sense(self.stage, context.link, monitor, holdings=context.holdings)
         self.tree = Tree(self.stage, sense)
         self._begun_s: float | None = None

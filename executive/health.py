@@ -6,7 +6,7 @@ topic means for the robot. Nothing here knows how messages travel: the newest st
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
@@ -55,14 +55,23 @@ CONCERNS: dict[str, Concern] = {
 class HealthMonitor:
     """Turns stamps and states into `Health`, once a tick."""
 
-    def __init__(self, rates_hz: Mapping[str, float], *, start_s: float) -> None:
-        """Watch those topics of `CONCERNS` that have a promised rate; `start_s` is now."""
+    def __init__(
+        self, rates_hz: Mapping[str, float], *, start_s: float, motors: Sequence[str] = ()
+    ) -> None:
+        """Watch those topics of `CONCERNS` that have a promised rate.
+
+        Args:
+            rates_hz: topic name to promised rate.
+            start_s: now.
+            motors: names in motor order, for people.
+        """
         self._concerns = {
             name: (CONCERNS[name], rate_hz)
             for name, rate_hz in rates_hz.items()
             if name in CONCERNS and rate_hz > 0.0
         }
         self._start_s = start_s
+        self._motors = motors
 
     def look(
         self,
@@ -89,7 +98,7 @@ class HealthMonitor:
             if finding is not None:
                 findings.append(finding)
         if body is not None:
-            findings += _body_findings(body)
+            findings += _body_findings(body, self._motors)
         if world is not None:
             findings += _world_findings(world, now_s)
         findings.sort(key=lambda finding: -finding.level)
@@ -109,7 +118,7 @@ class HealthMonitor:
         return Finding(name=name, level=level, failure=reason)
 
 
-def _body_findings(body: BodyState) -> list[Finding]:
+def _body_findings(body: BodyState, motors: Sequence[str]) -> list[Finding]:
     """What the body's own state says: a fall, a failure of the controller, hot motors."""
     findings: list[Finding] = []
     if body.mode == "fallen":
@@ -120,10 +129,10 @@ def _body_findings(body: BodyState) -> list[Finding]:
     hottest_c = max(body.temperature_c, default=0.0)
     if hottest_c >= TEMPERATURE_WARM_C:
         tripped = hottest_c >= TEMPERATURE_TRIP_C
-        motor = body.temperature_c.index(hottest_c)
-        reason = failure(
-            "overheated", f"motor {motor} is at {hottest_c:.0f} °C", motor=motor, temp_c=hottest_c
-        )
+        index = body.temperature_c.index(hottest_c)
+        motor = motors[index] if index < len(motors) else f"motor {index}"
+        text = f"the {motor} motor is at {hottest_c:.0f} °C"
+        reason = failure("overheated", text, motor=motor, temperature_c=round(hottest_c, 1))
         level = Level.SIT if tripped else Level.WARN
         findings.append(Finding(name="temperature", level=level, failure=reason))
     return findings

@@ -169,7 +169,7 @@ def test_ctrl_c_stands_then_leaves_with_1(runtime, humanoid, monkeypatch):
 
 def test_a_second_ctrl_c_damps_at_once(runtime, humanoid, monkeypatch):
     press(monkeypatch, runtime, 2.0, 2.05)
-    status, text = humanoid("do", "walk two metres forward", "--fast")
+    status, _ = humanoid("do", "walk two metres forward", "--fast")
     assert status == 1
     assert isinstance(runtime.puppet.sent[-1], Damp)
     assert runtime.puppet.time_s < 2.3

@@ -1,6 +1,7 @@
 """Health follows from the ages of messages and from what they say."""
 
 import pytest
+from msgspec.structs import replace
 
 from executive.health import CONCERNS, START_UP_S, HealthMonitor
 from executive.ladder import Level
@@ -60,3 +61,12 @@ def test_a_fall_is_worst_of_all(robot):
     assert health.level is Level.DAMP
     assert health.failure.code == "fallen"
     assert [finding.level for finding in health.findings] == [Level.DAMP, Level.HOLD]
+
+
+@pytest.mark.parametrize(("hot_c", "level"), [(79, Level.OK), (81, Level.WARN), (101, Level.SIT)])
+def test_a_hot_motor_is_named(robot, hot_c, level):
+    body = replace(robot.body(), temperature_c=(25.0, float(hot_c)))
+    monitor = HealthMonitor({}, start_s=0.0, motors=("hip", "knee"))
+    health = monitor.look(1.0, {}, body=body, world=None)
+    assert health.level is level
+    assert level is Level.OK or "knee" in health.failure.cause
