@@ -65,9 +65,9 @@ class Measure(NamedTuple):
 def number(words: list[str], start: int) -> Number | None:
     """The number that begins at a word: "7", "2.5", "twenty one", "two and a half", "half a"."""
     for size in (4, 3, 2, 1):
-        group = _GROUPS.get(tuple(words[start : start + size]))
-        if group is not None:
-            return Number(group, start + size)
+        phrase = tuple(words[start : start + size])
+        if phrase in _GROUPS:
+            return Number(_GROUPS[phrase], start + len(phrase))
     whole = _whole(words, start)
     if whole and tuple(words[whole.end : whole.end + 3]) == ("and", "a", "half"):
         return Number(whole.value + 0.5, whole.end + 3)

@@ -1,0 +1,73 @@
+"""Descriptions to ids."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from intents.goals import ObjectQuery
+from intents.grounding import Ambiguous, Entity, Grounded, Unknown, ground
+
+RED = Entity(id="c1", name="cup", category="dish", color="red", size_m=(0.08, 0.08, 0.1),
+             mass_kg=0.2, at="table")  # fmt: skip
+BLUE = Entity(id="c2", name="cup", category="dish", color="blue", size_m=(0.07, 0.07, 0.09),
+              mass_kg=0.3, at="shelf")  # fmt: skip
+BOTTLE = Entity(id="b1", name="bottle", category="drink", size_m=(0.06, 0.06, 0.25), mass_kg=0.5)
+HOME = (RED, BLUE, BOTTLE)
+
+
+def test_colour_place_and_category_tell_things_apart() -> None:
+    assert ground(ObjectQuery(name="cup", color="blue"), HOME) == Grounded("c2", ("c2",))
+    assert ground(ObjectQuery(name="cups", at="table"), HOME) == Grounded("c1", ("c1",))
+    assert ground(ObjectQuery(category="drink"), HOME) == Grounded("b1", ("b1",))
+
+
+def test_two_that_fit_are_a_question_that_names_both() -> None:
+    found = ground(ObjectQuery(name="cup"), HOME)
+    assert isinstance(found, Ambiguous)
+    assert found.candidates == ("c1", "c2")
+    assert found.question == "Which cup, the red one or the blue one?"
+
+
+def test_twins_are_told_apart_by_where_they_are() -> None:
+    twin = Entity(id="c3", name="cup", color="red", at="sink")
+    found = ground(ObjectQuery(name="cup", color="red"), (RED, twin))
+    assert isinstance(found, Ambiguous)
+    assert found.labels == ("the one at the table", "the one at the sink")
+
+
+def test_superlatives_compare_sizes_and_masses() -> None:
+    for superlative, wanted in (("largest", "b1"), ("smallest", "c2"), ("heaviest", "b1"),
+                                ("lightest", "c1"), ("tallest", "b1")):  # fmt: skip
+        found = ground(ObjectQuery(superlative=superlative), HOME)  # type: ignore[arg-type]
+        assert isinstance(found, Grounded)
+        assert found.id == wanted
+
+
+def test_a_superlative_of_view_is_measured_by_the_caller() -> None:
+    ranks = {"leftmost": lambda e: {"c1": 0.1, "c2": 0.9}.get(e.id)}
+    found = ground(ObjectQuery(superlative="leftmost"), HOME, ranks=ranks)  # type: ignore[arg-type]
+    assert isinstance(found, Grounded)
+    assert found.id == "c2"
+
+
+def test_counts_take_several() -> None:
+    assert ground(ObjectQuery(name="cup", count="all"), HOME) == Grounded("c1", ("c1", "c2"))
+    assert ground(ObjectQuery(name="cup", count=2), HOME) == Grounded("c1", ("c1", "c2"))
+
+
+def test_what_is_not_there_is_unknown_with_what_comes_near() -> None:
+    found = ground(ObjectQuery(name="cup", color="green"), HOME)
+    assert isinstance(found, Unknown)
+    assert found.what == "green cup"
+    assert "red cup" in found.nearest[0]
+    assert "there is no green cup" in found.reason
+
+
+def test_a_thing_whose_place_is_not_known_may_be_anywhere() -> None:
+    assert isinstance(ground(ObjectQuery(name="bottle", at="table"), HOME), Grounded)
+
+
+@given(st.permutations(HOME), st.sampled_from(["red", "blue"]))
+def test_the_order_of_the_world_does_not_matter(world: list[Entity], color: str) -> None:
+    found = ground(ObjectQuery(name="cup", color=color), world)
+    assert isinstance(found, Grounded)
+    assert found.id == {"red": "c1", "blue": "c2"}[color]
