@@ -1,8 +1,8 @@
 """Following a planned base path: where to go next, as a twist.
 
-The body aims at a point a little ahead on the path (pure pursuit, [Coulter1992], "Implementation
-of the pure pursuit path tracking algorithm") and, as it can step sideways and backwards, moves
-towards it whatever its heading is, while it turns to the heading that the path has there.
+The velocity is along the path a little ahead of the nearest point, plus a pull back onto it; as the
+body can step sideways and backwards, it need not look that way. Meanwhile it turns to the heading
+that the path has further ahead, and goes the slower the more there is to turn.
 """
 
 from __future__ import annotations
@@ -16,7 +16,12 @@ from robot.model.description import Walking
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
-LOOKAHEAD_M = 0.35
+AHEAD_M = 0.12
+TURN_AHEAD_M = 0.20
+BEND_AHEAD_M = 0.50
+SLOW_IN_BENDS_1_RAD = 1.2
+PULL_1_S = 0.7
+MOST_PULL_M_S = 0.12
 SEARCH_M = 0.60
 RUN_DONE_M = 0.12
 SAME_PLACE_M = 0.02
@@ -137,18 +142,29 @@ class Follower:
         leg = self._legs[0]
         if isinstance(leg, Turn):
             return turn_towards(wrap_angle(leg.to_rad - X_WS.yaw_rad), self.walking)
-        aim_x, aim_y, aim_yaw = leg.stance(self._along_m + LOOKAHEAD_M)
-        off_rad = wrap_angle(aim_yaw - X_WS.yaw_rad)
+        off_rad = wrap_angle(leg.stance(self._along_m + TURN_AHEAD_M)[2] - X_WS.yaw_rad)
         self._turning = abs(off_rad) > (TURN_DONE_RAD if self._turning else TURN_FIRST_RAD)
         if self._turning:
             return turn_towards(off_rad, self.walking)
         left_over_m = leg.length_m - self._along_m
+        bend_rad = abs(wrap_angle(leg.stance(self._along_m + BEND_AHEAD_M)[2] - X_WS.yaw_rad))
         speed_m_s = min(self.speed_m_s, LEAST_SPEED_M_S + SLOW_DOWN_1_S * left_over_m)
-        speed_m_s *= 1.0 - 0.7 * abs(off_rad) / TURN_FIRST_RAD
-        bearing_rad = math.atan2(aim_y - y_m, aim_x - x_m) - X_WS.yaw_rad
-        return self._within_limits(
-            speed_m_s * math.cos(bearing_rad), speed_m_s * math.sin(bearing_rad), off_rad
-        )
+        speed_m_s /= 1.0 + SLOW_IN_BENDS_1_RAD * max(bend_rad, abs(off_rad))
+        vx, vy = self._velocity(leg, x_m, y_m, speed_m_s)
+        c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
+        return self._within_limits(c * vx + s * vy, c * vy - s * vx, off_rad)
+
+    def _velocity(self, leg: Run, x_m: float, y_m: float, speed_m_s: float) -> tuple[float, float]:
+        """Velocity in W: along the run, and back onto it [m/s]."""
+        here_x, here_y, _ = leg.stance(self._along_m)
+        from_x, from_y, _ = leg.stance(min(self._along_m, leg.length_m - AHEAD_M))
+        to_x, to_y, _ = leg.stance(self._along_m + AHEAD_M)
+        ahead_m = max(math.hypot(to_x - from_x, to_y - from_y), 1e-9)
+        pull_x, pull_y = here_x - x_m, here_y - y_m
+        pull_m_s = PULL_1_S * math.hypot(pull_x, pull_y)
+        pull = PULL_1_S * min(1.0, MOST_PULL_M_S / max(pull_m_s, 1e-9))
+        along = speed_m_s / ahead_m
+        return along * (to_x - from_x) + pull * pull_x, along * (to_y - from_y) + pull * pull_y
 
     def _advance(self, x_m: float, y_m: float, yaw_rad: float) -> None:
         """Drop the legs that are done."""

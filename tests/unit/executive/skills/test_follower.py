@@ -125,3 +125,38 @@ def _distance(p, a, b):
     span = ux * ux + uy * uy
     t = max(0.0, min(1.0, ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / span))
     return math.hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy)
+
+
+@pytest.mark.parametrize("angle_rad", [0.5, 1.0, 1.57, 2.2])
+@pytest.mark.parametrize("lag_s", [0.3, 0.6])
+def test_a_body_that_lags_does_not_cut_corners(angle_rad, lag_s):
+    """A table may stand in the corner: 6 cm is all that the planner keeps clear."""
+    path = rounded_corner(angle_rad)
+    follower = Follower((0.0, 0.0, 0.0), path, walking=GAIT, speed_m_s=0.4)
+    X_WS, velocity, worst_m, dt_s = SE3(), [0.0, 0.0, 0.0], 0.0, 0.05
+    stops = [(0.0, 0.0, 0.0), *path]
+    for _ in range(600):
+        twist = follower.twist(X_WS)
+        velocity = [v + dt_s / lag_s * (t - v) for v, t in zip(velocity, twist, strict=True)]
+        X_WS = X_WS @ SE3.from_xy_yaw(*(v * dt_s for v in velocity))
+        off_m = min(_distance(X_WS.p[:2], a, b) for a, b in itertools.pairwise(stops))
+        worst_m = max(worst_m, off_m)
+    assert follower.done
+    assert worst_m < 0.055
+
+
+def rounded_corner(angle_rad, leg_m=1.5, cut_m=0.35):
+    """Straight on, a rounded corner, straight on: stances that look along the path."""
+    end = (leg_m + leg_m * math.cos(angle_rad), leg_m * math.sin(angle_rad))
+    after = (
+        leg_m + cut_m * math.cos(angle_rad),
+        cut_m * math.sin(angle_rad),
+    )
+    points = [(0.5, 0.0), (leg_m - cut_m, 0.0)]
+    for t in (0.25, 0.5, 0.75, 1.0):
+        x = (1 - t) ** 2 * (leg_m - cut_m) + 2 * t * (1 - t) * leg_m + t**2 * after[0]
+        points.append((x, t**2 * after[1]))
+    points.append(end)
+    ways = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in itertools.pairwise(points)]
+    yaws = [ways[0], *(0.5 * (a + b) for a, b in itertools.pairwise(ways)), ways[-1]]
+    return [(x, y, yaw) for (x, y), yaw in zip(points, yaws, strict=True)]
