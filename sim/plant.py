@@ -17,15 +17,12 @@ from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.placing import placed
-from sim.scene import TIMESTEP_S, compile_scene
+from sim.scene import compile_scene
 from sim.schema import World
 from sim.sensing import Sensing
 
 NEVER = 1 << 62
-
-
-def _steps(duration_s: float) -> int:
-    return max(1, round(duration_s / TIMESTEP_S))
+PHYSICS_MS = 1
 
 
 class Plant:
@@ -52,6 +49,7 @@ class Plant:
         posture: str = "nominal",
         noisy: bool = True,
         pose_error_m: float = POSE_ERROR_M,
+        physics_ms: int = PHYSICS_MS,
     ) -> None:
         """Build the scene and stand the robot on its soles at the world's start.
 
@@ -62,6 +60,7 @@ class Plant:
             posture: named posture that it starts in.
             noisy: whether motors and body sensors have noise.
             pose_error_m: how far from the truth the oracle sights objects.
+            physics_ms: time step of the physics; 2 is a third faster, 1 is finer.
 
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
@@ -72,7 +71,7 @@ class Plant:
         self.robot = robot
         # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
         mujoco.set_mju_user_warning(_ignore)
-        self.model = compile_scene(self.world, robot)
+        self.model = compile_scene(self.world, robot, timestep_s=physics_ms / 1000.0)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
         self._body = BodySensors(
@@ -81,18 +80,19 @@ class Plant:
         self.sensing = Sensing(
             self.model, self.data, self.world, robot=robot, rng=seeds[2], pose_error_m=pose_error_m
         )
-        self._step = 0
-        self._watchdog_step = NEVER
-        self._heat_step = _steps(HEAT_PERIOD_S)
-        self._pulls: list[tuple[int, int, Array]] = []  # until which step, body, force
-        self._pull_step = NEVER
+        self._physics_ms = physics_ms
+        self._now_ms = 0
+        self._watchdog_ms = NEVER
+        self._heat_ms = self._ms(HEAT_PERIOD_S)
+        self._pulls: list[tuple[int, int, Array]] = []  # until when [ms], body, force
+        self._pull_ms = NEVER
         self._base = int(self.model.body(robot.base_body).id)
         self.stand(start_pose(world), posture=posture)
 
     @property
     def time_s(self) -> float:
         """Simulated time since the start."""
-        return self._step * TIMESTEP_S
+        return self._now_ms / 1000.0
 
     @property
     def oracle(self) -> Oracle:
@@ -119,7 +119,7 @@ class Plant:
             DriverError: if a value is not finite or a shape is wrong (nothing changes).
         """
         sent = self.motors.write(command)
-        self._watchdog_step = self._step + _steps(WATCHDOG_S)
+        self._watchdog_ms = self._now_ms + self._ms(WATCHDOG_S)
         return sent
 
     def read(self) -> MotorState:
@@ -131,17 +131,21 @@ class Plant:
         return self.sensing.due(self.time_s if now_s is None else now_s)
 
     def step(self, count: int = 1) -> None:
-        """Advance `count` milliseconds.
+        """Advance `count` milliseconds, a multiple of the physics' time step.
 
         Raises:
+            ValueError: if it is not a multiple of the time step.
             DriverError: if the physics diverged (states are no longer numbers).
         """
-        end = self._step + count
-        while self._step < end:
-            pause = min(end, self._watchdog_step, self._heat_step, self._pull_step)
-            if pause > self._step:
-                mujoco.mj_step(self.model, self.data, pause - self._step)
-                self._step = pause
+        if count % self._physics_ms:
+            raise ValueError(f"{count} ms are no multiple of {self._physics_ms} ms")
+        end = self._now_ms + count
+        while self._now_ms < end:
+            pause = min(end, self._watchdog_ms, self._heat_ms, self._pull_ms)
+            if pause > self._now_ms:
+                steps = (pause - self._now_ms) // self._physics_ms
+                mujoco.mj_step(self.model, self.data, steps)
+                self._now_ms = pause
             self._due()
         if not math.isfinite(self.data.qacc[0]):
             raise DriverError(f"the simulated physics diverged at {self.time_s:.3f} s")
@@ -156,7 +160,7 @@ class Plant:
 
     def pull(self, body: str, force_n: tuple[float, ...], *, duration_s: float) -> None:
         """Let a force [N], in the world's axes, act on a body's centre of mass from now on."""
-        until = self._step + _steps(duration_s)
+        until = self._now_ms + self._ms(duration_s)
         self._pulls.append((until, int(self.model.body(body).id), np.array(force_n)))
         self._apply_pulls()
 
@@ -179,19 +183,24 @@ class Plant:
             raise ConfigError(f"{body!r} stands fast; make it movable in the world file")
 
     def _due(self) -> None:
-        """Do what is due at this step: watchdog, heat, end of a pull."""
-        if self._step >= self._watchdog_step:
+        """Do what is due now: watchdog, heat, end of a pull."""
+        if self._now_ms >= self._watchdog_ms:
             self.motors.damp()
-            self._watchdog_step = NEVER
-        if self._step >= self._heat_step:
+            self._watchdog_ms = NEVER
+        if self._now_ms >= self._heat_ms:
             self.motors.heat(HEAT_PERIOD_S)
-            self._heat_step += _steps(HEAT_PERIOD_S)
-        if self._step >= self._pull_step:
+            self._heat_ms += self._ms(HEAT_PERIOD_S)
+        if self._now_ms >= self._pull_ms:
             self._apply_pulls()
 
+    def _ms(self, duration_s: float) -> int:
+        """A duration in milliseconds, in whole steps of the physics, at least one."""
+        steps = round(duration_s * 1000.0 / self._physics_ms)
+        return max(1, steps) * self._physics_ms
+
     def _apply_pulls(self) -> None:
-        self._pulls = [pull for pull in self._pulls if pull[0] > self._step]
-        self._pull_step = min((pull[0] for pull in self._pulls), default=NEVER)
+        self._pulls = [pull for pull in self._pulls if pull[0] > self._now_ms]
+        self._pull_ms = min((pull[0] for pull in self._pulls), default=NEVER)
         self.data.xfrc_applied[:] = 0.0
         for _, body, force in self._pulls:
             self.data.xfrc_applied[body, :3] += force

@@ -13,11 +13,12 @@ from sim import atlas, bodies, motors, placing
 from sim.paint import Paint
 from sim.schema import World
 
-TIMESTEP_S = 0.001
 GROUND_M = 40.0
 
 
-def compile_scene(world: World, description: RobotDescription) -> mujoco.MjModel:
+def compile_scene(
+    world: World, description: RobotDescription, *, timestep_s: float = 0.001
+) -> mujoco.MjModel:
     """The robot, with its motors, in the world; every object must have a spot.
 
     Raises:
@@ -28,6 +29,7 @@ def compile_scene(world: World, description: RobotDescription) -> mujoco.MjModel
     for key in list(spec.keys):
         spec.delete(key)
     _set_physics(spec)
+    spec.option.timestep = timestep_s
     furnish(spec, world)
     return spec.compile()
 
@@ -65,7 +67,6 @@ def _set_physics(spec: mujoco.MjSpec) -> None:
     phase of collision only costs; and dense Jacobians are faster below 100 degrees of freedom.
     """
     option = spec.option
-    option.timestep = TIMESTEP_S
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 100.0

@@ -14,10 +14,10 @@ def grasp_pose(plant: Plant) -> SE3:
     return SE3.from_rotation(site.xmat.reshape(3, 3), site.xpos)
 
 
-@pytest.fixture
-def holding(robot, kitchen, hold):
+@pytest.fixture(params=[1, 2], ids=["1ms", "2ms"])
+def holding(robot, kitchen, hold, request):
     """A plant that stands with the red cup in its right hand, and how to go on."""
-    plant = Plant(kitchen, robot, seed=0, noisy=False)
+    plant = Plant(kitchen, robot, seed=0, noisy=False, physics_ms=request.param)
     finger = robot.motor_names.index("right_gripper")
 
     def go(duration_s: float, opening: float, *, carry: bool = False) -> None:

@@ -167,3 +167,12 @@ def test_physics_that_diverges_is_an_error(plant):
     plant.data.qvel[0] = np.nan
     with pytest.raises(DriverError, match="diverged"):
         plant.step(1)
+
+
+def test_steps_are_multiples_of_the_physics_time_step(robot):
+    plant = Plant(world.empty(), robot, seed=0, physics_ms=2)
+    plant.step(20)
+    assert plant.time_s == 0.02
+    assert plant.data.time == pytest.approx(0.02)
+    with pytest.raises(ValueError, match="multiple"):
+        plant.step(3)
