@@ -1,0 +1,165 @@
+"""The whole-body programme: its answers obey physics, friction and torque limits in any state."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from robot.control.whole_body import (
+    COP_MARGIN_M,
+    FRICTION,
+    YAW_FRICTION_M,
+    Task,
+    WholeBody,
+    as_index,
+)
+from robot.kinematics.dynamics import Dynamics
+from robot.model.body import SIDES
+from robot.se3 import SE3
+
+TOLERANCE = 1e-4
+CONTACTS = [[True, True], [True, False], [False, True]]
+
+
+@pytest.fixture(scope="module")
+def whole(body):
+    return WholeBody(body)
+
+
+def random_state(body, rng):
+    """Near standing, moving, leaning a little."""
+    dynamics = Dynamics(body)
+    data = dynamics.data
+    roll, pitch, yaw = rng.uniform(-0.15, 0.15, 3)
+    body.write_base(data, SE3.from_rpy(roll, pitch, 5.0 * yaw, (0.1, -0.2, 0.58)))
+    q = np.array(body.description.posture("nominal")) + rng.uniform(-0.15, 0.15, body.count)
+    q = np.clip(q, body.lower_rad + 0.01, body.upper_rad - 0.01)
+    body.write_joints(data, q, rng.uniform(-0.5, 0.5, body.count))
+    data.qvel[:6] = rng.uniform(-0.3, 0.3, 6)
+    dynamics.kinematics()
+    dynamics.dynamics()
+    return dynamics
+
+
+def random_task(body, whole, rng, contact):
+    weight_n = body.mass_kg * 9.81
+    rest = np.zeros(body.model.nv)
+    arms = body.dof_of[body.description.indices("left_arm")]
+    rest[arms] = rng.uniform(-5.0, 5.0, len(arms))
+    return Task(
+        com_acc=rng.uniform(-2.0, 2.0, 3),
+        pelvis_acc_B=rng.uniform(-5.0, 5.0, 3),
+        posture_acc=rng.uniform(-10.0, 10.0, len(whole.active_motors)),
+        sole_acc=[rng.uniform(-3.0, 3.0, 6) for _ in SIDES],
+        contact=contact,
+        max_force_n=[float(rng.uniform(0.8, 2.0)) * weight_n for _ in SIDES],
+        rest_acc=rest,
+    )
+
+
+def solved(body, whole, seed, contact):
+    rng = np.random.default_rng(seed)
+    dynamics = random_state(body, rng)
+    task = random_task(body, whole, rng, contact)
+    solution = whole.solve(dynamics, task)
+    assert solution.ok
+    return dynamics, task, solution
+
+
+def world_wrench(body, dynamics, solution, i):
+    """The sole's wrench [N, N m] about the sole, in N."""
+    rotation = dynamics.data.site_xmat[body.sole_site[SIDES[i]]].reshape(3, 3)
+    wrench = solution.wrench[i]
+    return np.concatenate([rotation @ wrench[:3], rotation @ wrench[3:]])
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize("seed", range(6))
+def test_mujoco_moves_as_the_solution_says(body, whole, seed, contact):
+    """Its torques and wrenches, applied in forward dynamics, give its accelerations."""
+    dynamics, _, solution = solved(body, whole, seed, contact)
+    model, data = body.model, dynamics.data
+    free = mujoco.MjData(model)
+    free.qpos[:], free.qvel[:] = data.qpos, data.qvel
+    free.qfrc_applied[:] = solution.tau
+    for i in range(2):
+        free.qfrc_applied[:] += dynamics.jac_sole[i].T @ world_wrench(body, dynamics, solution, i)
+    before = int(model.opt.disableflags)
+    bit = mujoco.mjtDisableBit
+    try:
+        model.opt.disableflags = before | bit.mjDSBL_CONSTRAINT | bit.mjDSBL_ACTUATION
+        mujoco.mj_forward(model, free)
+    finally:
+        model.opt.disableflags = before
+    scale = 1.0 + np.abs(solution.acc).max()
+    np.testing.assert_allclose(free.qacc / scale, solution.acc / scale, atol=1e-5)
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize("seed", range(6))
+def test_wrenches_are_ones_that_a_floor_can_give(body, whole, seed, contact):
+    _, task, solution = solved(body, whole, seed, contact)
+    for i, side in enumerate(SIDES):
+        fx, fy, fz, tx, ty, tz = solution.wrench[i]
+        if not contact[i]:
+            assert not solution.wrench[i].any()
+            continue
+        foot = body.description.feet[side]
+        slack = TOLERANCE * max(1.0, fz)
+        assert -slack <= fz <= task.max_force_n[i] + slack
+        assert abs(fx) <= FRICTION * fz + slack
+        assert abs(fy) <= FRICTION * fz + slack
+        assert abs(tx) <= (foot.half_width_m - COP_MARGIN_M) * fz + slack
+        assert abs(ty) <= (foot.half_length_m - COP_MARGIN_M) * fz + slack
+        assert abs(tz) <= YAW_FRICTION_M * fz + slack
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize("seed", range(6))
+def test_torques_keep_the_limits_and_the_base_has_none(body, whole, seed, contact):
+    _, _, solution = solved(body, whole, seed, contact)
+    tau = solution.tau[body.dof_of[whole.active_motors]]
+    limit = body.torque_limit_nm[whole.active_motors]
+    assert (np.abs(tau) <= limit).all()
+    assert not solution.tau[:6].any()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_arms_accelerate_as_prescribed(body, whole, seed):
+    _, task, solution = solved(body, whole, seed, [True, True])
+    rest = np.setdiff1d(np.arange(body.model.nv), whole.dofs)
+    np.testing.assert_array_equal(solution.acc[rest], task.rest_acc[rest])
+
+
+def test_standing_still_carries_its_weight_evenly_and_stays(body, whole, dynamics):
+    zero = np.zeros(3)
+    weight_n = body.mass_kg * 9.81
+    task = Task(
+        com_acc=zero, pelvis_acc_B=zero, posture_acc=np.zeros(len(whole.active_motors)),
+        sole_acc=[np.zeros(6), np.zeros(6)], contact=[True, True],
+        max_force_n=[2.0 * weight_n, 2.0 * weight_n], rest_acc=np.zeros(body.model.nv),
+    )  # fmt: skip
+    solution = whole.solve(dynamics, task)
+    forces = [wrench[2] for wrench in solution.wrench]
+    assert sum(forces) == pytest.approx(weight_n, rel=1e-3)
+    assert forces[0] == pytest.approx(forces[1], rel=0.02)
+    assert np.abs(solution.acc).max() < 0.05
+
+
+def test_a_planted_sole_does_not_accelerate_and_a_swinging_one_does(body, whole, dynamics):
+    wanted = np.array([0.5, 0.0, 1.0, 0.0, 0.0, 0.0])
+    task = Task(
+        com_acc=np.zeros(3), pelvis_acc_B=np.zeros(3),
+        posture_acc=np.zeros(len(whole.active_motors)), sole_acc=[np.zeros(6), wanted],
+        contact=[True, False], max_force_n=[1000.0, 1000.0], rest_acc=np.zeros(body.model.nv),
+    )  # fmt: skip
+    solution = whole.solve(dynamics, task)
+    soles = [dynamics.jac_sole[i] @ solution.acc + dynamics.bias_sole[i] for i in range(2)]
+    # friction and the small foot leave the rest to the weights: planted outweighs swinging by 100
+    assert np.abs(soles[0]).max() < 0.1 * np.abs(soles[1]).max()
+    assert soles[1][2] > 0.5 * wanted[2]
+
+
+def test_indices_without_a_gap_become_a_view():
+    assert as_index(np.array([3, 4, 5])) == slice(3, 6)
+    gap = np.array([3, 5])
+    assert as_index(gap) is gap
