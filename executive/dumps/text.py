@@ -8,6 +8,7 @@ from typing import Literal
 import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
+from py_trees.composites import Composite, Selector
 from py_trees.decorators import Decorator
 
 from executive.trees.idioms import Alternatives
@@ -34,15 +35,23 @@ class Line(msgspec.Struct, frozen=True):
     note: str = ""
 
 
-def lines(node: Behaviour, depth: int = 0) -> Iterator[Line]:
-    """A subtree in reading order, without the nodes that mean nothing to people."""
+def lines(node: Behaviour, depth: int = 0, *, past: State | None = None) -> Iterator[Line]:
+    """A subtree in reading order, without the nodes that mean nothing to people.
+
+    `past` is the state of a subtree that its parent has left behind: py_trees forgets it.
+    """
     node = _plain(node)
     if isinstance(node, Recover) and not node.feedback_message:
         return
+    state = past if past and node.status is Status.INVALID else _STATES[node.status]
     note = node.feedback_message if not node.children else ""
-    yield Line(depth, node.name, _STATES[node.status], note)
+    yield Line(depth, node.name, state, note)
+    left: State = "failed" if isinstance(node, Selector) else "done"
+    current = node.current_child if isinstance(node, Composite) else None
+    ahead = current is None
     for child in node.children:
-        yield from lines(child, depth + 1)
+        ahead = ahead or child is current
+        yield from lines(child, depth + 1, past=past if ahead else left)
 
 
 def text(node: Behaviour, *, marks: dict[State, str] = MARKS) -> str:
