@@ -32,6 +32,7 @@ class LiveRuntime:
     """A robot in a simulated world, on the wall clock; a context manager.
 
     Attributes:
+        run: what the processes were told.
         clock: the body's time (simulated seconds).
         link: the executive's handle on the body.
         supervisor: the processes.
@@ -69,7 +70,7 @@ class LiveRuntime:
         self._wall = wall or WallClock()
         self._folder = folder
         self._private = Path(tempfile.mkdtemp(prefix="humanoid-"))  # mode 0700
-        run = Run(
+        self.run = Run(
             folder=str(folder),
             sockets=str(self._private),
             robot=robot,
@@ -78,7 +79,7 @@ class LiveRuntime:
             variation_seed=variation_seed,
         )
         run_file = self._private / "run.json"
-        run.save(run_file)
+        self.run.save(run_file)
         self.supervisor = Supervisor(
             run_file, logs=folder / "logs", clock=self._wall, processes=processes
         )

@@ -1,0 +1,155 @@
+"""Plant, controller and perception as real processes: they work, die, and leave nothing behind."""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from robot.bringup.live import LiveRuntime
+from robot.clock import WallClock
+from robot.drivers.fingerprint import fingerprint
+from robot.drivers.shared_memory import SharedMotors
+from robot.errors import ConfigError
+from robot.messages import Damp, LoopTiming, WalkTo
+from robot.model import description
+from tests.fakes.waiting import eventually
+
+NAMES = ("plant", "controller", "perception")
+
+
+def gone(pid: int) -> bool:
+    try:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return True
+    return stat.rpartition(")")[2].split()[0] == "Z"
+
+
+def walk(runtime: LiveRuntime, duration_s: float) -> None:
+    """Send it 1 m ahead and let it walk for a while."""
+    link = runtime.link
+    command = WalkTo(stamp_s=link.now_s(), id=link.next_id(), x_m=1.0, y_m=0.0, yaw_rad=0.0)
+    link.send(command)
+    for _ in range(round(duration_s / 0.05)):
+        runtime.advance(0.05)
+
+
+def killed(runtime: LiveRuntime, name: str):
+    """Kill -9 a process in mid-walk; the failure, which must come within a second."""
+    walk(runtime, 1.0)
+    assert runtime.failure() is None
+    assert runtime.link.body().mode == "walk"
+    os.kill(runtime.supervisor.pid(name), signal.SIGKILL)
+    killed_s = time.monotonic()
+    while runtime.failure() is None and time.monotonic() - killed_s < 2.0:
+        runtime.advance(0.05)
+    assert time.monotonic() - killed_s < 1.0
+    return runtime.failure()
+
+
+@pytest.fixture
+def live(tmp_path: Path):
+    with LiveRuntime("kitchen", folder=tmp_path / "run", seed=1) as runtime:
+        assert runtime.failure() is None, runtime.failure()
+        pids = {name: runtime.supervisor.pid(name) for name in NAMES}
+        yield runtime
+        private = Path(runtime.run.sockets)
+    assert all(gone(pid) for pid in pids.values())
+    assert not private.exists()
+
+
+def test_it_walks_and_reports_how_well_it_kept_time(live: LiveRuntime):
+    walk(live, 5.0)
+    assert live.failure() is None
+    assert live.link.body().X_NB.p[0] > 0.2
+    assert live.link.world().fix_age_s < 0.5
+    live.close()
+    timing = msgspec.json.decode(
+        (Path(live.run.folder) / "timing.json").read_bytes(), type=dict[str, LoopTiming]
+    )
+    assert set(timing) == {"controller", "plant"}
+    for report in timing.values():
+        assert report.count > 500
+        assert 0 <= report.late <= report.count
+        assert report.p50_s <= report.p99_s <= report.p999_s <= report.max_s
+        assert 0.1 < report.real_time_factor < 1.05
+
+
+def test_a_killed_controller_is_told_and_the_motors_damp(live: LiveRuntime):
+    failure = killed(live, "controller")
+    assert failure.code == "controller_lost"
+    assert "SIGKILL" in failure.cause
+    robot = description.load("juno")
+    reader = SharedMotors(
+        live.run.motors_path,
+        count=len(robot.motors),
+        configuration=fingerprint(robot),
+        clock=WallClock(),
+    )
+    reader.__enter__()
+    before_s = reader.read().stamp_s
+    assert eventually(lambda: reader.read().watchdog, within_s=2.0)
+    state = reader.read()
+    assert eventually(lambda: reader.read().stamp_s > before_s + 0.1)
+    limits = [motor.torque_limit_nm for motor in robot.motors.values()]
+    assert all(abs(tau) <= limit * 1.05 for tau, limit in zip(state.tau, limits, strict=True))
+    live.link.send(Damp(stamp_s=0.0, id=live.link.next_id()))  # nobody hears; nothing breaks
+
+
+def test_a_killed_plant_is_told(live: LiveRuntime):
+    failure = killed(live, "plant")
+    assert failure.code == "plant_lost"
+
+
+def test_killed_perception_comes_again(live: LiveRuntime):
+    before = live.link.world().stamp_s
+    os.kill(live.supervisor.pid("perception"), signal.SIGKILL)
+    for _ in range(200):
+        live.advance(0.05)
+        if live.supervisor.restarted and live.link.world().stamp_s > before + 1.0:
+            break
+    assert live.failure() is None
+    assert live.supervisor.restarted == ["perception"]
+    assert live.link.world().stamp_s > before + 1.0
+    assert live.link.body().mode == "stand"
+
+
+def test_a_bad_world_or_robot_is_refused_before_anything_starts(tmp_path: Path):
+    for world, robot in (("kitchn", "juno"), ("kitchen", "junno")):
+        with pytest.raises(ConfigError, match=r"juno|kitchen"):
+            LiveRuntime(world, robot, folder=tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+SCRIPT = """
+import sys
+from pathlib import Path
+from robot.bringup.live import LiveRuntime
+with LiveRuntime("kitchen", folder=Path(sys.argv[1])) as runtime:
+    names = ("plant", "controller", "perception")
+    print(*(runtime.supervisor.pid(name) for name in names), flush=True)
+    while True:
+        runtime.advance(0.05)
+"""
+
+
+def test_a_killed_executive_leaves_no_process(tmp_path: Path):
+    parent = subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(tmp_path)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert parent.stdout is not None
+        pids = [int(word) for word in parent.stdout.readline().split()]
+        assert len(pids) == 3
+        assert not any(gone(pid) for pid in pids)
+    finally:
+        parent.kill()
+        parent.wait()
+    assert eventually(lambda: all(gone(pid) for pid in pids), within_s=2.0)
+    assert math.isfinite(parent.returncode)

@@ -1,0 +1,123 @@
+"""The order of events in `fast`, and that nothing is lost when the plant is."""
+
+import pytest
+
+from robot.bringup.lockstep import Lockstep
+from robot.bus import topics
+from robot.bus.bus import LocalBus
+from robot.errors import ConfigError
+from robot.messages import PoseFix, Stand
+from robot.se3 import SE3
+from tests.fakes.messages_for_tests import body_state
+from tests.fakes.motors import FakePlant, hold
+
+
+class Controller:
+    def __init__(self):
+        self.handled, self.ticks = [], []
+
+    def handle(self, command):
+        self.handled.append((len(self.ticks), command))
+
+    def tick(self, state):
+        self.ticks.append(state.stamp_s)
+        return hold(3, state.stamp_s)
+
+    def state(self):
+        return body_state(self.ticks[-1])
+
+
+class Perception:
+    def __init__(self, plant):
+        self.steps_ms, self._plant = [], plant
+
+    def step(self):
+        self.steps_ms.append(self._plant.time_ms)
+
+
+@pytest.fixture
+def parts():
+    plant, controller, bus = FakePlant(), Controller(), LocalBus()
+    perception = Perception(plant)
+    with Lockstep(plant, controller, perception, bus=bus) as runtime:
+        yield runtime, plant, controller, perception, bus
+
+
+def test_time_goes_on_by_what_was_asked(parts):
+    runtime, plant, controller, _, _ = parts
+    for k in range(1, 11):
+        runtime.advance(0.05)
+        assert runtime.clock.now_s() == pytest.approx(0.05 * k)
+    assert plant.time_ms == 500
+    assert controller.ticks == pytest.approx([0.002 * k for k in range(250)])
+
+
+def test_every_state_is_answered_before_physics_goes_on(parts):
+    runtime, plant, _, _, _ = parts
+    runtime.advance(0.1)
+    calls = [call for call in plant.calls if call != "sense"]
+    assert calls == ["write", "step 2"] * 50
+    assert [command.stamp_s for command in plant.commands] == pytest.approx(
+        [0.002 * k for k in range(50)]
+    )
+
+
+def test_body_states_come_at_their_promised_rate(parts):
+    runtime, _, _, _, bus = parts
+    states = bus.subscribe(topics.BODY_STATE)
+    runtime.advance(1.0)
+    stamps = [state.stamp_s for state in states.take()]
+    assert stamps == pytest.approx([0.02 * k for k in range(50)])
+    assert runtime.link.body().stamp_s == pytest.approx(0.98)
+
+
+def test_a_command_acts_in_the_next_period(parts):
+    runtime, _, controller, _, _ = parts
+    runtime.advance(0.05)
+    command = Stand(stamp_s=0.05, id=runtime.link.next_id())
+    runtime.link.send(command)
+    assert controller.handled == []
+    runtime.advance(0.002)
+    assert controller.handled == [(25, command)]
+
+
+def test_perception_runs_when_sensors_spoke(parts):
+    runtime, plant, _, perception, bus = parts
+    fixes = bus.subscribe(topics.ORACLE_FIX)
+    runtime.advance(0.05)
+    assert perception.steps_ms == []
+    plant.due = [(topics.ORACLE_FIX.name, PoseFix(stamp_s=0.06, X_WB=SE3(), source="oracle"))]
+    runtime.advance(0.05)
+    assert perception.steps_ms == [60]
+    assert len(fixes.take()) == 1
+
+
+def test_a_lost_plant_is_a_failure_and_time_goes_on():
+    plant, bus = FakePlant(diverge_at_s=0.03), LocalBus()
+    with Lockstep(plant, Controller(), Perception(plant), bus=bus) as runtime:
+        runtime.advance(0.02)
+        assert runtime.failure() is None
+        runtime.advance(0.05)
+        assert runtime.failure().code == "plant_lost"
+        assert "diverged" in runtime.failure().cause
+        written = len(plant.commands)
+        runtime.advance(0.05)
+        assert runtime.clock.now_s() == pytest.approx(0.12)
+        assert len(plant.commands) == written
+
+
+def test_leaving_damps(parts):
+    runtime, plant, _, _, _ = parts
+    runtime.advance(0.01)
+    runtime.__exit__(None, None, None)
+    assert not plant.commands[-1].kp.any()
+
+
+def test_unknown_parts_are_told():
+    from robot.bringup import entry
+
+    for spec in ("no.such.module:Thing", "sim.world:nothing"):
+        with pytest.raises(ConfigError, match="cannot load"):
+            entry.attribute(spec)
+    with pytest.raises(ConfigError, match="kitchen"):
+        entry.world("kitchn")

@@ -1,0 +1,174 @@
+"""Whatever happens to children or parent, deaths are told and no process is left."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
+from robot.bringup.supervisor import Supervisor, describe_exit, last_line
+from robot.clock import WallClock
+from robot.errors import CATALOGUE
+from tests.fakes.waiting import eventually
+
+STUB = "tests.fakes.stub_process"
+THREE = (
+    Process("plant", STUB, "simulation", death="plant_lost"),
+    Process("controller", STUB, "always", death="controller_lost"),
+    Process("perception", STUB, "always", death="localisation_lost", restarts=1),
+)
+
+
+def alive(pid: int) -> bool:
+    """Whether a process runs (a zombie does not)."""
+    try:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False
+    return stat.rpartition(")")[2].split()[0] != "Z"
+
+
+@pytest.fixture
+def supervise(tmp_path: Path) -> Callable[..., Supervisor]:
+    def make(word: str = "obey", processes: tuple[Process, ...] = THREE) -> Supervisor:
+        run_file = tmp_path / "run"
+        run_file.write_text(word)
+        logs = tmp_path / "logs"
+        return Supervisor(run_file, logs=logs, clock=WallClock(), processes=processes)
+
+    return make
+
+
+def ready(supervisor: Supervisor, tmp_path: Path, *names: str) -> dict[str, int]:
+    """Wait until the named children run; their process ids."""
+    for name in names:
+        log = tmp_path / "logs" / f"{name}.log"
+        assert eventually(lambda log=log: last_line(log) == "ready", within_s=20.0)
+    return {name: supervisor.pid(name) for name in names}
+
+
+ALL = ("plant", "controller", "perception")
+
+
+def test_children_run_and_are_gone_afterwards(supervise, tmp_path):
+    with supervise() as supervisor:
+        pids = ready(supervisor, tmp_path, *ALL)
+        assert all(alive(pid) for pid in pids.values())
+        assert supervisor.check() is None
+        written = (tmp_path / "logs" / "plant.pid").read_text()
+        assert int(written) == pids["plant"]
+    assert not any(alive(pid) for pid in pids.values())
+    assert not list((tmp_path / "logs").glob("*.pid"))
+
+
+@pytest.mark.parametrize(
+    ("name", "code"), [("plant", "plant_lost"), ("controller", "controller_lost")]
+)
+def test_a_killed_child_is_told_at_once_and_nothing_is_left(supervise, tmp_path, name, code):
+    with supervise() as supervisor:
+        pids = ready(supervisor, tmp_path, *ALL)
+        os.kill(pids[name], signal.SIGKILL)
+        killed_s = time.monotonic()
+        assert eventually(supervisor.check, within_s=1.0)
+        assert time.monotonic() - killed_s < 1.0
+        failure = supervisor.check()
+        assert failure is not None
+        assert failure.code == code
+        assert "SIGKILL" in failure.cause
+        assert failure.evidence["process"] == name
+        assert f"{name}.log" in failure.suggestion
+        assert supervisor.check() is failure
+    assert not any(alive(pid) for pid in pids.values())
+
+
+def test_what_may_be_restarted_is_until_it_is_a_crash_loop(supervise, tmp_path):
+    with supervise() as supervisor:
+        first = ready(supervisor, tmp_path, *ALL)["perception"]
+        os.kill(first, signal.SIGKILL)
+        assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1] == ["perception"])
+        second = supervisor.pid("perception")
+        assert second != first
+        assert supervisor.check() is None
+        os.kill(second, signal.SIGKILL)
+        assert eventually(supervisor.check)
+        assert supervisor.check().code == "localisation_lost"
+
+
+def test_a_crash_says_what_the_process_said_last(supervise):
+    with supervise("crash", THREE[:1]) as supervisor:
+        assert eventually(supervisor.check, within_s=20.0)
+        failure = supervisor.check()
+        assert "ended with status 3" in failure.cause
+        assert "meant to crash" in failure.cause
+
+
+def test_a_child_that_will_not_stop_is_killed(supervise, tmp_path, monkeypatch):
+    monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
+    with supervise("stubborn", THREE[:1]) as supervisor:
+        pids = ready(supervisor, tmp_path, "plant")
+    assert not alive(pids["plant"])
+
+
+def test_grandchildren_go_too(supervise, tmp_path):
+    with supervise("child", THREE[:1]) as supervisor:
+        ready(supervisor, tmp_path, "plant")
+        grandchild = int((tmp_path / "run.child").read_text())
+        assert alive(grandchild)
+    assert eventually(lambda: not alive(grandchild))
+
+
+def test_closing_twice_is_fine(supervise, tmp_path):
+    supervisor = supervise("obey", THREE[:1])
+    with supervisor:
+        ready(supervisor, tmp_path, "plant")
+        supervisor.close()
+    supervisor.close()
+
+
+PARENT = """
+import sys, time
+from pathlib import Path
+from robot.bringup.processes import Process
+from robot.bringup.supervisor import Supervisor
+from robot.clock import WallClock
+folder = Path(sys.argv[1])
+entries = tuple(Process(n, "tests.fakes.stub_process", "always", death="plant_lost") for n in "ab")
+with Supervisor(folder / "run", logs=folder / "logs", clock=WallClock(), processes=entries):
+    time.sleep(600)
+"""
+
+
+@pytest.mark.parametrize("word", ["obey", "stubborn"])
+def test_children_of_a_killed_parent_die_with_it(tmp_path, word):
+    (tmp_path / "run").write_text(word)
+    parent = subprocess.Popen([sys.executable, "-c", PARENT, str(tmp_path)])
+    try:
+        logs = [tmp_path / "logs" / f"{name}.log" for name in "ab"]
+        assert eventually(lambda: all(last_line(log) == "ready" for log in logs), within_s=20.0)
+        pids = [int(log.with_suffix(".pid").read_text()) for log in logs]
+        assert all(alive(pid) for pid in pids)
+    finally:
+        parent.kill()
+        parent.wait()
+    assert eventually(lambda: not any(alive(pid) for pid in pids), within_s=2.0)
+
+
+def test_the_table_is_sound():
+    names = [entry.name for entry in PROCESSES]
+    assert sorted(names) == sorted(STOP_ORDER)
+    for entry in PROCESSES:
+        assert entry.death in CATALOGUE
+    moving = [entry for entry in PROCESSES if entry.name in ("plant", "controller")]
+    assert all(entry.restarts == 0 for entry in moving)
+
+
+def test_exit_statuses_are_told_in_words():
+    assert describe_exit(0) == "ended with status 0"
+    assert describe_exit(-9) == "was killed by SIGKILL"
+    assert "200" in describe_exit(-200)
+    assert last_line(Path("/nonexistent")) == ""
