@@ -215,7 +215,7 @@ class Say(_Goal, frozen=True, kw_only=True):
 class Answer(_Goal, frozen=True, kw_only=True):
     """Answer a question or a quiz of a person."""
 
-    what: str = "question"
+    what: str
     person: Person | None = None
 
 

@@ -7,7 +7,7 @@ from intents.english import lexicon
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREPOSITIONS, phrases
 from intents.english.measures import Measure, measure
-from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
+from intents.english.noun_phrases import Locative, NounPhrase, is_content, noun_phrase
 from intents.english.postmodifiers import read_postmodifiers
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
@@ -187,6 +187,9 @@ def _direction(text: Text, at: int) -> tuple[Complement, int] | None:
         return None
     direction, end = found
     if text.word(end) == "of":
+        return None
+    described = is_content(text, end) and not verbs_at(text.words, end)
+    if end > at + 1 and described and text.word(end - 1) in ("left", "right", "front", "back"):
         return None
     single = end == at + 1 and direction not in ("forward", "around")
     if single and (_particle_goes_on(text, end) or text.phrase_end(GOALWARDS, at)):

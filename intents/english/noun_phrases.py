@@ -81,6 +81,7 @@ class NounPhrase:
 
 
 _SOMETHING = lexicon.words("something anything everything")
+_HOLDERS = (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS
 _NO_NOUN = (
     lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
@@ -334,9 +335,9 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
         if outer.name("room", "place") and not phrase.name("room"):
             phrase.places.insert(0, Locative("in", outer))
         return last
-    if text.word(end) in (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS:
+    if text.word(end) in _HOLDERS and not _goes_on_unknown(text, end + 1):
         return end + (text.word(end + 1) != "you")
-    if is_content(text, end) and not verbs_at(text.words, end) and not _names_person(text, end):
+    if _goes_on_unknown(text, end):
         return _read_unknown_compound(text, phrase, at, end)
     return end
 
@@ -353,6 +354,11 @@ def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) ->
         phrase.noun, phrase.names = "unknown", ()
     phrase.said = " ".join(text.words[at:last])
     return last
+
+
+def _goes_on_unknown(text: Text, at: int) -> bool:
+    """Whether words that are no names, verbs or people go on with a compound."""
+    return is_content(text, at) and not verbs_at(text.words, at) and not _names_person(text, at)
 
 
 def _names_person(text: Text, at: int) -> bool:

@@ -101,6 +101,8 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
         elif end < len(words) and words[end] == COMMA and (not kept or kept[-1].text == COMMA):
             end += 1
         at = end
+    while kept and kept[-1].text in (COMMA, FULL_STOP):
+        kept.pop()
     return kept
 
 

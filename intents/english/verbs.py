@@ -47,8 +47,7 @@ SPELLINGS: dict[str, str] = {
         "pull"
     ),
     "inform": (
-        "give me,give us,give,provide,provide me with,show me,share,get me,tell me,"
-        "let me know"
+        "give me,give us,give,provide,provide me with,show me,share,get me"
     ),
     "give": (
         "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"

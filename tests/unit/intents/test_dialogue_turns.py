@@ -56,9 +56,7 @@ def test_a_missing_place_can_be_supplied() -> None:
     asked, answered = converse("put the torch", "on the bench")
     assert isinstance(asked, Question)
     assert isinstance(answered, Goals)
-    assert to_json(answered.goals) == (
-        '[{"goal":"place","object":{"name":"torch"},"on":"bench"}]'
-    )
+    assert to_json(answered.goals) == ('[{"goal":"place","object":{"name":"torch"},"on":"bench"}]')
 
 
 def test_a_new_command_instead_of_an_answer_is_a_new_command() -> None:
