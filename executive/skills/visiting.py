@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from executive.skills.asking import ask, stance_of, surroundings
+from executive.skills.asking import ask
 from executive.skills.body import Body
 from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.walking import walk_to
+from executive.skills.walking import path_request, walk_to
 from robot.messages import Place
-from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3
 
 BEFORE_EDGE_M = 0.40
@@ -55,7 +55,7 @@ def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[S
     reasons: list[GaveUp] = []
     for stance in stances:
         try:
-            yield from ask(body, _way(body, stance), BasePath)
+            yield from ask(body, path_request(body, stance), BasePath)
         except GaveUp as end:
             if end.failure.code not in BAD_GOAL:
                 raise
@@ -76,12 +76,6 @@ def heading_to(X_WS: SE3, x_m: float, y_m: float) -> float:
     """Heading on arrival at a point, where none is wanted: the way one comes, or as one stands."""
     dx, dy = x_m - X_WS.p[0], y_m - X_WS.p[1]
     return math.atan2(dy, dx) if math.hypot(dx, dy) > 0.3 else X_WS.yaw_rad
-
-
-def _way(body: Body, goal: Stance) -> BasePathRequest:
-    return BasePathRequest(
-        start=stance_of(body.X_WS), goal=goal, around=surroundings(body), seed=body.context.seed
-    )
 
 
 def _on_floor(place: Place, X_WS: SE3) -> list[Stance]:

@@ -24,6 +24,9 @@ from robot.se3 import wrap_angle
 REPLANS = 3
 CRUISE = 0.8
 CRUISE_CARRYING = 0.7
+CRUISE_NARROW = 0.55
+CLEARANCE_M = 0.14
+NARROW_M = 0.33
 HAND_OVER_M = 0.35
 HAND_OVER_ASIDE_M = 0.08
 HAND_OVER_RAD = 0.25
@@ -72,14 +75,20 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
     )
 
 
-def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]:
-    """Ask for a way from here."""
-    request = BasePathRequest(
+def path_request(body: Body, goal: Stance, *, attempt: int = 0) -> BasePathRequest:
+    """A way from here that leaves room for the body's sway."""
+    return BasePathRequest(
         start=stance_of(body.X_WS),
         goal=goal,
         around=surroundings(body),
+        clearance_m=CLEARANCE_M,
         seed=body.context.seed + attempt,
     )
+
+
+def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]:
+    """Ask for a way from here."""
+    request = path_request(body, goal, attempt=attempt)
     path = yield from ask(body, request, BasePath)
     return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
 
@@ -102,8 +111,10 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     Returns what blocks it. The body is left walking: step on, or stand still.
     """
     gait = body.description.walking
-    carrying = bool(body.context.holdings.all())
-    speed_m_s = gait.max_forward_m_s * (CRUISE_CARRYING if carrying else CRUISE)
+    part = CRUISE_CARRYING if body.context.holdings.all() else CRUISE
+    if path.clearance_m < NARROW_M:
+        part = CRUISE_NARROW
+    speed_m_s = part * gait.max_forward_m_s
     follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
     watch = _Watch(body, follower.total_m)
     while not _arrived(body, follower, path.waypoints[-1]):
