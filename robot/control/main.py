@@ -14,7 +14,6 @@ from robot.clock import Clock, WallClock
 from robot.control.loop import BUS_PERIOD_S, ControlLoop
 from robot.drivers.motors import MotorBus
 from robot.drivers.shared_memory import SharedMotors
-from robot.messages import Damp
 from robot.model import description
 
 STATE_TICKS = 10
@@ -32,8 +31,8 @@ def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: 
         if state.stamp_s == stamp_s:
             continue
         stamp_s = state.stamp_s
-        if lateness.tick(clock.now_s()) > PAUSE_S:
-            loop.handle(Damp(stamp_s=stamp_s, id=0))
+        if (pause_s := lateness.tick(clock.now_s())) > PAUSE_S:
+            loop.limits.tripped = f"the controller stood still for {pause_s:.2f} s"
         for command in commands.take():
             loop.handle(command)
         motors.write(loop.tick(state))

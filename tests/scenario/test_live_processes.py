@@ -102,6 +102,23 @@ def test_a_killed_controller_is_told_and_the_motors_damp(live: LiveRuntime):
     live.link.send(Damp(stamp_s=0.0, id=live.link.next_id()))  # nobody hears; nothing breaks
 
 
+def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: LiveRuntime):
+    pid = live.supervisor.pid("controller")
+    os.kill(pid, signal.SIGSTOP)
+    live.advance(0.5)
+    os.kill(pid, signal.SIGCONT)
+    until_s = time.monotonic() + 5.0
+    while live.link.body().mode == "stand" and time.monotonic() < until_s:
+        live.advance(0.05)
+    body = live.link.body()
+    assert body.mode == "damping"
+    assert "stood still for 0." in body.failure.cause
+    walk(live, 0.5)
+    assert live.link.body().mode == "damping"
+    assert live.link.body().activities["legs"].status == "failed"
+    assert live.failure() is None
+
+
 def test_a_killed_plant_is_told(live: LiveRuntime):
     failure = killed(live, "plant")
     assert failure.code == "plant_lost"
