@@ -143,10 +143,12 @@ def walk(options: Walk) -> int:
     ):
         walked = walking.walk(runtime, options.twist, interrupts=interrupts)
         past_s = runtime.clock.now_s()
+        late = doing.late_periods(runtime)
     if options.as_json:
         echo_json(walked)
     else:
-        typer.echo("\n".join(_walk_words(walked, past_s, wall.now_s() - begun_s)))
+        lines = _walk_words(walked, past_s, wall.now_s() - begun_s)
+        typer.echo("\n".join([*lines, *(f"  {line}" for line in late)]))
     return _walk_status(walked.failure)
 
 

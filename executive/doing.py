@@ -22,7 +22,7 @@ from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
 from robot.clock import Clock
 from robot.errors import CATALOGUE
-from robot.messages import WorldState
+from robot.messages import LoopTiming, WorldState
 from robot.planning.worker import Planner
 
 RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
@@ -119,8 +119,23 @@ def _summary(
         clamped=body.clamped if body else 0,
         refused=body.refused if body else 0,
         placed=_placed(job, runtime.link.world()),
+        late=late_periods(runtime),
         folder=str(job.folder) if job.folder else "",
     )
+
+
+def late_periods(runtime: loop.Runtime) -> tuple[str, ...]:
+    """How well the loops of a live run kept their time, a line each; nothing in `fast`."""
+    if not isinstance(runtime, loop.Timed):
+        return ()
+    return tuple(_timing_words(timing) for _, timing in sorted(runtime.timing.items()))
+
+
+def _timing_words(timing: LoopTiming) -> str:
+    share = 100.0 * timing.late / max(timing.count, 1)
+    spans_ms = [1e3 * span_s for span_s in (timing.p50_s, timing.p99_s, timing.p999_s)]
+    late = f"{timing.process}: {timing.late} of {timing.count} periods late ({share:.2f} %)"
+    return f"{late}, by p50 {spans_ms[0]:.2f}, p99 {spans_ms[1]:.2f}, p99.9 {spans_ms[2]:.2f} ms"
 
 
 def _placed(job: Job, world: WorldState | None) -> tuple[Placed, ...]:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from types import FrameType
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from executive.app import RATE_HZ, Executive
 from robot.clock import Clock
 from robot.errors import Failure
 from robot.link import BodyLink
-from robot.messages import Damp
+from robot.messages import Damp, LoopTiming
 
 PERIOD_S = 1.0 / RATE_HZ
 
@@ -36,6 +36,16 @@ class Runtime(Protocol):
 
     def failure(self) -> Failure | None:
         """Why the run cannot go on, None while it can."""
+        ...
+
+
+@runtime_checkable
+class Timed(Protocol):
+    """A runtime that knows how well its loops keep their time."""
+
+    @property
+    def timing(self) -> Mapping[str, LoopTiming]:
+        """The newest report of each process."""
         ...
 
 

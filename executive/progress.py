@@ -12,7 +12,7 @@ from rich.text import Text
 
 from executive.app import Executive
 from executive.blackboard import GOAL, HEALTH, HELD, SAID
-from executive.dumps.text import MARKS, State, lines
+from executive.dumps.text import MARKS, Line, State, lines
 from executive.journal import Event
 
 REFRESH_S = 0.1
@@ -123,16 +123,13 @@ class LiveTree(Silent):
         return Group(head, *self._tree(), foot)
 
     def _tree(self) -> list[Text]:
-        task = self._executive.tree.task
+        task = self._executive.tree.shown
         if task is None:
             return []
         room = max(6, self._console.size.height - 5)
-        drawn = [
-            Text("  " * line.depth + f"{MARKS[line.state]} {line.name}", style=_STYLES[line.state])
-            + Text(f"  {line.note}" if line.note and line.state != "done" else "", style="dim")
-            for line in lines(task)
-        ]
-        running = [i for i, line in enumerate(lines(task)) if line.state == "running"]
+        shown = list(lines(task))
+        drawn = [_drawn(line) for line in shown]
+        running = [i for i, line in enumerate(shown) if line.state == "running"]
         first = max(0, min(len(drawn) - room, (running[-1] if running else 0) - room // 2))
         return drawn[first : first + room]
 
@@ -150,6 +147,15 @@ class LiveTree(Silent):
         """Leave the last picture standing."""
         self._live.update(self._picture(self._wall_s()), refresh=True)
         self._live.stop()
+
+
+def _drawn(line: Line) -> Text:
+    """One line of the tree in its colours."""
+    text = Text("  " * line.depth)
+    text.append(f"{MARKS[line.state]} {line.name}", style=_STYLES[line.state])
+    if line.note and line.state != "done":
+        text.append(f"  {line.note}", style="dim")
+    return text
 
 
 _SENTENCES: dict[str, str] = {

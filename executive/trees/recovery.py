@@ -63,7 +63,7 @@ RULES: dict[str, Rule] = {
     # planning
     "no_path": Rule(remedy="wait", times=2),
     "start_in_collision": Rule(remedy="step_back", times=1),
-    "goal_in_collision": Rule(remedy="retry", times=1),
+    "goal_in_collision": Rule(remedy="wait", times=1),
     "out_of_reach": Rule(remedy="step_back", times=2),
     "no_grasp": Rule(remedy="retry", times=1),
     "no_stance": Rule(remedy="retry", times=1),

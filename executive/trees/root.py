@@ -65,6 +65,8 @@ class Tree:
             children=[sense, WindDown(stage), self._act],
         )
         self.task: Behaviour | None = None
+        self.shown: Behaviour | None = None
+        """The newest task, also when it is over: for people to look at."""
 
     def begin(self, task: Behaviour) -> None:
         """Put a task into the tree; one that is there is ended first."""
@@ -76,7 +78,7 @@ class Tree:
         self._stage.task.set(FAILURE, None)
         self._stage.task.set(RECOVERIES, 0)
         task = OneShot(task.name, task, policy=OneShotPolicy.ON_COMPLETION)
-        self.task = task
+        self.task = self.shown = task
         self._act.insert_child(task, len(self._act.children) - 1)
 
     def clear(self) -> None:

@@ -151,11 +151,8 @@ def _go_to_person(person: goals.Person, scene: Scene) -> Errand:
 def _look_at(goal: goals.LookAt, scene: Scene) -> Part:
     if goal.object is not None:
         info = scene.object(goal.object)
-        params = LookParams(object_id=info.id)
-        return Errand(
-            name=f"look at {full_name(info)}", params=params, object_id=info.id,
-            object_name=full_name(info),
-        )  # fmt: skip
+        params = SearchParams(object_id=info.id)  # it ends with the object in sight
+        return _about(info, f"look at {full_name(info)}", params)
     if goal.person is not None:
         found = scene.person(goal.person)
         return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))

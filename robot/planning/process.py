@@ -6,6 +6,7 @@ What runs over its budget, or is cancelled, is killed with its process; another 
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
@@ -134,7 +135,10 @@ class ProcessPlanner:
         self._process: SpawnProcess = context.Process(
             target=_work, args=(self._description, theirs), name="planner", daemon=True
         )
+        # Ctrl-C is for the one who plans, not for the worker: it inherits the blocked signal.
+        unblocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         self._process.start()
+        signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
         theirs.close()
         self._ready = False
 
@@ -160,5 +164,5 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
         while True:
             ticket, request = pipe.recv()
             pipe.send((ticket, solver.solve(request)))
-    except (EOFError, OSError, KeyboardInterrupt):
+    except (EOFError, OSError):
         return
