@@ -18,6 +18,7 @@ PINION_RADIUS_M = 0.01
 TORQUE_SHARE = 0.005
 FORCE_N = 0.3
 TORQUE_NM = 0.01
+NOISE_BLOCK = 256
 
 
 class BodySensors:
@@ -45,6 +46,8 @@ class BodySensors:
         self._signs: Array = np.repeat([1.0, -1.0], [6, 24])  # MuJoCo's wrench: parent on child
         self._sigma = _sigma(model, description, motors)
         self._truth: Array = np.empty(len(self._sigma))
+        self._noise: Array = np.empty((0, len(self._sigma)))
+        self._drawn = 0
 
     def measure(self, stamp_s: float) -> MotorState:
         """Measure everything; forces and accelerations are those of the last physics step."""
@@ -53,12 +56,7 @@ class BodySensors:
         truth[n : 2 * n] = self._qvel[motors.qd_index]
         truth[2 * n : 3 * n] = self._force
         np.multiply(self._sensordata[self._addresses], self._signs, out=truth[3 * n :])
-        if self._rng is None:
-            values = truth.copy()
-        else:
-            values = self._rng.standard_normal(len(truth))
-            values *= self._sigma
-            values += truth
+        values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
         rest = values[3 * n :]
         return MotorState(
             stamp_s=stamp_s,
@@ -73,6 +71,14 @@ class BodySensors:
             watchdog=motors.watchdog,
             command_stamp_s=motors.command_stamp_s,
         )
+
+    def _next_noise(self, rng: np.random.Generator) -> Array:
+        """Noise of one measurement; drawn for many at once, which is cheaper."""
+        self._drawn += 1
+        if self._drawn >= len(self._noise):
+            self._noise = rng.standard_normal((NOISE_BLOCK, len(self._sigma))) * self._sigma
+            self._drawn = 0
+        return self._noise[self._drawn]
 
 
 def _addresses(model: mujoco.MjModel, description: RobotDescription) -> NDArray[np.int64]:

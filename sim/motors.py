@@ -8,6 +8,8 @@ implicitly (no instability from a stiff gain), and `forcerange` is the torque li
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -92,7 +94,8 @@ class Motors:
         self._damping: Array = np.array([motor.kd for motor in motors])
         self._ctrl = data.ctrl
         self._force = data.actuator_force
-        self._bias = model.actuator_biasprm
+        bias = model.actuator_biasprm
+        self._bias_kp, self._bias_kd = bias[:, 1], bias[:, 2]
         self._command: Array = np.empty((5, self.count))
         bounds = np.empty((5, self.count))
         bounds[0], bounds[1], bounds[2] = MAX_Q_RAD, MAX_QD_RAD_S, self.limit_nm
@@ -113,8 +116,10 @@ class Motors:
         for field in fields:
             if field.shape != shape:
                 raise DriverError(f"a command has shape {field.shape}, motors want {shape}")
-        sent = np.stack(fields)
-        if not np.isfinite(sent).all():
+        sent = np.empty(self._upper.shape)
+        for row, field in enumerate(fields):
+            sent[row] = field
+        if not math.isfinite(float(sent.sum())):
             raise DriverError(f"a command is not finite: {_not_finite(sent)}")
         np.minimum(sent, self._upper, out=sent)
         np.maximum(sent, self._lower, out=sent)
@@ -151,8 +156,8 @@ class Motors:
         np.multiply(kp, q_des, out=ctrl)
         ctrl += kd * qd_des
         ctrl += tau_ff
-        np.negative(kp, out=self._bias[:, 1])
-        np.negative(kd, out=self._bias[:, 2])
+        np.negative(kp, out=self._bias_kp)
+        np.negative(kd, out=self._bias_kd)
 
 
 def _not_finite(rows: Array) -> str:

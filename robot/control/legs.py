@@ -54,7 +54,10 @@ class Legs:
         self._height_rate_m_s = 0.0
         self._waist = np.zeros(len(self.description.groups["waist"]))
         self._waist_goal = self._waist.copy()
+        self._waist_moves = False
         self._whole = whole
+        self._upright: Array = np.zeros(4)
+        self._tilt: Array = np.zeros(3)
         self._expires_s = math.inf
         self._now_s = 0.0
         self._twist_goal = Twist()
@@ -67,6 +70,7 @@ class Legs:
         height = nominal if command.height_m is None else command.height_m
         self._height_goal_m = max(LOWEST_SHARE * nominal, min(nominal + 0.02, height))
         self._waist_goal = self._waist_posture(command.yaw_rad, command.pitch_rad)
+        self._waist_moves = True
         self._end_walk()
         self.gait.wish = None if self.gait.phase == "stand" else Twist()
         self._start(command.id)
@@ -109,6 +113,7 @@ class Legs:
     def _stand_tall(self) -> None:
         self._height_goal_m = self.description.walking.base_height_m
         self._waist_goal = np.zeros_like(self._waist)
+        self._waist_moves = True
 
     def _end_walk(self) -> None:
         self._expires_s = math.inf
@@ -149,8 +154,11 @@ class Legs:
         change = max(-step, min(step, self._height_goal_m - self.height_m))
         self.height_m += change
         self._height_rate_m_s = change / dt_s
-        turn = WAIST_RATE_RAD_S * dt_s
-        self._waist += np.minimum(np.maximum(self._waist_goal - self._waist, -turn), turn)
+        if self._waist_moves:
+            turn = WAIST_RATE_RAD_S * dt_s
+            change = self._waist_goal - self._waist
+            self._waist += np.minimum(np.maximum(change, -turn), turn)
+            self._waist_moves = float(np.abs(change).max()) > 1e-9
         if self._now_s > self._expires_s:
             self._twist_goal = Twist()
         wish = self.gait.wish
@@ -173,8 +181,7 @@ class Legs:
         if math.isfinite(self._expires_s) and self._now_s <= self._expires_s:
             return
         there = abs(self.height_m - self._height_goal_m) < 1e-3
-        turned = float(np.abs(self._waist - self._waist_goal).max()) < 1e-3
-        if there and turned:
+        if there and not self._waist_moves:
             self.activity = Activity(id=self.activity.id, status="done")
             if isinstance(self.gait.wish, Twist):
                 self.gait.wish = None
@@ -195,8 +202,7 @@ class Legs:
         kp, kd = HEIGHT_GAINS
         rate_error = self._height_rate_m_s - float(data.qvel[2])
         acc[2] = kp * (self.height_m - float(data.qpos[2])) + kd * rate_error
-        q = data.qpos[self.body.qpos_of[whole.active_motors]]
-        qd = data.qvel[self.body.dof_of[whole.active_motors]]
+        q, qd = data.qpos[whole.active_qpos], data.qvel[whole.active_dofs]
         posture = -POSTURE_DAMPING_1_S * qd
         waist_kp, waist_kd = WAIST_GAINS
         rows = whole.waist
@@ -217,8 +223,8 @@ class Legs:
         """Upright, facing the heading of the feet."""
         data = dynamics.data
         half = 0.5 * heading_rad
-        wanted = np.array([math.cos(half), 0.0, 0.0, math.sin(half)])
-        error = np.zeros(3)
+        wanted, error = self._upright, self._tilt
+        wanted[0], wanted[3] = math.cos(half), math.sin(half)
         mujoco.mju_subQuat(error, wanted, data.qpos[3:7])
         kp, kd = PELVIS_GAINS
         return kp * error - kd * data.qvel[3:6]

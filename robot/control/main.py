@@ -41,6 +41,7 @@ def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: 
         if ticks % TIMING_TICKS == 0:
             bus.publish(topics.CONTROLLER_TIMING, lateness.report(stamp_s, clock.now_s()))
         ticks += 1
+    bus.publish(topics.CONTROLLER_TIMING, lateness.report(stamp_s, clock.now_s()))
 
 
 def main(run_file: str, parent_pid: str) -> None:

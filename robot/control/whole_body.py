@@ -84,7 +84,9 @@ class WholeBody:
         ]
         self.active_motors = np.array(active)
         self.dofs: NDArray[np.int64] = np.concatenate([np.arange(6), body.dof_of[active]])
-        self.waist = np.arange(len(active))[-len(description.groups["waist"]) :]
+        self.active_qpos = as_index(body.qpos_of[active])
+        self.active_dofs = as_index(body.dof_of[active])
+        self.waist = slice(len(active) - len(description.groups["waist"]), len(active))
         self.torque_limit = 0.95 * body.torque_limit_nm[active]
         self.size = len(self.dofs)
         weights = np.full(len(active), POSTURE_WEIGHT)
