@@ -1,0 +1,108 @@
+"""A hand: its motor's target never asks for more than the force, and says when it is done."""
+
+import numpy as np
+import pytest
+
+from robot.control.hand import CLOSE_RATE_M_S, GIVE_UP_S, HandControl
+from robot.drivers.motors import MotorState
+from robot.messages import Grip
+from robot.se3 import SE3
+
+DT_S = 0.005
+UPRIGHT = np.eye(3)
+
+
+class Bench:
+    """One hand whose fingers follow their target until they meet `stop_m` (travel of the motor)."""
+
+    def __init__(self, body):
+        self.body = body
+        self.hand = body.description.hands["right"]
+        self.q = np.array(body.description.posture("nominal"))
+        self.control = HandControl(body, "right", self.q)
+        self.motor = self.control.motor
+        self.stop_m = 0.0
+        self.force_n = []
+        self.load_n = 0.0
+
+    def state(self, speed):
+        zero = np.zeros(self.body.count)
+        qd = zero.copy()
+        qd[self.motor] = speed
+        wrench = np.zeros((2, 6))
+        wrench[1, 2] = -(self.load_n + self.control._weight_n)
+        return MotorState(
+            stamp_s=0.0, q=self.q, qd=qd, tau=zero, temperature_c=zero, gyro_rad_s=np.zeros(3),
+            accel_m_s2=np.zeros(3), ankle_wrench=np.zeros((2, 6)), wrist_wrench=wrench,
+            watchdog=False, command_stamp_s=0.0,
+        )  # fmt: skip
+
+    def run(self, duration_s):
+        speed = 0.0
+        for _ in range(round(duration_s / DT_S)):
+            target = self.control.update(DT_S, self.state(speed), UPRIGHT)
+            self.force_n.append(self.body.kp[self.motor] * abs(target - self.q[self.motor]))
+            before = self.q[self.motor]
+            self.q[self.motor] = max(self.stop_m, before + 0.5 * (target - before))
+            speed = (self.q[self.motor] - before) / DT_S
+
+    def grip(self, opening_m, force_n=15.0):
+        self.control.grip(
+            Grip(id=4, stamp_s=0.0, side="right", opening_m=opening_m, force_n=force_n)
+        )
+
+
+@pytest.fixture
+def bench(body):
+    return Bench(body)
+
+
+@pytest.mark.parametrize("opening", [0.0, 0.03, 0.1])
+def test_free_fingers_reach_their_opening(bench, opening):
+    bench.grip(opening)
+    bench.run(2.0)
+    assert bench.control.activity.status == "done"
+    assert bench.control.activity.detail == ""
+    assert bench.q[bench.motor] * bench.hand.opening_per_motor == pytest.approx(opening, abs=0.004)
+
+
+@pytest.mark.parametrize("force", [3.0, 8.0, 15.0])
+def test_fingers_that_meet_something_stop_and_press_as_asked(bench, force):
+    bench.stop_m = 0.02
+    bench.grip(0.0, force)
+    bench.run(2.0)
+    assert bench.control.activity.status == "done"
+    assert "something" in bench.control.activity.detail
+    assert max(bench.force_n) <= force + 1e-9
+    assert bench.force_n[-1] == pytest.approx(force, rel=0.01)
+
+
+@pytest.mark.parametrize(("opening", "force"), [(9.0, 99.0), (-1.0, -5.0)])
+def test_what_is_asked_is_kept_inside_the_hands_limits(bench, opening, force):
+    bench.grip(opening, force)
+    bench.run(2.0)
+    gap = bench.control.target * bench.hand.opening_per_motor
+    assert 0.0 <= gap <= bench.hand.max_opening_m
+    assert max(bench.force_n) <= bench.hand.max_force_n + 1e-9
+
+
+def test_fingers_do_not_slam(bench):
+    bench.grip(0.1)
+    before = bench.control.update(DT_S, bench.state(0.0), UPRIGHT)
+    after = bench.control.update(DT_S, bench.state(0.0), UPRIGHT)
+    assert abs(after - before) <= CLOSE_RATE_M_S * DT_S + 1e-12
+
+
+def test_fingers_that_never_rest_fail(bench):
+    bench.grip(0.0)
+    for k in range(round((GIVE_UP_S + 0.5) / DT_S)):
+        bench.q[bench.motor] = 0.03 + 0.005 * (k % 2)
+        bench.control.update(DT_S, bench.state(0.5), UPRIGHT)
+    assert bench.control.activity.status == "failed"
+
+
+def test_the_load_is_what_hangs_below_the_hands_own_weight(bench):
+    bench.load_n = 4.0
+    bench.run(2.0)
+    assert bench.control.load_n == pytest.approx(4.0, abs=0.05)
+    assert bench.control.state(bench.state(0.0), SE3()).load_n == bench.control.load_n
