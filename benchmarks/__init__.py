@@ -1,0 +1,1 @@
+"""What the robot can do, measured: `python -m benchmarks` (= `make bench`)."""
