@@ -16,8 +16,7 @@ from robot.drivers.motors import MotorBus
 from robot.drivers.shared_memory import SharedMotors
 from robot.model import description
 
-STATE_TICKS = 10
-TIMING_TICKS = 500
+STATE_TICKS, TIMING_TICKS = 10, 500
 PAUSE_S = 0.3
 
 
