@@ -21,7 +21,7 @@ from executive.trees.tasks import build, errands
 from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
 from robot.clock import Clock
-from robot.errors import CATALOGUE
+from robot.errors import CATALOGUE, Failure
 from robot.messages import LoopTiming, WorldState
 from robot.planning.worker import Planner
 
@@ -111,7 +111,7 @@ def _summary(
         status="failed" if reason else "done",
         code=reason.code if reason else "done",
         cause=reason.cause if reason else "",
-        suggestion=(reason.suggestion or CATALOGUE[reason.code].suggestion) if reason else "",
+        suggestion=_suggestion(reason) if reason else "",
         exit_status=runs.exit_status(outcome),
         simulated_s=round(past_s, 3),
         wall_s=round(wall_s, 3),
@@ -122,6 +122,11 @@ def _summary(
         late=late_periods(runtime),
         folder=str(job.folder) if job.folder else "",
     )
+
+
+def _suggestion(reason: Failure) -> str:
+    """What a person can do; there is always something."""
+    return reason.suggestion or CATALOGUE[reason.code].suggestion or "say it again to begin anew"
 
 
 def late_periods(runtime: loop.Runtime) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from rich.live import Live
 from rich.text import Text
 
 from executive.app import Executive
-from executive.blackboard import GOAL, HEALTH, HELD, SAID
+from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
 from executive.dumps.text import MARKS, Line, State, lines
 from executive.journal import Event
 
@@ -111,6 +111,8 @@ class LiveTree(Silent):
         factor = past_s / wall_past_s if wall_past_s > 0.5 else 1.0
         head = Text(board.read(GOAL), style="bold")
         foot = Text(f"{stage.now_s:6.1f} s  {factor:4.1f} x real time", style="dim")
+        if board.read(STOP):
+            foot.append("  stopping; Ctrl-C again to let the motors damp at once", style="yellow")
         health = board.read(HEALTH)
         if health.failure is not None:
             foot.append(f"  {health.failure.cause}", style="red")
