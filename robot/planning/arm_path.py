@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from robot.errors import Failure, failure
 from robot.planning import sampling
@@ -26,6 +27,7 @@ CUTS_RAD = (0.30, 0.12, 0.03)
 CHECKS = 12_000
 ATTEMPTS = 3
 TILT_RAD = 0.35
+LINE_M = 0.03
 SEEDS = 24
 GOALS = 3
 SPEED_RAD_S, ACCELERATION_RAD_S2 = 2.0, 6.0
@@ -76,7 +78,7 @@ class Corridor:
         """Whether the straight line between two free states is free."""
         count = max(2, math.ceil(float(np.linalg.norm(b - a)) / RESOLUTION_RAD))
         order = sorted(range(1, count), key=lambda i: i & -i, reverse=True)
-        return all(self.free(a + (b - a) * (i / count)) for i in order)
+        return self.free(b) and all(self.free(a + (b - a) * (i / count)) for i in order)
 
     def all_free(self, path: Array) -> bool:
         """Whether every state of a dense path is free."""
@@ -228,9 +230,8 @@ def _find(
     checks = 0
     velocity, acceleration = _limits(body, corridor.arm, request.speed)
     for attempt in range(ATTEMPTS):
-        if attempt == 0 and corridor.line_free(start, goals[0]):
-            corners: Array | None = np.stack([start, goals[0]])
-        else:
+        corners = _straight(corridor, start, goals[0]) if attempt == 0 else None
+        if corners is None:
             found = sampling.connect(
                 start,
                 goals,
@@ -255,6 +256,27 @@ def _find(
         blocked_by=blocker,
         checks=float(checks),
     )
+
+
+def _straight(corridor: Corridor, start: Array, goal: Array) -> Array | None:
+    """A straight line of the joints, or of the hand, if it is free."""
+    if corridor.line_free(start, goal):
+        return np.stack([start, goal])
+    chain = corridor.arm.chain
+    (R0, R1), (p0, p1) = chain.forward(np.stack([start, goal]))
+    turn = Rotation.from_matrix(R0.T @ R1).as_rotvec()
+    shares = np.linspace(0.0, 1.0, max(3, math.ceil(float(np.linalg.norm(p1 - p0)) / LINE_M)) + 1)
+    path = [start]
+    for share in shares[1:].tolist():
+        R = R0 @ Rotation.from_rotvec(share * turn).as_matrix()
+        near = path[-1] + (goal - path[-1]) * 0.2
+        solved = chain.solve(R[None], ((1 - share) * p0 + share * p1)[None], near[None])
+        if not solved.ok()[0] or not corridor.line_free(path[-1], solved.q[0]):
+            return None
+        path.append(solved.q[0])
+    if not corridor.line_free(path[-1], goal):
+        return None
+    return np.stack([*path, goal])
 
 
 def _timed(

@@ -35,14 +35,13 @@ from robot.planning.stances import Candidates, propose
 from robot.se3 import Array
 
 BATCH = 160
-ROUNDS = 7
 DEPTH = 8
 """How many candidates of a batch are looked at closely at a time."""
-WOBBLE_COST = 0.4
+WOBBLE_COST = 1.0
 GOOD = 0.25
 """A score that ends the search."""
 ENOUGH = 4
-"""So many that pass end the search, too."""
+"""So many that pass and bear every wobble end the search, too; or four times as many that pass."""
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
 END = "the end of its reach"
@@ -87,6 +86,7 @@ class Choice:
     q_up: Array
     q_ready: Array
     margin: float
+    steadiness: float
 
 
 @dataclass(slots=True)
@@ -111,21 +111,23 @@ def search(
         radius_m=body.description.body_radius_m + 0.02,
         reference_cost=job.reference_cost,
         seed=seed,
-        limit=BATCH * ROUNDS,
     )
     tally = Tally()
     best: tuple[float, Choice] | None = None
-    passed = 0
-    for first in range(0, min(len(candidates), BATCH * ROUNDS), BATCH):
+    passed = steady = 0
+    for first in range(0, len(candidates), BATCH):
         rows = np.arange(first, min(first + BATCH, len(candidates)))
         for score, choice in _passing(body, job, candidates.take(rows), tally):
             if best is None or score > best[0]:
                 best = (score, choice)
             passed += 1
-            if best[0] >= GOOD or passed >= ENOUGH:
+            steady += choice.steadiness == 1.0
+            if best[0] >= GOOD or steady >= ENOUGH or passed >= 4 * ENOUGH:
                 return best[1]
-        if best is not None:
+        if best is not None and steady:
             return best[1]
+    if best is not None:
+        return best[1]
     return _explain(job, floor, len(candidates), total, tally)
 
 
@@ -229,6 +231,7 @@ def _closely(
                     q_up=q[k, i],
                     q_ready=q_ready,
                     margin=margin * float(steady[i]),
+                steadiness=float(steady[i]),
                 ),
             )
             break
@@ -243,7 +246,7 @@ def _all_poses(
     """Main, middle, back and the lifts of a group.
 
     Returns the targets, joints (poses, n, k), whether reached (poses, n), and the share of small
-    errors of the stance under which main and back are still reached (n,).
+    errors of the stance under which main, back and the first lift are still reached (n,).
     """
     arm = body.arms[side]
     candidates = _join([entry.candidate for entry in group])
@@ -254,8 +257,9 @@ def _all_poses(
     poses = [main, main.moved(along_m=0.5 * back_m), back]
     poses += [main.moved(up_m=lift) for lift in job.lifts_m]
     off = [trunks.wobbled(error) for error in reach.WOBBLE]
-    everything = poses[1:] + [main, back] * len(off)
-    hanging = [trunks] * (len(poses) - 1) + [one for one in off for _ in range(2)]
+    probed = [main, back, poses[3]]
+    everything = poses[1:] + probed * len(off)
+    hanging = [trunks] * (len(poses) - 1) + [one for one in off for _ in probed]
     n, q_main = len(group), np.stack([entry.q_main for entry in group])
     reached = reach.reach(
         arm,

@@ -38,23 +38,28 @@ JITTER = 0.12
 
 @dataclass(frozen=True, slots=True)
 class Lean:
-    """A posture, how far ahead it is meant for, and what it costs."""
+    """A posture, how far ahead it is meant for, what it costs, how many candidates it may have."""
 
     pitch_rad: float
     yaw_rad: float
     ahead_m: tuple[float, ...]
     cost: float
+    quota: int
+    height_m: float | None = None
 
     def posture(self, side: Side) -> BodyPosture:
         """With the shoulder of `side` turned forward."""
         sign = -1.0 if side == "left" else 1.0
-        return BodyPosture(pitch_rad=self.pitch_rad, yaw_rad=sign * self.yaw_rad)
+        return BodyPosture(
+            height_m=self.height_m, pitch_rad=self.pitch_rad, yaw_rad=sign * self.yaw_rad
+        )
 
 
 LEANS = (
-    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38, 0.42), 0.0),
-    Lean(0.25, 0.0, (0.36, 0.40, 0.44, 0.48), 0.20),
-    Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40),
+    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38, 0.42), 0.0, 480),
+    Lean(0.25, 0.0, (0.36, 0.40, 0.44, 0.48), 0.20, 320),
+    Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40, 320),
+    Lean(0.30, 0.0, (0.28, 0.34, 0.40), 0.60, 160, height_m=0.46),
 )
 
 
@@ -120,7 +125,6 @@ def propose(
     radius_m: float,
     reference_cost: Array,
     seed: int,
-    limit: int,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
 
@@ -133,7 +137,6 @@ def propose(
         radius_m: of the body with its arms, where it turns and walks.
         reference_cost: cost of each reference, shape (m,).
         seed: of the spread.
-        limit: how many are enough.
     """
     parts = [
         _local(options, option, references, reference, side, lean)
@@ -152,13 +155,17 @@ def propose(
     standoffs = _Standoffs(floor, start, radius_m)
     kept: list[np.ndarray] = []
     backs: list[Array] = []
+    left = np.array([lean.quota for lean in LEANS])
     for first in range(0, total, CHUNK):
         rows = order[first : first + CHUNK]
+        rows = rows[left[tags[rows, 2]] > 0]
         rows = rows[floor.clearances_m(stance[rows, :2]) >= NARROW_M]
         back = standoffs.lengths(stance[rows])
-        kept.append(rows[back > 0.0])
-        backs.append(back[back > 0.0])
-        if sum(map(len, kept)) >= limit:
+        rows, back = rows[back > 0.0], back[back > 0.0]
+        inside = _within(tags[rows, 2], left)
+        kept.append(rows[inside])
+        backs.append(back[inside])
+        if not left.any():
             break
     order, standoff = np.concatenate(kept), np.concatenate(backs)
     found = Candidates(
@@ -172,6 +179,16 @@ def propose(
         cost=cost[order],
     )
     return found, total
+
+
+def _within(kinds: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Which rows are among the first `left` of their kind, shape (n,), bool; counts `left` down."""
+    result = np.zeros(len(kinds), dtype=bool)
+    for kind in range(len(left)):
+        rows = np.flatnonzero(kinds == kind)[: left[kind]]
+        result[rows] = True
+        left[kind] -= len(rows)
+    return result
 
 
 def _local(

@@ -1,0 +1,308 @@
+"""Whether plans can be carried out: chains of plans for random picks and places in a world.
+
+No physics: every pose of a pick (or a place) is checked by inverse kinematics and collision, from
+the stance as planned and from stances that are off by as much as walking leaves them.
+
+    python -m benchmarks.planning --world kitchen --picks 100 --places 20
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import Counter, defaultdict
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from robot.bringup import entry
+from robot.errors import Failure
+from robot.messages import ObjectInfo, Place, Side, WorldMap
+from robot.model import description
+from robot.planning.body import UPRIGHT, Body
+from robot.planning.requests import (
+    ArmPlan,
+    ArmRequest,
+    BasePathRequest,
+    BodyPosture,
+    Held,
+    Joints,
+    ObjectPose,
+    PickPlan,
+    PickRequest,
+    PlacePlan,
+    PlaceRequest,
+    PlanRequest,
+    PlanResult,
+    Stance,
+    Surroundings,
+)
+from robot.planning.solve import Solver
+from robot.se3 import SE3
+
+STANCE_ERROR_M, STANCE_ERROR_RAD = 0.015, 0.026
+OBJECT_ERROR_M = 0.005
+EDGE_M = 0.03
+LINE_STEPS = 6
+app = typer.Typer(add_completion=False)
+
+
+class Broken(Exception):
+    """A chain that did not hold, at a named step."""
+
+
+@dataclass
+class Study:
+    """Times of requests, and where chains broke."""
+
+    solver: Solver
+    map: WorldMap
+    rng: np.random.Generator
+    seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    done: Counter[str] = field(default_factory=Counter)
+    tried: Counter[str] = field(default_factory=Counter)
+    broken: Counter[str] = field(default_factory=Counter)
+
+    def ask(self, name: str, request: PlanRequest) -> PlanResult:
+        """Plan, and keep the (process) time; raises Broken on a failure."""
+        begin = time.process_time()
+        answer = self.solver.solve(request)
+        self.seconds[name].append(time.process_time() - begin)
+        if isinstance(answer, Failure):
+            raise Broken(f"{name}: {answer.code}: {answer.cause}")
+        return answer
+
+    def off(self, stance: Stance) -> Stance:
+        """Where the robot really stops for a stance."""
+        dx, dy = self.rng.uniform(-STANCE_ERROR_M, STANCE_ERROR_M, 2).tolist()
+        turn = float(self.rng.uniform(-STANCE_ERROR_RAD, STANCE_ERROR_RAD))
+        return (stance[0] + dx, stance[1] + dy, stance[2] + turn)
+
+
+@dataclass
+class Robot:
+    """Where the robot stands and how its arms are."""
+
+    body: Body
+    stance: Stance
+    posture: BodyPosture = UPRIGHT
+    arms: dict[Side, Joints] = field(default_factory=dict)
+    openings: dict[Side, float] = field(default_factory=dict)
+
+    def q_rad(self) -> Joints:
+        """All motors."""
+        q = self.body.standing(self.posture).q.copy()
+        for side, joints in self.arms.items():
+            q[self.body.arms[side].motors] = joints
+        for side, opening in self.openings.items():
+            hand = self.body.description.hands[side]
+            q[self.body.motor(hand.motor)] = opening / hand.opening_per_motor
+        return tuple(q.tolist())
+
+    def X_WB(self) -> SE3:
+        """The base."""
+        return SE3.from_xy_yaw(*self.stance) @ self.body.standing(self.posture).X_SB
+
+    def line(self, side: Side, X_WG: SE3) -> None:
+        """Move a hand on a straight line, as far as inverse kinematics follows; raises Broken."""
+        arm = self.body.arms[side]
+        X_WT = SE3.from_xy_yaw(*self.stance) @ self.body.standing(self.posture).X_ST[side]
+        q = np.array([self.arms[side]])
+        rotation, position = arm.chain.forward(q)
+        goal = X_WT.inverse() @ X_WG
+        for share in np.linspace(0.0, 1.0, LINE_STEPS + 1)[1:].tolist():
+            at = (1 - share) * position + share * np.array(goal.p)
+            solved = arm.chain.solve(goal.rotation()[None], at, q, iterations=30)
+            if not solved.ok(2e-3, 0.01)[0]:
+                raise Broken(f"line: {1000 * solved.position_error_m[0]:.0f} mm short")
+            if np.max(np.abs(solved.q - q)) > 0.6:
+                raise Broken("line: the arm flips")
+            q = solved.q
+        self.arms[side] = tuple(q[0].tolist())
+
+
+def move(
+    study: Study,
+    name: str,
+    robot: Robot,
+    side: Side,
+    goal: SE3 | Joints,
+    around: Surroundings,
+    *,
+    held: Held | None = None,
+    near: Joints | None = None,
+) -> None:
+    """Plan an arm motion and be at its end."""
+    plan = study.ask(
+        name,
+        ArmRequest(
+            side=side,
+            q_start_rad=robot.q_rad(),
+            X_WB=robot.X_WB(),
+            goal=goal,
+            around=around,
+            held=held,
+            keep_upright=held is not None,
+            near_rad=near,
+            seed=len(study.seconds[name]),
+        ),
+    )
+    assert isinstance(plan, ArmPlan)
+    robot.arms[side] = plan.positions_rad[-1]
+
+
+def pick(study: Study, robot: Robot, thing: ObjectPose, others: tuple[ObjectPose, ...]) -> PickPlan:
+    """A whole pick; the robot ends at the standoff, the thing held upright."""
+    around = Surroundings(map=study.map, objects=(thing, *others))
+    without = Surroundings(map=study.map, objects=others)
+    seed = len(study.seconds["pick"])
+    plan = study.ask(
+        "pick", PickRequest(object_id=thing.id, around=around, start=robot.stance, seed=seed)
+    )
+    assert isinstance(plan, PickPlan)
+    study.ask(
+        "path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around, seed=seed)
+    )
+    side = plan.side
+    robot.stance = study.off(plan.standoff)
+    robot.openings[side] = 0.1
+    move(study, "ready", robot, side, plan.ready_rad, around)
+    robot.stance, robot.posture = study.off(plan.stance), plan.posture
+    jitter = study.rng.uniform(-OBJECT_ERROR_M, OBJECT_ERROR_M, 2).tolist()
+    seen = SE3((thing.X_WO.p[0] + jitter[0], thing.X_WO.p[1] + jitter[1], thing.X_WO.p[2]))
+    X_OW = seen @ SE3(quat_wxyz=thing.X_WO.quat_wxyz) @ thing.X_WO.inverse()
+    move(study, "pre-grasp", robot, side, X_OW @ plan.X_WG_pre, around, near=plan.pre_rad)
+    robot.line(side, X_OW @ plan.X_WG_grasp)
+    robot.openings[side] = plan.opening_m
+    robot.line(side, X_OW @ plan.X_WG_lift)
+    robot.stance, robot.posture = study.off(plan.standoff), UPRIGHT
+    held = Held(id=thing.id, shape=thing.shape, X_GO=plan.X_OG.inverse())
+    move(study, "carry", robot, side, plan.carry_rad, without, held=held)
+    return plan
+
+
+def place(
+    study: Study, robot: Robot, on: Place, held: Held, side: Side, others: tuple[ObjectPose, ...]
+) -> None:
+    """A whole place; the robot ends at the standoff with its arm in the posture it stands in."""
+    around = Surroundings(map=study.map, objects=others)
+    seed = len(study.seconds["place"])
+    request = PlaceRequest(
+        place=on, side=side, held=held, around=around, start=robot.stance, seed=seed
+    )
+    plan = study.ask("place", request)
+    assert isinstance(plan, PlacePlan)
+    study.ask(
+        "path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around, seed=seed)
+    )
+    robot.stance = study.off(plan.standoff)
+    move(study, "ready", robot, side, plan.ready_rad, around, held=held)
+    robot.stance, robot.posture = study.off(plan.stance), plan.posture
+    move(study, "pre-place", robot, side, plan.X_WG_pre, around, held=held, near=plan.pre_rad)
+    robot.line(side, plan.X_WG_release)
+    robot.openings[side] = 0.1
+    robot.line(side, plan.X_WG_retreat)
+    robot.stance, robot.posture = study.off(plan.standoff), UPRIGHT
+    put = ObjectPose(id=held.id, shape=held.shape, X_WO=plan.X_WO)
+    home = study.solver.body.nominal[study.solver.body.arms[side].motors]
+    move(
+        study,
+        "home",
+        robot,
+        side,
+        tuple(home.tolist()),
+        Surroundings(map=study.map, objects=(*others, put)),
+    )
+
+
+def attempt(study: Study, name: str, chain) -> bool:  # noqa: ANN001
+    """Run a chain; keep whether it held, or where it broke."""
+    study.tried[name] += 1
+    try:
+        chain()
+    except Broken as end:
+        study.broken[f"{name}: {end}"] += 1
+        return False
+    study.done[name] += 1
+    return True
+
+
+def somewhere(study: Study, info: ObjectInfo, on: Place) -> ObjectPose:
+    """The object anywhere on a place, as far as its edge allows."""
+    half = [0.5 * size - 0.5 * info.shape.size_m[0] - EDGE_M for size in on.size_m]
+    x, y = (float(study.rng.uniform(-h, h)) for h in half)
+    z = 0.5 * info.shape.size_m[2] - info.shape.X_BodyShape.p[2]
+    yaw = float(study.rng.uniform(-math.pi, math.pi))
+    X_WO = on.X_WP @ SE3.from_xy_yaw(x, y, yaw, z_m=z)
+    return ObjectPose(id=info.id, shape=info.shape, X_WO=X_WO)
+
+
+def start_stance(map: WorldMap) -> Stance:
+    """Where the robot begins."""
+    return (map.start_X_WS.p[0], map.start_X_WS.p[1], map.start_X_WS.yaw_rad)
+
+
+@app.command()
+def main(
+    *,
+    world: Annotated[str, typer.Option(help="a world")] = "kitchen",
+    picks: Annotated[int, typer.Option(help="random poses of each object on the table")] = 100,
+    places: Annotated[int, typer.Option(help="runs on each surface")] = 20,
+    on: Annotated[str, typer.Option(help="where objects are picked from")] = "table",
+    seed: Annotated[int, typer.Option()] = 0,
+) -> None:
+    """Study how many picks and places have a whole chain of plans."""
+    solver = Solver(description.load())
+    study = Study(solver, entry.world_map(world), np.random.default_rng(seed))
+    surfaces = [place for place in study.map.places if not place.floor]
+    source = next(place for place in surfaces if place.id == on)
+    for info in study.map.objects:
+        held_by: list[PickPlan] = []
+        for _ in range(picks):
+            robot = Robot(solver.body, start_stance(study.map))
+            thing = somewhere(study, info, source)
+            attempt(
+                study,
+                f"pick {info.id} from {on}",
+                lambda robot=robot, thing=thing: held_by.append(pick(study, robot, thing, ())),
+            )
+        for target in surfaces if held_by else ():
+            for k in range(places):
+                plan = held_by[k % len(held_by)]
+                held = Held(id=info.id, shape=info.shape, X_GO=plan.X_OG.inverse())
+                robot = Robot(solver.body, plan.standoff)
+                robot.arms[plan.side], robot.openings[plan.side] = plan.carry_rad, plan.opening_m
+                attempt(
+                    study,
+                    f"place {info.id} on {target.id}",
+                    lambda robot=robot, target=target, held=held, plan=plan: place(
+                        study, robot, target, held, plan.side, ()
+                    ),
+                )
+    _report(study)
+
+
+def _report(study: Study) -> None:
+    console = Console(width=150)
+    chains = Table("chain", "whole", "tried")
+    for name, tried in study.tried.items():
+        chains.add_row(name, str(study.done[name]), str(tried))
+    times = Table("request", "n", "median ms", "p95 ms", "max ms", title="process time")
+    for name, seconds in study.seconds.items():
+        ms = 1000.0 * np.array(seconds)
+        times.add_row(
+            name,
+            str(len(ms)),
+            *(f"{v:.0f}" for v in (np.median(ms), np.percentile(ms, 95), np.max(ms))),
+        )
+    console.print(chains, times)
+    for cause, count in study.broken.most_common(20):
+        console.print(f"{count:4d}  {cause}")
+
+
+if __name__ == "__main__":
+    app()
