@@ -6,7 +6,7 @@ from typing import Literal
 from intents.english import lexicon
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREPOSITIONS, phrases
-from intents.english.measures import Measure, measure
+from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import Locative, NounPhrase, is_content, noun_phrase
 from intents.english.postmodifiers import read_postmodifiers
 from intents.english.text import Text
@@ -174,10 +174,18 @@ def _quantity(text: Text, at: int) -> tuple[Complement, int] | None:
     if vague and not measure(text.words, at):
         return Complement(vague=True), vague
     start = at + (text.word(at) in ("for", "by", "about"))
-    amount = measure(text.words, start)
+    amount = measure(text.words, start) or _plain_number(text, start)
     if amount is None or (text.name_at(start) and start == at):
         return None
     return Complement(measure=amount), amount.end
+
+
+def _plain_number(text: Text, at: int) -> Measure | None:
+    """A number that counts nothing: turn left 90."""
+    amount = number(text.words, at)
+    if amount is None or not (ends_clause(text, amount.end) or text.word(amount.end) == "to"):
+        return None
+    return Measure("plain", amount.value, amount.end)
 
 
 def _direction(text: Text, at: int) -> tuple[Complement, int] | None:

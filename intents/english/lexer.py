@@ -26,7 +26,7 @@ _UNITS = r"(?:m|cm|mm|km|s|sec|secs|min|mins|h|ms|deg|degs|rad|ft|x)\b"
 _TOKEN = re.compile(
     rf"""  "(?P<quote>[^"]+)"
     | (?<!\w)'(?P<single>[^']*\ [^']*)'(?!\w)
-    | (?P<number>\d+(?:[.,]\d+)?)(?=\s|[^\w]|{_UNITS}|$)
+    | (?P<number>(?<![\w-])-?\d+(?:[.,]\d+)?)(?=\s|[^\w]|{_UNITS}|$)
     | (?P<word>[^\W_]+(?:'[^\W_]+)*)
     | (?P<degree>°)
     | (?P<stop>[.!?]+)

@@ -256,3 +256,5 @@ SYNONYMS = tuple(
     )
 )
 """Groups of names that mean the same where a world has just one of them."""
+
+ELSE = phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")

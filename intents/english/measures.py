@@ -23,7 +23,7 @@ _GROUPS: dict[tuple[str, ...], float] = {
     ("a", "half"): 0.5, ("one", "half"): 0.5, ("a", "quarter"): 0.25, ("quarter",): 0.25,
     ("a", "single"): 1,
 }  # fmt: skip
-MeasureKind = Literal["length", "angle", "time", "times"]
+MeasureKind = Literal["length", "angle", "time", "times", "plain"]
 STEP_M = 0.3
 """Length of "a step" of the robot."""
 _UNITS: dict[str, tuple[MeasureKind, float]] = {}
@@ -55,7 +55,7 @@ class Number(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """A quantity in SI (m, rad, s; times is a plain number) that ends before word ``end``."""
+    """A quantity in SI (m, rad, s; times and plain are numbers) that ends before word ``end``."""
 
     kind: MeasureKind
     value: float
@@ -78,7 +78,7 @@ def _whole(words: list[str], start: int) -> Number | None:
     """Digits, or number words up to thousands."""
     if start >= len(words):
         return None
-    if words[start][0].isdecimal() and words[start].isascii():
+    if words[start][-1].isdecimal() and words[start].isascii():
         try:
             return Number(float(words[start]), start + 1)
         except ValueError:

@@ -85,7 +85,7 @@ _HOLDERS = (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS
 _NO_NOUN = (
     lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
-                    "standing sitting lying laying weighs")
+                    "standing sitting lying laying weighs once twice thrice")
 )  # fmt: skip
 _PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
                        "left right rest")  # fmt: skip
@@ -380,6 +380,9 @@ def _prefix_level(text: Text, phrase: NounPhrase) -> None:
 
 def _read_unknown(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Words not known, up to a name that they describe ("mobile phone") or to their end."""
+    if text.word(at) == "can" and phrase.determiner:
+        phrase.noun = "unknown"
+        return at + 1
     end = at
     while end < at + 4 and is_content(text, end) and not _names_person(text, end):
         fresh = end > at or not (phrase.determiner or phrase.color or phrase.size or phrase.level)

@@ -190,8 +190,10 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     how, end = found
     inner = noun_phrase(text, end)
-    if inner is None or inner.noun in ("body",) or inner.end == end:
+    if inner is None or inner.noun == "body" or inner.end == end:
         return None
+    if inner.noun in ("here", "there") and text.word(at) in ("over", "right"):
+        return inner.end
     if is_spot(phrase):
         in_room = bool(inner.name("room")) and how in ("on", "in", None, "near")
         if not in_room and not (how in ("in", "near") and inner.name("place")):

@@ -43,7 +43,8 @@ _ABOUT_ROBOT: dict[ReportTopic, str] = {
     "not do "
     "it,why is that,why,why not,why did you drop it,why did you fall,why did you stop moving,why "
     "are you waiting,what is wrong,what is the problem,what was that",
-    "capabilities": "what can you do,what are you able to do,what you can do,how can you help,how "
+    "capabilities": "who are you,what are you,what can you do,what are you able to do,what "
+    "you can do,how can you help,how "
     "can you help me,what are your skills,what do you know how to do,what commands do you know,"
     "what can i say,what can i ask you,help,what can i tell you to do,what do you understand",
 }

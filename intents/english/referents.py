@@ -9,7 +9,21 @@ from intents.english.names import NameIndex
 from intents.english.noun_phrases import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
-from intents.goals import OPERATOR, Count, Find, Goal, LookAt, ObjectQuery, Person, Relation, Tell
+from intents.goals import (
+    OPERATOR,
+    Bring,
+    Count,
+    Find,
+    Give,
+    Goal,
+    LookAt,
+    ObjectQuery,
+    Person,
+    Pick,
+    Place,
+    Relation,
+    Tell,
+)
 
 ME = Person(who="operator")
 _OBJECTS = ("object", "category")
@@ -18,17 +32,18 @@ _SPOTS = ("place", "room")
 
 @dataclass(slots=True)
 class Scope:
-    """What pronouns stand for: the last object, person and place spoken of."""
+    """What pronouns stand for: the last object, person and place spoken of.
+
+    Attributes:
+        group: The objects picked up and not yet put down, for "them".
+    """
 
     index: NameIndex
     object: ObjectQuery | None = None
     person: Person | None = None
     place: str | None = None
     person_is_last: bool = False
-
-    def copy(self) -> "Scope":
-        """A scope that can be given up again."""
-        return Scope(self.index, self.object, self.person, self.place, self.person_is_last)
+    group: tuple[ObjectQuery, ...] = ()
 
     def mention(self, what: ObjectQuery | Person | str | None) -> None:
         """Remember what has just been spoken of."""
@@ -44,6 +59,10 @@ class Scope:
     def mention_goal(self, goal: Goal) -> None:
         """Remember what a goal speaks of; what it moves is no longer where it was."""
         stays = isinstance(goal, Find | Count | Tell | LookAt)
+        if isinstance(goal, Pick):
+            self.group = (*self.group, replace(goal.object, at=None))
+        elif isinstance(goal, Place | Bring | Give):
+            self.group = ()
         for slot in ("object", "person", "place", "on", "in_", "to"):
             value = cast("ObjectQuery | Person | str | None", getattr(goal, slot, None))
             if value is None:

@@ -59,6 +59,7 @@ class Text:
             known = 0 <= at < len(self.words)
             match = self.index.match(self.words, at) if known else None
             small = match and match.end == at + 1 and self.words[at] in FUNCTION_WORDS
+            small = small and self.word(at - 1) not in DETERMINERS
             self._matches[at] = None if small else match
         return self._matches[at]
 

@@ -8,7 +8,7 @@ SPELLINGS: dict[str, str] = {
         "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,"
         "come over,enter,head,head over,proceed,travel,get to,get over,return,visit,"
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
-        "find the way,take yourself,get yourself,go out,go on,step,roll,journey,arrive,"
+        "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "swing by,stop by"
@@ -39,16 +39,14 @@ SPELLINGS: dict[str, str] = {
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
         "throw away,dispose of,discard,throw out,get rid of,dump,trash,bin,recycle,"
-        "place down,leave"
+        "place down,leave,lower"
     ),
     "bring": (
         "bring,deliver,carry,transport,transfer,bring over,bring back,bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull"
     ),
-    "inform": (
-        "give me,give us,give,provide,provide me with,show me,share,get me"
-    ),
+    "inform": "give me,give us,give,provide,provide me with,show me,share,get me",
     "give": (
         "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
         "pass on,hand out,distribute,share,hand in,lend,feed"
@@ -147,7 +145,8 @@ SPELLINGS: dict[str, str] = {
         "do a dance,do a bow,wave your arms,wave both hands,curtsy,show thumbs up,"
         "point towards,make a bow,bow down,raise your hand,raise your arm,"
         "raise your left hand,raise your right hand,raise your left arm,raise your right arm,"
-        "raise both arms,raise both hands,raise your arms,raise your hands"
+        "raise both arms,raise both hands,raise your arms,raise your hands,shake my hand,"
+        "shake his hand,shake her hand,shake my right hand,high five me"
     ),
     "wait": (
         "wait,hold on,stay,stay here,stay there,wait here,wait there,hang on,remain,"
@@ -169,7 +168,7 @@ SPELLINGS: dict[str, str] = {
         "continue the task,resume the task,resume the mission,continue the mission,"
         "go on with the task,continue with the task,continue with what you were doing,"
         "resume what you were doing,continue what you were doing,go on with it,keep on,"
-        "get going again,go on now"
+        "get going again,go on now,go on"
     ),
     "cancel": (
         "cancel,abort,cancel that,cancel it,never mind,nevermind,forget it,forget that,"

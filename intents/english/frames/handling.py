@@ -1,5 +1,6 @@
 """Taking, putting, bringing and giving."""
 
+import dataclasses
 from collections.abc import Callable
 
 from msgspec.structs import replace
@@ -7,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.clauses import Clause, Complement
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
-from intents.english.noun_phrases import Locative
+from intents.english.noun_phrases import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
@@ -142,10 +143,15 @@ def want(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def put(clause: Clause, scope: Scope) -> list[Goal]:
-    """Put the cup on the shelf."""
+    """Put the cup on the shelf; put the cup on the shelf and the plate on the table."""
     slots = Slots(clause, scope)
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    if bare and len(bare.phrases) > 1 and all(p.places for p in bare.phrases):
+        return [g for p in bare.phrases for g in put(_alone(clause, bare, p), scope)]
     spot = _destination(slots)
     objects = slots.objects()
+    if not objects and clause.sense == "drop":
+        objects = [scope.object or ObjectQuery(held=True)]
     if not objects:
         raise Misfit("put what?")
     if spot is None and _throws(clause):
@@ -155,6 +161,14 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: _place(q, spot)) for o in objects]
+
+
+def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:
+    """The clause with one of its coordinated noun phrases."""
+    one = dataclasses.replace(bare, phrases=[phrase])
+    return dataclasses.replace(
+        clause, complements=[one if c is bare else c for c in clause.complements]
+    )
 
 
 def _throws(clause: Clause) -> bool:
@@ -185,7 +199,7 @@ def _destination(slots: Slots) -> tuple[str, str] | None:
     if at:
         return _spot(Locative(at.how, at.phrase), slots.scope)
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
-    place = detach_place(bare.phrase) if bare else None
+    place = detach_place(bare.phrases[-1]) if bare else None
     return _spot(place, slots.scope) if place else None
 
 

@@ -101,7 +101,8 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
 def turn(clause: Clause, scope: Scope) -> list[Goal]:
     """Turn left; turn ninety degrees to the right; turn around; face the table."""
     slots = Slots(clause, scope)
-    angle = slots.measure("angle")
+    plain = slots.measure("plain")
+    angle = slots.measure("angle") if plain is None else plain * pi / 180
     direction = slots.direction("left", "right", "around", "backward", "cw", "ccw")
     second = slots.direction("left", "right", "cw", "ccw")
     target = slots.take("to", "at") or slots.take("")
@@ -138,7 +139,8 @@ def _look(phrase: NounPhrase, scope: Scope) -> LookAt:
         return LookAt(person=to_person(phrase, scope))
     if phrase.name("place", "room") and not phrase.name("object"):
         return LookAt(place=to_place(phrase, scope))
-    if phrase.noun in ("here", "there"):
+    place_is_meant = phrase.noun == "pronoun" and scope.object is None and scope.place
+    if phrase.noun in ("here", "there") or place_is_meant:
         return LookAt(place=to_place(phrase, scope))
     return LookAt(object=to_object(phrase, scope, spots=True))
 

@@ -20,6 +20,9 @@ def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
     return [replace(p, at=p.at or at) for p in people]
 
 
+_GUIDES = ("guide", "escort", "lead", "accompany", "conduct", "usher")
+
+
 def _destination(slots: Slots) -> str | None:
     """Where to; "back" and "here" are to the operator."""
     goal = slots.take("to", "into", "through")
@@ -45,6 +48,8 @@ def follow(clause: Clause, scope: Scope) -> list[Goal]:
 def guide(clause: Clause, scope: Scope) -> list[Goal]:
     """Guide Julia from the desk to the exit."""
     slots = Slots(clause, scope)
+    if clause.verb.split()[0] not in _GUIDES and not slots.clause.with_role("", "with"):
+        raise Misfit("that is not to guide anybody")
     to = _destination(slots)
     if any(c.phrases and c.role == "" and not c.phrase.is_person for c in slots.rest):
         bare = slots.take("")

@@ -58,6 +58,9 @@ class Slots:
             return []
         if any(is_person(p, self.scope) for p in bare.phrases):
             raise Misfit(f"“{bare.phrase.said}” is a person")
+        plural = bare.phrase.said in ("them", "they", "these", "those", "both")
+        if plural and bare.phrase.noun == "pronoun" and len(self.scope.group) > 1:
+            return list(self.scope.group)
         found = [to_object(p, self.scope, spots=spots) for p in bare.phrases]
         at = self.source()
         return [replace(o, at=o.at or at) for o in found] if at else found
@@ -87,6 +90,8 @@ class Slots:
             if complement.phrases and complement.phrase.noun != "there":
                 said = complement.phrase.said
                 raise Misfit(f"I do not see what “{said}” has to do with “{self.clause.verb}”")
+            if complement.measure and complement.measure.kind == "plain":
+                raise Misfit(f"I do not know what {complement.measure.value:g} counts")
             if complement.measure:
                 kind = {"length": "distance", "time": "duration"}.get(
                     complement.measure.kind, complement.measure.kind

@@ -1,0 +1,244 @@
+"""Single clauses: a verb in one of its senses, a question, a statement, a fronted phrase."""
+
+from intents.english import lexicon
+from intents.english.clauses import Clause, Complement, connector_end, ends_clause, read_complements
+from intents.english.frames import FRAMES
+from intents.english.lexer import COMMA, FULL_STOP
+from intents.english.measures import number
+from intents.english.noun_phrases import NounPhrase, noun_phrase
+from intents.english.postmodifiers import is_spot, read_postmodifiers
+from intents.english.questions import Reading, about_robot, question
+from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.speech import answer, describe, inform, say, tell
+from intents.english.text import Text
+from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
+from intents.english.verbs import verbs_at
+from intents.goals import Count, GoTo, Pose2, Repeat
+
+_SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
+_POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
+
+
+class Clauses:
+    """Reads clauses of one text.
+
+    Attributes:
+        scope: What pronouns stand for.
+        wanted: The last clause was a wish ("I want the cup"), which the next may spell out.
+    """
+
+    def __init__(self, text: Text, scope: Scope) -> None:
+        self.text = text
+        self.scope = scope
+        self.wanted = False
+        self._last_verb: tuple[int, int, tuple[str, ...]] | None = None
+
+    def skip(self, at: int) -> int:
+        """Past connectors, signs and openings like "could you"."""
+        text = self.text
+        while at < len(text):
+            if text.word(at) in (COMMA, FULL_STOP) or self._sets_out(at):
+                at += 1
+                continue
+            verb = verbs_at(text.words, at)
+            end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
+            if not end or about_robot(text, at) or (verb and verb[0][1] > end):
+                return at
+            opens_verb = verbs_at(text.words, end) or text.phrase_end(lexicon.OPENERS, end)
+            if text.word(at) in ("to", "there", "you", "next") and not opens_verb:
+                return at
+            named = text.name_at(at)
+            if text.phrase_end(lexicon.ELSE, at) or (named and named.end >= end):
+                return at
+            at = end
+        return at
+
+    def _sets_out(self, at: int) -> bool:
+        """Go *get the cup*: the walk goes without saying."""
+        text = self.text
+        if text.word(at) not in ("go", "come", "run", "hurry"):
+            return False
+        whole = verbs_at(text.words, at)[0][1] > at + 1
+        after = connector_end(text, at + 1) or at + 1
+        goes_somewhere = text.lookup(lexicon.LOCATIVES, at + 1) or text.word(after) == "go"
+        return not whole and not goes_somewhere and bool(verbs_at(text.words, after))
+
+    def not_understood(self, at: int) -> NotUnderstood:
+        """The error that quotes what begins at a word."""
+        end = at + 1
+        while end < len(self.text) and not ends_clause(self.text, end):
+            end += 1
+        return NotUnderstood(f"I do not understand “{self.text.raw(at, end)}”")
+
+    def question(self, at: int) -> Reading | None:
+        """How many cups are there?"""
+        return question(self.text, at, self.scope)
+
+    def verb(self, at: int, fronted: list[Complement] | None = None) -> Reading:
+        """A verb and its complements, in the first sense that fits.
+
+        Raises:
+            ReadingError: None fits.
+        """
+        senses = [(s, first) for s, first in verbs_at(self.text.words, at) if s != "repeat"]
+        reading = self._first_that_fits(senses, at, fronted or [], None)
+        if reading is None:
+            raise self.not_understood(at)
+        self._last_verb = (at, senses[0][1], tuple(sense for sense, _ in senses))
+        return reading
+
+    def _first_that_fits(
+        self,
+        senses: list[tuple[str, int]],
+        at: int,
+        fronted: list[Complement],
+        resumed: int | None,
+    ) -> Reading | None:
+        errors: list[ReadingError] = []
+        loose: Reading | None = None
+        for sense, first in senses:
+            try:
+                reading = self._in_sense(sense, at, first, fronted, resumed)
+            except ReadingError as error:
+                errors.append(error)
+                continue
+            if self._goes_on(reading[1]):
+                return reading
+            loose = loose or reading
+        if errors and loose is None:
+            raise max(errors, key=lambda e: e.weight)
+        return loose
+
+    def _in_sense(
+        self, sense: str, at: int, first: int, fronted: list[Complement], resumed: int | None
+    ) -> Reading:
+        """The verb in one sense; its complements begin elsewhere where a clause is resumed."""
+        text, scope = self.text, self.scope
+        if sense in _SPEECH:
+            goals, end = _SPEECH[sense](text, first if resumed is None else resumed, scope)
+            places = [to_place(c.phrase, scope) for c in fronted if c.role == "at"]
+            return [*(GoTo(place=p) for p in places), *goals], end
+        if sense == "count":
+            return self._count(first)
+        complements, end = read_complements(text, first if resumed is None else resumed)
+        if sense == "stop":
+            while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
+                end += 1
+        verb = " ".join(text.words[at:first])
+        clause = Clause(text, sense, verb, first, end, complements + fronted)
+        goals = FRAMES[sense](clause, scope)
+        self.wanted = sense == "want"
+        times = clause.measure("times")
+        if times and times > 1:
+            return [Repeat(times=int(times), goals=tuple(goals))], end
+        return goals, end
+
+    def _goes_on(self, at: int) -> bool:
+        """Whether a clause may well end here."""
+        text = self.text
+        if ends_clause(text, at) or verbs_at(text.words, at):
+            return True
+        starts = lexicon.PRONOUNS | {"to", "if", "unless", "you", "how", "what", "after", "before"}
+        return text.word(at) in starts or bool(text.phrase_end(lexicon.OPENERS, at))
+
+    def gapped(self, at: int) -> Reading | None:
+        """Put the cup on the table and *the plate on the shelf*: the verb is the one before."""
+        if self._last_verb is None:
+            return None
+        start, first, senses = self._last_verb
+        complements, end = read_complements(self.text, at)
+        if not any(c.phrases for c in complements) or not self._goes_on(end):
+            return None
+        kept = [(s, first) for s in senses if s not in _SPEECH and s != "count"]
+        return self._first_that_fits(kept, start, [], at)
+
+    def _count(self, at: int) -> Reading:
+        """Count the cups on the table."""
+        for skipped in ("how", "many", "the", "number", "amount", "of"):
+            at += self.text.word(at) == skipped
+        phrase = noun_phrase(self.text, at)
+        if phrase is None:
+            raise Unclear("What shall I count?")
+        if is_person(phrase, self.scope):
+            return [Count(person=to_person(phrase, self.scope))], phrase.end
+        return [Count(object=to_object(phrase, self.scope))], phrase.end
+
+    def pose(self, at: int) -> Reading | None:
+        """Go to x = 1, y = 2; go to position -1.5 0.2."""
+        senses = verbs_at(self.text.words, at)
+        if not any(sense == "go" for sense, _ in senses):
+            return None
+        end = max(end for sense, end in senses if sense == "go")
+        values: list[float] = []
+        while len(values) < 2 and end < len(self.text):
+            found = number(self.text.words, end)
+            if found is None and self.text.word(end) not in _POSE:
+                return None
+            values += [found.value] if found else []
+            end = found.end if found else end + 1
+        if len(values) < 2 or not ends_clause(self.text, end):
+            return None
+        return [GoTo(pose=Pose2(x_m=values[0], y_m=values[1]))], end
+
+    def fronted(self, at: int) -> Reading | None:
+        """At the desk, find the cup; the red cup, bring it to me."""
+        complements, end = read_complements(self.text, at)
+        after = self.skip(end)
+        usable = bool(complements) and all(
+            c.phrases and c.role in ("", "at", "from", "into", "to") for c in complements
+        )
+        if not usable:
+            return None
+        asked = question(self.text, after, self.scope)
+        if asked and complements[0].role == "at":
+            at_place = to_place(complements[0].phrase, self.scope)
+            return [GoTo(place=at_place), *asked[0]], asked[1]
+        if not verbs_at(self.text.words, after):
+            return None
+        for complement in complements:
+            if complement.role == "":
+                for phrase in complement.phrases:
+                    self._mention_phrase(phrase)
+        return self.verb(after, [c for c in complements if c.role])
+
+    def _mention_phrase(self, phrase: NounPhrase) -> None:
+        if is_spot(phrase):
+            self.scope.mention(to_place(phrase, self.scope))
+            return
+        what = (to_person if is_person(phrase, self.scope) else to_object)(phrase, self.scope)
+        self.scope.mention(what.at)
+        self.scope.mention(what)
+
+    def statement(self, at: int) -> tuple[NounPhrase, int] | None:
+        """There is a cup on the table; she is in the kitchen: pronouns refer to it from now."""
+        text = self.text
+        if text.word(at) == "there" and text.word(at + 1) in ("is", "are"):
+            phrase = noun_phrase(text, at + 2)
+            if phrase is None:
+                return None
+            self._mention_phrase(phrase)
+            return phrase, phrase.end
+        phrase = noun_phrase(text, at)
+        if phrase is None or text.word(phrase.end) not in ("is", "are", "should"):
+            return None
+        phrase.end += 1 + (text.word(phrase.end + 1) == "be")
+        start = phrase.end
+        read_postmodifiers(text, phrase)
+        if phrase.end == start:
+            return None
+        self._mention_phrase(phrase)
+        return phrase, phrase.end
+
+    def alone(self, at: int) -> None:
+        """A thing is named and nothing is said of it.
+
+        Raises:
+            Unclear: That is so.
+        """
+        phrase = noun_phrase(self.text, at)
+        if phrase is None or phrase.end < len(self.text) or phrase.noun != "name":
+            return
+        if phrase.name("object", "category") and at == 0:
+            raise Unclear(f"What shall I do with “{self.text.raw(at, phrase.end)}”?")
+        if phrase.is_person:
+            raise Misfit("what about them?")
