@@ -92,7 +92,7 @@ class LivePlant:
         self._clock.sleep_until(self._due_s)
         now_s = self._clock.now_s()
         self._lateness.tick(now_s)
-        if now_s >= self._report_s:
+        if self._begun and now_s >= self._report_s:
             self._report_s = now_s + TIMING_S
             report = self._lateness.report(self._plant.time_s, now_s)
             self._bus.publish(topics.PLANT_TIMING, report)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from robot.bus import run
-from robot.bus.lifeline import Stop, tie_to_parent
+from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.shared_memory import MotorServer
@@ -26,6 +26,7 @@ def main(run_file: str, parent_pid: str) -> None:
     plant = Plant(loaded, robot, seed=config.seed)
     with ZenohBus("plant", config.sockets) as bus:
         motors = MotorServer.of(robot, config.motors_path)
+        ask_for_real_time()
         try:
             LivePlant(plant, motors, bus, clock=WallClock()).run(lambda: bool(stop))
         finally:

@@ -1,4 +1,4 @@
-"""What ties a process of the robot to the one that started it, and how it is asked to stop."""
+"""What a process of the robot asks of the system: its end, and its turn."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from robot.errors import ProcessError
 PR_SET_PDEATHSIG = 1
 PR_SET_TIMERSLACK = 29
 TIMER_SLACK_NS = 5_000
+REAL_TIME_PRIORITY = 1
 
 
 class Stop:
@@ -47,3 +48,18 @@ def tie_to_parent(parent_pid: int) -> None:
     libc.prctl(PR_SET_TIMERSLACK, TIMER_SLACK_NS, 0, 0, 0)
     if os.getppid() != parent_pid:
         raise ProcessError("the process that started this one is gone")
+
+
+def ask_for_real_time() -> bool:
+    """Let this thread run before everything that is not real-time; says whether that was granted.
+
+    It takes root, CAP_SYS_NICE or an `rtprio` limit; without, the loop runs like any other.
+    """
+    if sys.platform != "linux":
+        return False
+    policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
+    try:
+        os.sched_setscheduler(0, policy, os.sched_param(REAL_TIME_PRIORITY))
+    except OSError:
+        return False
+    return True

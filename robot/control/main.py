@@ -7,7 +7,7 @@ import sys
 
 from robot.bus import run, topics
 from robot.bus.bus import Bus
-from robot.bus.lifeline import Stop, tie_to_parent
+from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.timing import Lateness
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, WallClock
@@ -16,8 +16,7 @@ from robot.drivers.motors import MotorBus
 from robot.drivers.shared_memory import SharedMotors
 from robot.model import description
 
-STATE_TICKS, TIMING_TICKS = 10, 500
-PAUSE_S = 0.3
+STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 500, 0.3
 
 
 def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: Stop) -> None:
@@ -52,6 +51,7 @@ def main(run_file: str, parent_pid: str) -> None:
     motors = SharedMotors.of(robot, config.motors_path, clock=clock)
     gc.freeze()  # what start-up made stays: the collector need not look at it in every period
     with ZenohBus("controller", config.sockets) as bus, motors:
+        ask_for_real_time()
         serve(loop, motors, bus, clock=clock, stop=Stop())
 
 
