@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import math
+
+from executive.skills.asking import stance_of
 from executive.skills.body import Body
 from executive.skills.reaching import move_arm
 from executive.skills.script import Script
 from executive.skills.stepping import is_at_stance, step_to
 from executive.skills.walking import stand_still, walk_to
+from robot.errors import Failure
 from robot.messages import Side
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan
+from robot.se3 import SE3
+
+MOST_SHORT_M = 0.04
+NEARER_M = 0.015
+NEARER_TOLERANCE_M = 0.012
 
 
 def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
@@ -27,15 +36,34 @@ def step_in(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None
     if not is_at_stance(body, plan.stance):
         body.phase = f"stepping up to the {what}"
         yield from step_to(body, plan.stance)
-    if plan.posture != BodyPosture():
-        body.phase = "leaning over"
-        posture = plan.posture
-        yield from stand_still(
-            body,
-            height_m=posture.height_m,
-            pitch_rad=posture.pitch_rad,
-            yaw_rad=posture.yaw_rad,
-        )
+    yield from take_posture(body, plan)
+
+
+def take_posture(body: Body, plan: PickPlan | PlacePlan) -> Script[None]:
+    """Lean or turn the trunk as planned for the stance."""
+    posture = plan.posture
+    if posture == BodyPosture():
+        return
+    body.phase = "leaning over"
+    yield from stand_still(
+        body, height_m=posture.height_m, pitch_rad=posture.pitch_rad, yaw_rad=posture.yaw_rad
+    )
+
+
+def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Script[bool]:
+    """Step forward by what an arm was short of its pose, if that is a few centimetres.
+
+    The stretched arm shifts the balance, so the body stands a little behind where it was planned.
+    Returns whether it stepped.
+    """
+    short_m = reason.evidence.get("short_m", math.inf)
+    if reason.code != "out_of_reach" or not isinstance(short_m, float) or short_m > MOST_SHORT_M:
+        return False
+    body.phase = "stepping nearer"
+    nearer = body.X_WS @ SE3((short_m + NEARER_M, 0.0, 0.0))
+    yield from step_to(body, stance_of(nearer), position_tolerance_m=NEARER_TOLERANCE_M)
+    yield from take_posture(body, plan)
+    return True
 
 
 def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: str) -> Script[None]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.skills.approaching import approach, withdraw
+from executive.skills.approaching import approach, come_nearer, withdraw
 from executive.skills.asking import ask, stance_of, surroundings
 from executive.skills.context import SkillContext
 from executive.skills.finding import find
@@ -142,6 +142,8 @@ class Pick(ScriptedSkill):
             except GaveUp as end:
                 if attempt == REACH_CORRECTIONS or end.failure.code not in MOVE_THE_BASE:
                     raise
+                if (yield from come_nearer(body, plan, end.failure)):
+                    continue
                 plan = yield from self._plan(info, attempt=attempt + 1)
                 yield from self._step_over(plan, info)
                 continue

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from executive.skills.approaching import approach, withdraw
+from executive.skills.approaching import approach, come_nearer, withdraw
 from executive.skills.asking import ask, held_in, stance_of, surroundings
 from executive.skills.context import SkillContext
 from executive.skills.gripping import check_grips, open_fingers, set_payload
@@ -28,6 +28,7 @@ LEAST_CONTACT_N = 0.6
 GRAVITY_M_S2 = 9.81
 TOO_HIGH_M = 0.02
 LOWERINGS = 3
+REACH_CORRECTIONS = 2
 OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
@@ -92,11 +93,27 @@ class PutDown(ScriptedSkill):
         )
         return (yield from ask(self.body, request, PlacePlan))
 
+    def _reach_over(self, place: Place, plan: PlacePlan) -> Script[None]:
+        """Bring the object above its spot; comes nearer if that is just out of reach."""
+        for attempt in range(1 + REACH_CORRECTIONS):
+            self.body.phase = f"reaching over the {place.name}"
+            goal, near_rad = plan.X_WG_pre, plan.pre_rad
+            try:
+                yield from move_arm(
+                    self.body, plan.side, goal, keep_upright=True, near_rad=near_rad
+                )
+            except GaveUp as end:
+                if attempt == REACH_CORRECTIONS:
+                    raise
+                if not (yield from come_nearer(self.body, plan, end.failure)):
+                    raise
+            else:
+                return
+
     def _lower(self, info: ObjectInfo, place: Place, plan: PlacePlan, held: Held) -> Script[None]:
         """Bring the object above its spot, then down until half its weight is off the hand."""
         body, side = self.body, plan.side
-        body.phase = f"reaching over the {place.name}"
-        yield from move_arm(body, side, plan.X_WG_pre, keep_upright=True, near_rad=plan.pre_rad)
+        yield from self._reach_over(place, plan)
         yield from move_hand(body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S)
         check_grips(body)
         body.phase = f"lowering the {info.name}"

@@ -21,6 +21,7 @@ MOVED_M = 0.015
 MOVED_RAD = 0.015
 REAIM_EVERY_S = 0.5
 AIM_TOLERANCE_M = 0.02
+AIM_SHARE = 0.7
 AIM_TOLERANCE_RAD = 0.035
 STAND_TIMEOUT_S = 5.0
 SETTLE_S = 0.3
@@ -43,7 +44,7 @@ def step_to(
     X_WS_goal = pose_of(goal)
     off_m = off_rad = math.inf
     for _ in range(1 + CORRECTIONS):
-        yield from _step_once(body, X_WS_goal)
+        yield from _step_once(body, X_WS_goal, tolerance_m=position_tolerance_m)
         yield from body.wait(SETTLE_S)
         off_m, off_rad = miss(body.X_WS, X_WS_goal)
         if off_m <= position_tolerance_m and off_rad <= yaw_tolerance_rad:
@@ -70,12 +71,12 @@ def miss(X_WA: SE3, X_WB: SE3) -> tuple[float, float]:
     return math.dist(X_WA.p[:2], X_WB.p[:2]), off_rad
 
 
-def _step_once(body: Body, X_WS_goal: SE3) -> Script[None]:
+def _step_once(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> Script[None]:
     """One WalkTo, aimed again when localisation has moved the goal in the odometry frame."""
     far_m, far_rad = miss(body.X_WS, X_WS_goal)
     timeout_s = max(LEAST_TIMEOUT_S, SECONDS_PER_METRE * far_m + SECONDS_PER_RADIAN * far_rad)
     end_s = body.now_s + timeout_s
-    aim, command_id = _aim(body, X_WS_goal)
+    aim, command_id = _aim(body, X_WS_goal, tolerance_m=tolerance_m)
     aimed_s = body.now_s
     while True:
         yield
@@ -90,11 +91,11 @@ def _step_once(body: Body, X_WS_goal: SE3) -> Script[None]:
             return
         moved_m, moved_rad = miss(aim, body.to_N(X_WS_goal))
         if body.now_s - aimed_s > REAIM_EVERY_S and (moved_m > MOVED_M or moved_rad > MOVED_RAD):
-            aim, command_id = _aim(body, X_WS_goal)
+            aim, command_id = _aim(body, X_WS_goal, tolerance_m=tolerance_m)
             aimed_s = body.now_s
 
 
-def _aim(body: Body, X_WS_goal: SE3) -> tuple[SE3, int]:
+def _aim(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> tuple[SE3, int]:
     """Send the body to a stance; returns it in N, and the command's id."""
     X_NS = body.to_N(X_WS_goal)
     x_m, y_m, yaw_rad = stance_of(X_NS)
@@ -103,7 +104,7 @@ def _aim(body: Body, X_WS_goal: SE3) -> tuple[SE3, int]:
         x_m=x_m,
         y_m=y_m,
         yaw_rad=yaw_rad,
-        position_tolerance_m=AIM_TOLERANCE_M,
+        position_tolerance_m=min(AIM_TOLERANCE_M, AIM_SHARE * tolerance_m),
         yaw_tolerance_rad=AIM_TOLERANCE_RAD,
     )
     return X_NS, body.send(command)

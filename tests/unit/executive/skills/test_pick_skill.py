@@ -7,7 +7,7 @@ import pytest
 
 from executive.skills.parameters import PickParams
 from robot.errors import failure
-from robot.messages import Grip, MoveArm, MoveHand, Payload, Walk, WalkTo
+from robot.messages import Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest, PickRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
@@ -177,6 +177,23 @@ def test_out_of_reach_once_is_cured_by_another_stance(stage):
 
     stage.planner._arm = once
     assert stage.run(CUP).status == "succeeded"
+
+
+def test_a_few_centimetres_short_are_stepped(stage):
+    arm, told = stage.planner._arm, []
+
+    def once(request):
+        if isinstance(request.goal, SE3) and not told:
+            told.append(stage.puppet.X_WS.p[0])
+            return failure("out_of_reach", "1 cm short", short_m=0.01)
+        return arm(request)
+
+    stage.planner._arm = once
+    report = stage.run(CUP, until_phase="moving in")
+    assert report.status == "running"
+    assert stage.puppet.X_WS.p[0] - told[0] == pytest.approx(0.025, abs=0.005)
+    assert len([r for r in stage.planner.requests if isinstance(r, PickRequest)]) == 1
+    assert stage.commands(Stand)[-1].pitch_rad == pytest.approx(0.1), "it leans over again"
 
 
 def test_an_arm_that_stalls_fails_and_is_held(stage):

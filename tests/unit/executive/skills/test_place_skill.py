@@ -112,6 +112,34 @@ def test_something_under_it_is_noticed_before_the_fingers_open(stage):
     assert stage.puppet.holding
 
 
+def test_a_failure_over_the_place_draws_back_with_the_object(stage):
+    arm = stage.planner._arm
+    far = failure("out_of_reach", "20 cm short", short_m=0.2)
+    stage.planner._arm = lambda r: far if isinstance(r.goal, SE3) else arm(r)
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == "out_of_reach"
+    assert stage.context.holdings.find("cup") is not None
+    assert stage.puppet.holding
+    assert stage.puppet.X_WS.p[0] < 1.4
+    held = stage.context.holdings.find("cup")
+    indices = stage.puppet.description.indices("right_arm")
+    assert [stage.puppet.q_rad[i] for i in indices] == pytest.approx(held.carry_rad)
+
+
+def test_a_few_centimetres_short_are_stepped(stage):
+    arm, told = stage.planner._arm, []
+
+    def once(request):
+        if isinstance(request.goal, SE3) and not told:
+            told.append(request)
+            return failure("out_of_reach", "1 cm short", short_m=0.01)
+        return arm(request)
+
+    stage.planner._arm = once
+    assert stage.run(ON_COUNTER).status == "succeeded"
+    assert "stepping nearer" in stage.phases
+
+
 def test_a_drop_on_the_way_is_a_drop(stage):
     stage.puppet.slips_at_s = stage.puppet.time_s + 2.0
     report = stage.run(ON_COUNTER)
