@@ -100,9 +100,9 @@ class Executive:
         took_s = round(now_s - (self._begun_s or 0.0), 4)
         recoveries = self.board.read(RECOVERIES)
         self.outcome = Outcome(failure=reason, took_s=took_s, recoveries=recoveries)
+        self.tree.clear()
         ended = failure_data(reason) if reason else {"code": "done"}
         self.journal.write(now_s, "outcome", **ended, took_s=took_s, recoveries=recoveries)
-        self.tree.clear()
 
     def _make_skill(self, params: SkillParams, attempt: int) -> Skill:
         """A skill; a retry plans with another seed."""

@@ -61,17 +61,19 @@ def do(options: Do) -> int:
         return refuse(understood, as_json=options.as_json)
     kind: runtimes.Kind = "fast" if options.fast else "live"
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    folder = options.folder or runs.folder_for(options.text, stamp=stamp)
+    runs.check_free(folder)
     job = doing.Job(
         understood=understood,
         where=where,
         seed=options.seed,
         runtime_name=kind,
-        folder=options.folder or runs.folder_for(options.text, stamp=stamp),
+        folder=folder,
     )
     interrupts = Interrupts()
     with (
         interrupts.listen(),
-        runtimes.opened(kind, where, seed=options.seed, folder=job.folder) as (runtime, planner),
+        runtimes.opened(kind, where, seed=options.seed, folder=folder) as (runtime, planner),
     ):
         summary = doing.do(
             job,

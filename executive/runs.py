@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 
 from executive.app import Outcome
+from robot.errors import ConfigError, Problem
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -75,6 +76,17 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     return base / f"{stamp}-{slug or 'run'}"
+
+
+def check_free(folder: Path) -> None:
+    """Refuse a folder that holds a run already: two journals in one file tell nothing.
+
+    Raises:
+        ConfigError: if it does.
+    """
+    if (folder / "journal.jsonl").exists():
+        cure = "choose another --run-dir"
+        raise ConfigError([Problem(f"{folder} already holds a run", suggestion=cure)])
 
 
 def save(folder: Path, name: str, value: msgspec.Struct) -> str:

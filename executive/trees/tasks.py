@@ -291,6 +291,8 @@ def _say(goal: goals.Say, _scene: Scene) -> Part:
 
 
 def _greet(goal: goals.Greet, scene: Scene) -> Part:
+    if goal.person == goals.Person():
+        return Errand(name="say hello", params=SayParams(text="Hello."))
     found = scene.person(goal.person)
     parts = (
         Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id)),

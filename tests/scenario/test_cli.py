@@ -182,6 +182,12 @@ def test_a_folder_that_cannot_be_written_is_a_warning(runtime, humanoid, tmp_pat
     assert "warning: the journal cannot be written" in text
 
 
+def test_a_folder_that_holds_a_run_is_not_written_over(runtime, humanoid):
+    assert humanoid("do", "say hello", "--fast", "--run-dir", "here")[0] == 0
+    status, text = humanoid("do", "say hello", "--fast", "--run-dir", "here")
+    assert (status, "already holds a run" in text) == (2, True)
+
+
 def test_the_same_run_twice_writes_the_same_journal(runtime, monkeypatch, humanoid, tmp_path):
     journals = []
     for name in ("a", "b"):
