@@ -12,6 +12,7 @@ from robot.model import description
 from robot.perception.node import PerceptionNode
 
 PLANT = "sim.plant:Plant"
+PHYSICS_MS = 2  # the motors' firmware runs in the physics step, integrated implicitly; `live`: 1 ms
 
 
 class FastRuntime(Lockstep):
@@ -42,7 +43,7 @@ class FastRuntime(Lockstep):
         body = description.load(robot)
         loaded = entry.world(world) if isinstance(world, str) else world
         super().__init__(
-            entry.attribute(plant)(loaded, body, seed=seed),
+            entry.attribute(plant)(loaded, body, seed=seed, physics_ms=PHYSICS_MS),
             ControlLoop(body),
             PerceptionNode(bus, body),
             bus=bus,

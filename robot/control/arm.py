@@ -78,8 +78,8 @@ class Arm:
             return f"positions must have {len(self.motors)} columns"
         if len(times) != len(positions) or len(times) == 0 or times[-1] <= 0.0:
             return "times and positions must be as many, and end after now"
-        if (np.diff(times) <= 0.0).any() or times[0] < 0.0:
-            return "times must grow"
+        if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any() or times[0] < 0.0:
+            return "times must be finite and grow"
         if times[0] == 0.0 and len(times) < 2:
             return "a trajectory needs a point after now"
         low, high = self.lower - 1e-3, self.upper + 1e-3

@@ -12,6 +12,7 @@ from robot.se3 import Array
 
 REFUSALS_TO_DAMP = 3
 OVERSPEED = 1.6
+OVERSPEED_CYCLES = 3
 
 
 class Limits:
@@ -36,11 +37,17 @@ class Limits:
         limits = (half, body.velocity_limit_rad_s, body.torque_limit_nm)
         self._inverse: Array = 1.0 / np.array(limits)
         self._share: Array = np.zeros_like(self._inverse)
+        self._overspeed: Array = 1.0 / (OVERSPEED * body.velocity_limit_rad_s)
+        names = body.description.motor_names
+        for hand in body.description.hands.values():
+            self._overspeed[names.index(hand.motor)] = 0.0  # fingers snap shut harmlessly
+        self._fast_in_a_row = 0
 
     def reset(self) -> None:
         """Forget a trip."""
         self.tripped = ""
         self._in_a_row = 0
+        self._fast_in_a_row = 0
 
     def apply(self, command: MotorCommand, state: MotorState) -> MotorCommand:
         """What may be sent: the command clamped, the last good one, or damping."""
@@ -65,9 +72,13 @@ class Limits:
         return command
 
     def _check_speed(self, state: MotorState) -> None:
-        """A joint far over its speed means that something broke: damp."""
-        share = np.abs(state.qd) * self._inverse[1]
-        if float(share.max()) > OVERSPEED:
+        """A joint far over its speed for a few cycles means that something broke: damp."""
+        share = np.abs(state.qd) * self._overspeed
+        if float(share.max()) < 1.0:
+            self._fast_in_a_row = 0
+            return
+        self._fast_in_a_row += 1
+        if self._fast_in_a_row >= OVERSPEED_CYCLES:
             worst = int(share.argmax())
             name = self.body.description.motor_names[worst]
             self.tripped = f"{name} overspeed, {abs(float(state.qd[worst])):.1f} rad/s"
