@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 import msgspec
 
-from robot.bringup import entry
+from robot.bringup import entry, private_folder
 from robot.bringup.body_clock import BodyClock
 from robot.bringup.processes import PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
@@ -25,13 +23,14 @@ from robot.model import description
 
 START_S = 20.0
 POLL_S = 0.005
+RUN_FILE = "run.json"
 MAX_LAG_S = 0.25
 
 
 class LiveRuntime:
     """A robot in a simulated world, on the wall clock; a context manager.
 
-    Attributes:
+    Attributes (`run`, `clock`, `link` and `supervisor` from entering on):
         run: what the processes were told.
         clock: the body's time (simulated seconds).
         link: the executive's handle on the body.
@@ -67,43 +66,56 @@ class LiveRuntime:
         description.load(robot)
         entry.world(world, variation_seed=variation_seed)
         self.timing: dict[str, LoopTiming] = {}
-        self._wall = wall or WallClock()
-        self._folder = folder
-        self._private = Path(tempfile.mkdtemp(prefix="humanoid-"))  # mode 0700
-        self.run = Run(
+        self._plan = Run(
             folder=str(folder),
-            sockets=str(self._private),
+            sockets="",
             robot=robot,
             world=world,
             seed=seed,
             variation_seed=variation_seed,
         )
-        run_file = self._private / "run.json"
-        self.run.save(run_file)
-        self.supervisor = Supervisor(
-            run_file, logs=folder / "logs", clock=self._wall, processes=processes
-        )
+        self._processes = processes
+        self._wall = wall or WallClock()
+        self._folder = folder
         self._failure: Failure | None = None
-        self._open()
-
-    def _open(self) -> None:
-        self._bus = ZenohBus("executive", self._private)
-        self.clock = BodyClock(self._bus, self._wall)
-        self.link = BusLink(self._bus, self.clock)
-        self._timings = [
-            self._bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
-        ]
-        self._due_s = self._wall.now_s()
+        self._due_s = 0.0
 
     def __enter__(self) -> Self:
-        """Start the processes and wait for body, map and world model; see `failure` afterwards."""
-        self.supervisor.__enter__()
+        """Start the processes and wait for body, map and world model; see `failure` afterwards.
+
+        Raises:
+            BusError, ProcessError: if bus or processes cannot be started; nothing is left then.
+        """
+        private = private_folder.create()
         try:
+            self._start(private)
+        except BaseException:
+            private_folder.remove(private)
+            raise
+        try:
+            self.supervisor.__enter__()
             self._wait_for_body()
         except BaseException:
             self.close()
             raise
         return self
+
+    def _start(self, private: Path) -> None:
+        """Open the bus, and get everything ready for the processes."""
+        self.run = msgspec.structs.replace(self._plan, sockets=str(private))
+        self.run.save(private / RUN_FILE)
+        self.supervisor = Supervisor(
+            private / RUN_FILE,
+            logs=self._folder / "logs",
+            clock=self._wall,
+            processes=self._processes,
+        )
+        self._bus = ZenohBus("executive", private)
+        self.clock = BodyClock(self._bus, self._wall)
+        self.link = BusLink(self._bus, self.clock)
+        self._timings = [
+            self._bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
+        ]
 
     def __exit__(
         self,
@@ -133,7 +145,7 @@ class LiveRuntime:
         self.supervisor.close()
         self._read_timing()
         self._bus.close()
-        shutil.rmtree(self._private, ignore_errors=True)
+        private_folder.remove(Path(self.run.sockets))
         if self.timing:
             self._folder.mkdir(parents=True, exist_ok=True)
             (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
