@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from executive.skills.asking import ask
 from executive.skills.body import Body
+from executive.skills.obstructions import clearance_m
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.walking import path_request, walk_to
 from robot.messages import Place
@@ -17,6 +18,7 @@ BEFORE_EDGE_M = 0.40
 AT_PERSON_M = 1.0
 SPOT_GRID_M = 0.6
 DIRECTIONS = 8
+ROOM_M = 0.36
 BAD_GOAL = ("goal_in_collision", "no_path")
 
 
@@ -53,7 +55,7 @@ def stances_around(p_W: Sequence[float], X_WS: SE3, *, distance_m: float) -> lis
 def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[Stance]:
     """Walk to the first stance that a path leads to; gives up if none does."""
     reasons: list[GaveUp] = []
-    for stance in stances:
+    for stance in _roomy_first(body, stances):
         try:
             yield from ask(body, path_request(body, stance), BasePath)
         except GaveUp as end:
@@ -97,3 +99,13 @@ def _on_floor(place: Place, X_WS: SE3) -> list[Stance]:
 
 def _nearest_first(stances: list[Stance], X_WS: SE3) -> list[Stance]:
     return sorted(stances, key=lambda stance: math.dist(stance[:2], X_WS.p[:2]))
+
+
+def _roomy_first(body: Body, stances: Sequence[Stance]) -> list[Stance]:
+    """The same order, but places too narrow for the arms come last."""
+    things = (*body.map.obstacles, *body.world.unmapped)
+
+    def is_narrow(stance: Stance) -> bool:
+        return any(clearance_m(stance[:2], thing) < ROOM_M for thing in things)
+
+    return sorted(stances, key=is_narrow)
