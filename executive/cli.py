@@ -28,6 +28,9 @@ app = typer.Typer(
     epilog='Begin with:  humanoid do "pick up the red cup and put it on the shelf" --fast',
 )
 
+model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
+app.add_typer(model_app, name="model")
+
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
 ]
@@ -211,6 +214,29 @@ def worlds() -> None:
         places = ", ".join(place.name for place in world_map.places)
         typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
     typer.echo("Write your own: docs/worlds.md; use it with --world FILE.")
+
+
+@model_app.command()
+def export(
+    *,
+    urdf: Annotated[Path, typer.Option("--urdf", help="The file to write.")],
+    robot: Robot = "juno",
+) -> None:
+    """Write a robot as URDF.
+
+    [bold]Example[/bold]
+
+      humanoid model export --urdf juno.urdf
+    """
+    from robot.model import description
+    from robot.model import urdf as writer
+
+    text = writer.urdf(description.load(robot))
+    try:
+        urdf.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
+    typer.echo(f"Done: {urdf}")
 
 
 def main() -> None:

@@ -284,6 +284,13 @@ def test_doctor_worlds_version_help(humanoid):
         assert "humanoid" in humanoid(*words, "--help")[1]
 
 
+def test_model_export_writes_a_urdf(humanoid, tmp_path):
+    assert humanoid("model", "export", "--urdf", "juno.urdf")[0] == 0
+    assert (tmp_path / "juno.urdf").read_text().startswith("<?xml")
+    status, text = humanoid("model", "export", "--urdf", "nowhere/juno.urdf")
+    assert (status, "cannot be written" in text) == (2, True)
+
+
 def test_view_without_a_display_says_so(humanoid, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
