@@ -44,7 +44,7 @@ def _walking(outcomes: Outcomes) -> str:
     for seed, one in under(outcomes, "random").items():
         switches = f"{one.get('switches', 0)} switches"
         rows.append([f"random twists, seed {seed}", _held(one), switches, "", _drift(one)])
-    head = ["walking", "on its feet", "mean speed", "turned", "odometry drift"]
+    head = ["walking", "on its feet", "speed", "turned", "odometry drift"]
     return "### Walking\n\n" + table(head, rows)
 
 

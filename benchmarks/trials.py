@@ -22,6 +22,7 @@ from sim.world import empty
 Outcome = dict[str, Any]
 REST_S = 0.5
 HOLD_S = 0.6
+START_S = 3.0
 REPEAT_S = 0.25
 WATCH_S = 5.0
 GAIT_PERIOD_S = 1.1
@@ -30,21 +31,24 @@ GAIT_PERIOD_S = 1.1
 def walk(
     *, seed: int, duration_s: float, forward: float = 0.0, left: float = 0.0, turn: float = 0.0
 ) -> Outcome:
-    """Follow one twist [m/s, rad/s], then stand."""
+    """Follow one twist [m/s, rad/s], then stand; speed is taken from 3 s on, once it is up."""
     rig = Rig(seed=seed)
     up = rig.run(REST_S)
-    begin_s, X_WS, turned, yaw = rig.time_s, rig.X_WS, 0.0, 0.0
+    begin_s, turned, yaw = rig.time_s, 0.0, rig.X_WS.yaw_rad
+    steady_s, X_WS, turned_before = math.inf, rig.X_WS, 0.0
     while up and rig.time_s < begin_s + duration_s:
         rig.send(Walk, forward_m_s=forward, left_m_s=left, turn_rad_s=turn, hold_s=HOLD_S)
         up = rig.run(REPEAT_S)
         now = rig.X_WS.yaw_rad
         turned, yaw = turned + wrap_angle(now - yaw), now
-    span_s = rig.time_s - begin_s
-    X_SS = X_WS.inverse() @ rig.X_WS
+        if math.isinf(steady_s) and rig.time_s >= begin_s + START_S:
+            steady_s, X_WS, turned_before = rig.time_s, rig.X_WS, turned
+    span_s = max(REPEAT_S, rig.time_s - steady_s)
+    way = math.hypot(*(X_WS.inverse() @ rig.X_WS).p[:2])
     return {
+        "lasted_s": round(rig.time_s - begin_s, 2),
         "ok": up and _stands(rig),
-        "lasted_s": round(span_s, 2),
-        "speed": round(turned / span_s if turn else math.hypot(*X_SS.p[:2]) / span_s, 4),
+        "speed": round((turned - turned_before if turn else way) / span_s, 4),
         "strayed_deg": round(math.degrees(turned), 2),
         "drift_m": round(rig.drift_m(), 4),
         **_why(rig),
@@ -67,8 +71,8 @@ def random_walk(*, seed: int, duration_s: float) -> Outcome:
             rig.send(Walk, **twist, hold_s=HOLD_S)
         up = rig.run(REPEAT_S)
     return {
+        "lasted_s": round(rig.time_s - REST_S, 2),
         "ok": up and _stands(rig),
-        "lasted_s": round(rig.time_s, 2),
         "switches": switches,
         "drift_m": round(rig.drift_m(), 4),
         **_why(rig),

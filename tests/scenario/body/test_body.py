@@ -58,9 +58,11 @@ def test_it_walks_three_seconds_then_stands(rig):
     assert rig.drift_m() < 0.03
 
 
-def test_it_stops_at_a_goal(rig):
-    goal = SE3.from_xy_yaw(0.4, 0.25, 0.8)
-    rig.send(WalkTo, x_m=0.4, y_m=0.25, yaw_rad=0.8)
+@pytest.mark.parametrize("goal", [(0.4, 0.25, 0.8), (1.3, -0.9, -2.2)])
+def test_it_stops_at_a_goal(rig, goal):
+    x, y, yaw = goal
+    goal = SE3.from_xy_yaw(x, y, yaw)
+    rig.send(WalkTo, x_m=x, y_m=y, yaw_rad=yaw)
     assert rig.wait("legs", 20.0) == "done"
     assert rig.run(0.5)
     for distance_m, turn_rad in (
