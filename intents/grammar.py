@@ -5,15 +5,19 @@ statement ("there is a cup on the table") or a condition with clauses of its own
 several senses; the first one whose frame accepts the complements is the one that was meant.
 """
 
+from msgspec.structs import replace
+
 from intents.english import lexicon
+from intents.english.clauses import connector_end
 from intents.english.conditions import condition
 from intents.english.corrections import correction_end, substitute
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
 from intents.english.postmodifiers import is_spot
-from intents.english.questions import Reading, about_robot
+from intents.english.questions import Reading
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
+from intents.english.self_talk import about_robot
 from intents.english.sentences import Clauses
 from intents.english.text import Text
 from intents.english.trouble import Misfit, ReadingError, Unclear
@@ -21,12 +25,15 @@ from intents.english.verbs import verbs_at
 from intents.goals import (
     Bring,
     Condition,
+    Count,
     Find,
     ForEach,
     Give,
     Goal,
+    GoTo,
     Greet,
     If,
+    LookAt,
     ObjectQuery,
     Person,
     Pick,
@@ -84,9 +91,11 @@ class Grammar(Clauses):
             self.wanted = False
             found, end = self._clause(at, goals)
             if wish and _same_object(wish[0], found[:1]):
-                goals.pop()
-            if goals and found and _already_sought(goals[-1], found[0]):
-                goals.pop()
+                found[0] = _as_wished(found[0], goals.pop())
+            if goals and found:
+                found[0] = _told_there(goals[-1], found[0])
+                if _already_sought(goals[-1], found[0]):
+                    goals.pop()
             last = len(goals)
             goals += found
             for goal in found:
@@ -113,7 +122,8 @@ class Grammar(Clauses):
             lambda: self._before(at),
             lambda: self.question(at),
             lambda: self.pose(at),
-            lambda: self.verb(at),
+            lambda: self.asker(at),
+            lambda: self._verb(at),
             lambda: self.fronted(at),
             lambda: self._statement(at, before),
             lambda: self.gapped(at),
@@ -131,6 +141,19 @@ class Grammar(Clauses):
         if errors:
             raise max(errors, key=lambda e: e.weight)
         raise self.not_understood(at)
+
+    def _verb(self, at: int) -> Reading:
+        """A verb with its complements; "meet and greet Ada" shares one."""
+        try:
+            return self.verb(at)
+        except Unclear:
+            first = verbs_at(self.text.words, at)[0][1]
+            after = connector_end(self.text, first)
+            if after is None or not verbs_at(self.text.words, after):
+                raise
+            for goal in self._clause(after, [])[0]:
+                self.scope.mention_goal(goal)
+            return self.verb(at)
 
     def _repeat(self, at: int, before: list[Goal]) -> Reading | None:
         """Do it again; repeat that three times; repeat twice: ..."""
@@ -201,11 +224,14 @@ class Grammar(Clauses):
 
     def _before(self, at: int) -> Reading | None:
         """Before you go to the shelf, pick up the cup: the other way round."""
-        if self.text.word(at) != "before" or not self._is_clause(at + 1):
+        word = self.text.word(at)
+        if word not in ("before", "after", "once") or not self._is_clause(at + 1):
             return None
-        later, end = self._clause(self.skip(at + 1), [])
-        sooner, end = self._clause(self.skip(end), [])
-        return [*sooner, *later], end
+        one, end = self._clause(self.skip(at + 1), [])
+        for goal in one:
+            self.scope.mention_goal(goal)
+        other, end = self._clause(self.skip(end), [])
+        return ([*other, *one] if word == "before" else [*one, *other]), end
 
     def _is_clause(self, at: int) -> bool:
         """Whether "you go" or "going" begins at a word."""
@@ -281,10 +307,35 @@ def _same_object(wanted: Goal, found: list[Goal]) -> bool:
     return one is not None and other is not None and one.name == other.name
 
 
+def _as_wished(goal: Goal, wish: Goal) -> Goal:
+    """The goal with where the wish said that the thing is."""
+    if isinstance(goal, Bring | Pick) and isinstance(wish, Bring) and goal.object.at is None:
+        return replace(goal, object=replace(goal.object, at=wish.object.at))
+    return goal
+
+
+def _told_there(before: Goal, goal: Goal) -> Goal:
+    """Look at the table and count the cups: those on the table."""
+    if not isinstance(before, GoTo | LookAt) or not isinstance(goal, Tell | Count):
+        return goal
+    if before.place is None:
+        return goal
+    if goal.object and not (goal.object.at or goal.object.relation or goal.object.held):
+        return replace(goal, object=replace(goal.object, at=before.place))
+    if goal.person and goal.person.at is None and goal.person.who is None:
+        return replace(goal, person=replace(goal.person, at=before.place))
+    return goal
+
+
 def _already_sought(before: Goal, goal: Goal) -> bool:
     """Find the largest things and tell me what they are: telling finds them."""
+    if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
+        told_of = goal.object or goal.person
+        return told_of is not None and told_of.at == before.place
     if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
         return False
+    if goal.person is not None:
+        return isinstance(before, Find) and goal.person == before.person
     return goal.property == "name" and goal.object is not None and goal.object == before.object
 
 

@@ -149,8 +149,9 @@ def _attach(
     found: tuple[Complement, int] | None,
 ) -> int | None:
     """What belongs to a noun further back: the object [from the desk] *that weighs least*."""
-    bare = next((c for c in complements if c.phrases and c.role == ""), None)
-    if bare is None or bare is complements[-1] or bare.phrase.noun in ("operator", "pronoun"):
+    nouns = [c for c in complements if c.phrases and c.role == "" and not c.phrase.is_person]
+    bare = nouns[-1] if nouns else None
+    if bare is None or bare is complements[-1] or bare.phrase.noun == "pronoun":
         return None
     if found and found[0].how in _STRICT and found[0].phrase.name("object"):
         bare.phrase.places.append(Locative(found[0].how, found[0].phrase))

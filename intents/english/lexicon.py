@@ -51,7 +51,7 @@ SIZES = {
 SUPERLATIVES: dict[tuple[str, ...], Superlative] = _meanings(
     {
         "largest": "largest,biggest,most large,most big,greatest",
-        "smallest": "smallest,tiniest,littlest,least big",
+        "smallest": "smallest,most small,most little,most tiny,tiniest,littlest,least big",
         "heaviest": "heaviest,most heavy,weightiest",
         "lightest": "lightest,least heavy,most light",
         "thinnest": "thinnest,slimmest,narrowest,skinniest,finest",
@@ -84,8 +84,8 @@ PERSON_NOUNS = words(
 EVERYONE = words("everyone everybody")
 OPERATOR_WORDS = words("me us myself operator i ourselves")
 OBJECT_NOUNS = words(
-    "object objects thing things item items article articles something anything stuff "
-    "everything product products"
+    "object objects thing things item items article articles something anything stuff everything "
+    "product products"
 )
 ONES = words("one ones")
 CONTAINERS = words(
@@ -97,20 +97,20 @@ PLACE_NOUNS = words("place spot location position area room")
 PERSON_PRONOUNS = words("him her he she")
 PRONOUNS = words("it them they he she him her this that these those")
 BODY_NOUNS = words(
-    "leg legs foot feet arm arms hand hands head knee knees body gripper grippers finger "
-    "fingers mouth eyes"
+    "leg legs foot feet arm arms hand hands head knee knees body gripper grippers finger fingers "
+    "mouth eyes"
 )
 EMPTY_ADJECTIVES = words(
     "nice good fresh clean dirty empty full new old same other certain single whole entire "
     "favorite favourite plastic wooden metal glass paper beautiful lovely cold hot warm cool "
-    "delicious particular exact desired specific required corresponding main respective "
-    "nearby available remaining"
+    "delicious particular exact desired specific required corresponding main respective nearby "
+    "available remaining"
 )
 POSTURES: dict[tuple[str, ...], Literal["sitting", "standing", "lying"]] = _meanings(
     {
         "sitting": "sitting down,sitting,seated,sits,sit",
         "standing": "standing up,standing,stands,stood,upright",
-        "lying": "lying down,laying down,lying,laying,lies,sleeping,asleep,reclining",
+        "lying": "resting,lying down,laying down,lying,laying,lies,sleeping,asleep,reclining",
     }
 )
 CLOTHES = words(
@@ -131,8 +131,8 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
         "above": "above,over",
         "behind": "behind,at the back of,in back of",
         "in_front": "in front of,before,opposite,opposite of,across from",
-        "left": "left of,left to,to the left of,at the left of,on the left of,at the left side of,"
-        "on the left side of,to the left side of,left from",
+        "left": "left of,left to,to the left of,at the left of,on the left of,"
+        "at the left side of,on the left side of,to the left side of,left from",
         "right": "right of,right to,to the right of,at the right of,on the right of,"
         "at the right side of,on the right side of,to the right side of,right from",
         "between": "between,in between",
@@ -140,34 +140,32 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
 )
 """Prepositions that say where something is; None says no more than "at"."""
 GOALWARDS = phrases(
-    "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,"
-    "until,back into,back onto,back in,back on,over into"
+    "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,until,"
+    "back into,back onto,back in,back on,over into"
 )
 SOURCEWARDS = phrases(
-    "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,"
-    "from within,from the top of,from on top of,away from,from under,from behind"
+    "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,from within,"
+    "from the top of,from on top of,away from,from under,from behind"
 )
 OTHER_PREPOSITIONS = phrases("for,with,of,about,through,along,past,after,regarding,via,without")
 
 CONNECTORS = phrases(
     "and then,and after that,and afterwards,and also,and finally,and next,then,and,after that,"
-    "afterwards,after which,finally,also,next,plus,but,so,lastly,secondly,thirdly,firstly,"
-    "first,first of all,second,third,once you are done,when you are done,when done,"
-    "once you have done that,when you have it,once you have it,as well as,subsequently,"
-    "after this,in the end,thereafter,later,once done,when finished,once there,when there,"
-    "when you get there,once you get there,once you are there,when you arrive,while,"
-    "where you will,where you can,where you should,"
-    "when you are there,in order to,so that you can,or"
+    "afterwards,after which,finally,also,next,plus,but,so,lastly,secondly,thirdly,firstly,first,"
+    "first of all,second,third,once you are done,when you are done,when done,"
+    "once you have done that,when you have it,once you have it,as well as,subsequently,after this,"
+    "in the end,thereafter,later,once done,when finished,once there,when there,when you get there,"
+    "once you get there,once you are there,when you arrive,while,where you will,where you can,"
+    "where you should,when you are there,in order to,so that you can,or"
 )
 FILLERS = phrases(
     "please,kindly,thank you very much,thank you,thanks,many thanks,um,uh,uhm,er,erm,hmm,hm,"
     "carefully,gently,quickly,slowly,immediately,right now,right away,at once,straight away,"
-    "as soon as possible,asap,if you can,if possible,if you please,if you could,if you do not "
-    "mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,robot "
-    "listen,listen robot,kind sir,"
-    "would you be so kind,would you kindly,for a moment please,safely,my friend,when you can,"
-    "whenever you can,when you get a chance,when you have time,my dear,basically,actually,"
-    "kinda,sort of"
+    "as soon as possible,asap,if you can,if possible,if you please,if you could,"
+    "if you do not mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,"
+    "robot listen,listen robot,kind sir,would you be so kind,would you kindly,for a moment please,"
+    "safely,my friend,when you can,whenever you can,when you get a chance,when you have time,"
+    "my dear,basically,actually,kinda,sort of"
 )
 """Words that can be dropped wherever they stand."""
 OPENERS = phrases(
@@ -178,16 +176,16 @@ OPENERS = phrases(
     "i would appreciate it if you could,i would appreciate it if you,i want to,you should,"
     "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
     "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
-    "your task is to,your job is to,your mission is to,your goal is to,go ahead and,be so kind "
-    "as to,be so kind and,do me a favor and,help me,why do not you,why not,do me a favour "
-    "and,would you like to,do you think "
-    "you can,do you think you could,how would you,how do you,let us,hey,hi,hello,okay,alright,"
-    "all right,well,now,just,try to,start to,begin to,make sure to,make sure you,be sure to,"
-    "remember to,do not forget to,you,to,listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,"
-    "ready,help me to,help me and,may you,might you,shall you,attempt to,i wish you to,"
-    "i wish for you to,your next task is to,the task is to,it is time to,time to,i said,"
-    "it would be nice if you could,it would be great if you could,could i ask you to,"
-    "may i ask you to,can i ask you to,please,proceed to,directly,there"
+    "your task is to,your job is to,your mission is to,your goal is to,go ahead and,"
+    "be so kind as to,be so kind and,do me a favor and,help me,why do not you,why not,"
+    "do me a favour and,would you like to,do you think you can,do you think you could,"
+    "how would you,how do you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
+    "start to,begin to,make sure to,make sure you,be sure to,remember to,do not forget to,you,to,"
+    "listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,ready,help me to,help me and,may you,"
+    "might you,shall you,attempt to,i wish you to,i wish for you to,your next task is to,"
+    "the task is to,it is time to,time to,i said,it would be nice if you could,"
+    "it would be great if you could,could i ask you to,may i ask you to,can i ask you to,please,"
+    "proceed to,directly,there"
 )
 """Words that can be dropped at the beginning of a clause."""
 

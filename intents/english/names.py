@@ -138,6 +138,9 @@ def _aliases(vocabulary: Vocabulary) -> list[tuple[Name, str]]:
         if len(present) == 1:
             name = present.pop()
             pairs += [(name, member) for member in members]
+    for name, spelling in _spellings(vocabulary):
+        if name.kind == "room" and spelling.endswith(" room"):
+            pairs.append((name, spelling.removesuffix("room") + "area"))
     return pairs
 
 

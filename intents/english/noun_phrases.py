@@ -85,7 +85,8 @@ _HOLDERS = (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS
 _NO_NOUN = (
     lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
-                    "standing sitting lying laying weighs once twice thrice")
+                    "standing sitting lying laying weighs weigh weight weights doing making once "
+                    "twice thrice")
 )  # fmt: skip
 _PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
                        "left right rest")  # fmt: skip
@@ -104,7 +105,7 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     part = _part_of(text, start)
     if part:
         return noun_phrase(text, part)
-    phrase = _pronoun(text, start) or _full(text, start)
+    phrase = _free_relative(text, start) or _pronoun(text, start) or _full(text, start)
     if phrase is None:
         return None
     read_postmodifiers(text, phrase)
@@ -117,6 +118,19 @@ def _part_of(text: Text, start: int) -> int | None:
     at += text.word(at) in ("left", "right", "far", "very") and text.word(at + 1) in _PARTS
     if text.word(at) in _PARTS and text.word(at + 1) == "of" and at > start:
         return at + 2
+    return None
+
+
+def _free_relative(text: Text, start: int) -> NounPhrase | None:
+    """Bring me *what is on the table*; *whatever weighs* the least."""
+    word, after = text.word(start), text.word(start + 1)
+    if start == 0 or word not in ("what", "whatever", "whoever"):
+        return None
+    noun: Noun = "person" if word == "whoever" else "object"
+    if after in ("is", "are"):
+        return NounPhrase(start, start + 2, noun=noun, said=word)
+    if word != "what" or after == "weighs":
+        return NounPhrase(start, start + 1, noun=noun, said=word)
     return None
 
 
@@ -358,7 +372,9 @@ def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) ->
 
 def _goes_on_unknown(text: Text, at: int) -> bool:
     """Whether words that are no names, verbs or people go on with a compound."""
-    return is_content(text, at) and not verbs_at(text.words, at) and not _names_person(text, at)
+    if text.word(at) in _SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
+        return False
+    return is_content(text, at)
 
 
 def _names_person(text: Text, at: int) -> bool:

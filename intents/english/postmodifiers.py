@@ -63,7 +63,8 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     spot = is_spot(phrase)
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     if reduced:
-        return _locative(text, phrase, reduced)
+        there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
+        return _locative(text, phrase, reduced) or (reduced + there if there else None)
     if text.word(at) not in _RELATIVE:
         return None
     at += 1
@@ -117,6 +118,10 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             return end
     if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
         return _locative(text, phrase, at + 1)
+    if word in _LYING_AROUND and word != "left" and text.word(at + 1) == "there":
+        there = NounPhrase(at + 1, at + 2, noun="there", said="there")
+        phrase.places.append(Locative(None, there))
+        return at + 2
     if word in ("named", "called"):
         inner = noun_phrase(text, at + 1)
         if inner and inner.names:
@@ -125,6 +130,10 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
         inner = noun_phrase(text, at + 1)
         return inner.end if inner else None
+    weight = weight_at(text, at) if phrase.said in ("what", "whatever") else None
+    if weight:
+        phrase.superlative, end = weight
+        return end
     aside = _aside(text, phrase, at)
     if aside:
         return aside
@@ -232,21 +241,23 @@ def _gesture(text: Text, at: int) -> tuple[str, int] | None:
             return None
         return f"pointing {side}", end + 1 + (text.word(end + 1) in ("side", "direction"))
     raising = word in ("raising", "raises", "raised", "lifting", "raise", "lifts")
-    if not raising and word not in ("with", "has", "having", "holding", "whose"):
+    if word in DETERMINERS:
+        end = at
+    elif not raising and word not in ("with", "has", "having", "holding", "whose"):
         return None
     end += text.word(end) == "up"
     end += text.word(end) in DETERMINERS
     if text.word(end) == "raised":
         raising, end = True, end + 1
-    side, limb = text.word(end), text.word(end + 1)
-    if side not in ("left", "right") or limb not in ("arm", "hand"):
+    side = text.word(end) if text.word(end) in ("left", "right") else ""
+    if text.word(end + bool(side)) not in ("arm", "hand", "arms", "hands"):
         return None
     after = _past_limb(text, end)
     up = {("raised",): 0, ("up",): 0, ("in", "the", "air"): 0, ("lifted",): 0, ("up", "high"): 0}
     lifted = text.lookup(up, after + (text.word(after) == "is"))
     if not raising and not lifted:
         return None
-    return f"raising {side} arm", lifted[1] if lifted else after
+    return " ".join(f"raising {side} arm".split()), lifted[1] if lifted else after
 
 
 def _past_limb(text: Text, at: int) -> int:

@@ -7,59 +7,14 @@ from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
 from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.properties import property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
+from intents.english.self_talk import about_robot
 from intents.english.text import Text
-from intents.goals import Count, Find, Goal, ObjectQuery, Person, Report, ReportTopic, Say, Tell
+from intents.goals import Count, Find, Goal, ObjectQuery, Person, Tell
 
 Reading = tuple[list[Goal], int]
 
 _BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
                     "be being now it could seen counted available around")  # fmt: skip
-_ABOUT_ROBOT: dict[ReportTopic, str] = {
-    "holding": "what are you holding,what do you hold,what do you have in your hand,what is "
-    "in your "
-    "hand,what have you got,what are you carrying,what do you have in your hands,what are you "
-    "holding in your hand,what you are holding,what do you carry,what did you pick up,what is in "
-    "your gripper,do you have anything in your hand,are you holding anything,are you holding "
-    "something,what you have in your hand,what have you picked up",
-    "seeing": "what do you see,what can you see,what are you looking at,what are you seeing,"
-    "what is "
-    "in front of you,what you see,what you can see,what is around you,what objects do you see,what "
-    "are you able to see,what objects can you see",
-    "location": "where are you,where you are,what is your position,what is your location,where are "
-    "you right now,where are you now,your position,your location",
-    "status": "what are you doing,what is your status,what are you up to,how is it going,how "
-    "far are "
-    "you,are you done,are you finished,are you ready,what is the status,what you are doing,what is "
-    "going on,your status,what are you working on,what is your current task,are you busy,what are "
-    "you doing right now,what are you doing now",
-    "health": "how are you,how are you doing,are you okay,are you alright,are you all right,how do "
-    "you feel,what is your battery level,how much battery do you have,is everything okay,is "
-    "anything "
-    "wrong,are you healthy,how is your battery,how is your health,your health,how hot are your "
-    "motors,are your motors hot",
-    "why": "why did you stop,why did you fail,what went wrong,what happened,why are you "
-    "stopping,why "
-    "did you do that,why did it fail,why have you stopped,why are you not moving,why did you "
-    "not do "
-    "it,why is that,why,why not,why did you drop it,why did you fall,why did you stop moving,why "
-    "are you waiting,what is wrong,what is the problem,what was that",
-    "capabilities": "who are you,what are you,what can you do,what are you able to do,what "
-    "you can do,how can you help,how "
-    "can you help me,what are your skills,what do you know how to do,what commands do you know,"
-    "what can i say,what can i ask you,help,what can i tell you to do,what do you understand",
-}
-_TOPICS: dict[lexicon.Phrase, ReportTopic] = {
-    phrase: topic for topic, text in _ABOUT_ROBOT.items() for phrase in lexicon.phrases(text)
-}
-_SMALL_TALK = lexicon.words(
-    "what which is it the a an of today tomorrow day time date week month current now this joke "
-    "something about yourself your team teams 's name affiliation country leader are you who "
-    "me s in year "
-    "to know whether dream or not on electric sheep tell day's time's right be funny"
-)
-_SMALL_TALK_HEADS = lexicon.words(
-    "time day date joke yourself name affiliation country something dream"
-)
 
 
 def question(
@@ -76,6 +31,8 @@ def question(
         or _property(text, at, scope, to)
         or _which(text, at, scope, to, told)
         or _who(text, at, scope, to)
+        or _doing(text, at, scope, to)
+        or _of_all(text, at, scope, to)
         or _is_there(text, at, scope)
     )
 
@@ -83,24 +40,6 @@ def question(
 def property_question(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """A question after "give me", where a thing could stand as well: the number of, the pose."""
     return _how_many(text, at, scope, to) or _property(text, at, scope, to)
-
-
-def small_talk(text: Text, at: int, end: int) -> Say | None:
-    """The time, a joke, something about itself: what the robot can tell without looking."""
-    words = text.words[at:end]
-    known = bool(words) and all(w in _SMALL_TALK for w in words)
-    if known and any(w in _SMALL_TALK_HEADS for w in words):
-        return Say(what=text.raw(at, end))
-    return None
-
-
-def about_robot(text: Text, at: int) -> Reading | None:
-    """What are you holding? How are you? What can you do?"""
-    found = text.lookup(_TOPICS, at)
-    if found is None or not (found[1] >= len(text) or not text.word(found[1])[0].isalnum()):
-        return None
-    goals: list[Goal] = [Report(topic=found[0])]
-    return goals, found[1]
 
 
 def _skip(text: Text, at: int, words: frozenset[str] = _BE) -> int:
@@ -131,7 +70,8 @@ def _read_on(text: Text, phrase: NounPhrase) -> int:
 
 def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """How many people in the office are wearing red?"""
-    start = at + (text.word(at) == "the")
+    start = at + 2 if text.words[at : at + 2] in (["what", "is"], ["what", "are"]) else at
+    start += text.word(start) == "the"
     if text.words[start : start + 2] == ["how", "many"] or (
         text.word(start) in ("number", "amount", "quantity") and text.word(start + 1) == "of"
     ):
@@ -215,6 +155,9 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
         end = _predicate_superlative(text, phrase, end)
     if is_person(phrase, scope):
         return [Tell(person=to_person(phrase, scope), property="name", to=to)], end
+    if text.word(end - 1) == "there" and scope.place and not phrase.places:
+        there = NounPhrase(end - 1, end, noun="there", said="there")
+        phrase.places.append(Locative(None, there))
     informative = phrase.superlative or phrase.places or phrase.color
     if not informative or phrase.noun in ("pronoun", "unknown"):
         return None
@@ -230,12 +173,22 @@ def _predicate_superlative(text: Text, phrase: NounPhrase, end: int) -> int:
         read_postmodifiers(text, phrase)
         return phrase.end
     amount = number(text.words, start)
+    if amount:
+        that = amount.end + (text.word(amount.end) in ("that", "which"))
+        weight = weight_at(text, that)
+        if weight:
+            phrase.count, (phrase.superlative, phrase.end) = int(amount.value), weight
+            read_postmodifiers(text, phrase)
+            return phrase.end
     if amount and text.lookup(lexicon.SUPERLATIVES, amount.end):
         phrase.count, start = int(amount.value), amount.end
     most = text.lookup(lexicon.SUPERLATIVES, start)
     if most is None:
         return end
     phrase.superlative = most[0]
+    amount = number(text.words, most[1])
+    if amount:
+        phrase.count, most = int(amount.value), (most[0], amount.end)
     phrase.end = most[1] + (text.word(most[1]) in lexicon.ONES | lexicon.OBJECT_NOUNS)
     read_postmodifiers(text, phrase)
     return phrase.end
@@ -257,33 +210,64 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     return [Tell(person=to_person(phrase, scope), property="name", to=to)], phrase.end
 
 
+def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+    """What is the person doing? How is the person in the hall standing?"""
+    if text.words[at : at + 2] not in (["what", "is"], ["how", "is"]):
+        return None
+    phrase = noun_phrase(text, at + 2)
+    if phrase is None or not phrase.is_person:
+        return None
+    posed = phrase.posture is not None and phrase.end >= len(text)
+    if text.word(phrase.end) != "doing" and not posed:
+        return None
+    phrase.posture = None
+    end = phrase.end + (text.word(phrase.end) == "doing")
+    return [Tell(person=to_person(phrase, scope), property="posture", to=to)], end
+
+
+def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+    """Of the people in the hall, how many are men? Of the cups, which is the largest?"""
+    if text.word(at) not in ("of", "among"):
+        return None
+    phrase = noun_phrase(text, at + 1)
+    if phrase is None:
+        return None
+    phrase.count = None
+    after = phrase.end + (text.word(phrase.end) == COMMA)
+    if text.words[after : after + 2] == ["how", "many"]:
+        phrase.end = after + 2
+        end = _read_on(text, phrase)
+        if is_person(phrase, scope):
+            return [Count(person=to_person(phrase, scope), to=to)], end
+        return [Count(object=to_object(phrase, scope), to=to)], end
+    if text.word(after) not in ("which", "what"):
+        return None
+    amount = number(text.words, after + 1)
+    phrase.count = int(amount.value) if amount else None
+    end = _predicate_superlative(text, phrase, _skip(text, amount.end if amount else after + 1))
+    return [Tell(object=to_object(phrase, scope), property="name", to=to)], end
+
+
+_IS_THERE = lexicon.phrases("is there,are there,do you see,can you see,there is,there are,is,are")
+_EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gender")
+
+
 def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
     """Is there a cup on the table? Do you see the bottle?"""
     start = at + (text.word(at) in ("if", "whether"))
-    openings = lexicon.phrases(
-        "is there,are there,do you see,can you see,there is,there are,is,are"
-    )
-    end = text.phrase_end(openings, start)
+    end = text.phrase_end(_IS_THERE, start)
     if end is None or (text.word(start) == "there" and start == at):
         return None
     phrase = noun_phrase(text, end)
     if phrase is None or text.word(end) == COMMA:
         return None
+    if phrase.is_person and text.word(phrase.end) in _EITHER and text.word(phrase.end + 1) == "or":
+        told = _EITHER[text.word(phrase.end)]
+        return [Tell(person=to_person(phrase, scope), property=told)], phrase.end + 3
     end = _read_on(text, phrase)
-    if (
-        phrase.places == []
-        and text.word(start) in ("is", "are")
-        and text.word(start + 1) != "there"
-    ):
+    asked_there = text.word(start + 1) == "there" or text.word(start) not in ("is", "are")
+    if not (phrase.places or asked_there):
         return None
-    told = _EITHER.get(text.word(end))
     if is_person(phrase, scope):
-        if told:
-            after = end + 1 + 2 * (text.word(end + 1) == "or")
-            phrase.posture = None
-            return [Tell(person=to_person(phrase, scope), property=told)], after
         return [Find(person=to_person(phrase, scope))], end
     return [Find(object=to_object(phrase, scope))], end
-
-
-_EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gender")

@@ -36,6 +36,7 @@ class Scope:
 
     Attributes:
         group: The objects picked up and not yet put down, for "them".
+        last: The goal before, for "and tell me".
     """
 
     index: NameIndex
@@ -44,6 +45,7 @@ class Scope:
     place: str | None = None
     person_is_last: bool = False
     group: tuple[ObjectQuery, ...] = ()
+    last: Goal | None = None
 
     def mention(self, what: ObjectQuery | Person | str | None) -> None:
         """Remember what has just been spoken of."""
@@ -71,6 +73,10 @@ class Scope:
                 self.mention(value.at)
                 value = value if stays else replace(value, at=None)
             self.mention(value)
+        if isinstance(goal, Find | LookAt) and goal.object and goal.object.name:
+            kinds = {n.kind for n in self.index.exact(goal.object.name)}
+            self.mention(goal.object.name if kinds and kinds <= {"place", "room"} else None)
+        self.last = goal
         for nested in ("goals", "then", "else_"):
             for inner in cast("tuple[Goal, ...]", getattr(goal, nested, ())):
                 self.mention_goal(inner)
@@ -213,6 +219,8 @@ def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | Non
                 inner, _ = _where(place.of, scope)
                 spots += [inner] if inner else []
         else:
+            if place.of.noun == "place" and not (place.of.places or scope.place):
+                continue
             name = to_place(place.of, scope)
             (rooms if place.of.name("room") == name else spots).append(name)
     return next(iter(spots + rooms), None), relation

@@ -1,5 +1,7 @@
 """Single clauses: a verb in one of its senses, a question, a statement, a fronted phrase."""
 
+from msgspec.structs import replace
+
 from intents.english import lexicon
 from intents.english.clauses import Clause, Complement, connector_end, ends_clause, read_complements
 from intents.english.frames import FRAMES
@@ -7,16 +9,24 @@ from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import number
 from intents.english.noun_phrases import NounPhrase, noun_phrase
 from intents.english.postmodifiers import is_spot, read_postmodifiers
-from intents.english.questions import Reading, about_robot, question
+from intents.english.questions import Reading, question
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.self_talk import about_robot
 from intents.english.speech import answer, describe, inform, say, tell
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
-from intents.goals import Count, GoTo, Pose2, Repeat
+from intents.goals import Answer, Count, GoTo, Pose2, Repeat
 
 _SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
+
+
+_HAS_QUESTION = lexicon.phrases(
+    "has a question,have a question,has a question for you,has a question that needs answering,"
+    "is asking you a question,wants to ask you a question,is asking a question,needs an answer,"
+    "has a question to be answered,has a question that needs to be answered"
+)
 
 
 class Clauses:
@@ -45,7 +55,8 @@ class Clauses:
             if not end or about_robot(text, at) or (verb and verb[0][1] > end):
                 return at
             opens_verb = verbs_at(text.words, end) or text.phrase_end(lexicon.OPENERS, end)
-            if text.word(at) in ("to", "there", "you", "next") and not opens_verb:
+            open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
+            if open_ended and not connector_end(text, at) and not opens_verb:
                 return at
             named = text.name_at(at)
             if text.phrase_end(lexicon.ELSE, at) or (named and named.end >= end):
@@ -189,6 +200,10 @@ class Clauses:
         )
         if not usable:
             return None
+        if complements[0].role == "at" and self._is_where(after):
+            where = to_place(complements[0].phrase, self.scope)
+            found = self.statement(after + (self.text.word(after) in ("is", "are")), where)
+            return ([], found[1]) if found else None
         asked = question(self.text, after, self.scope)
         if asked and complements[0].role == "at":
             at_place = to_place(complements[0].phrase, self.scope)
@@ -201,24 +216,38 @@ class Clauses:
                     self._mention_phrase(phrase)
         return self.verb(after, [c for c in complements if c.role])
 
-    def _mention_phrase(self, phrase: NounPhrase) -> None:
+    def _is_where(self, at: int) -> bool:
+        """On the table *is a cup*; ... *there is a cup*; ... *a person is standing*."""
+        text = self.text
+        if text.word(at) in ("is", "are"):
+            return True
+        if text.word(at) == "there":
+            return text.word(at + 1) in ("is", "are")
+        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+        return phrase is not None and text.word(phrase.end) in ("is", "are")
+
+    def _mention_phrase(self, phrase: NounPhrase, where: str | None = None) -> None:
         if is_spot(phrase):
             self.scope.mention(to_place(phrase, self.scope))
             return
         what = (to_person if is_person(phrase, self.scope) else to_object)(phrase, self.scope)
+        what = replace(what, at=what.at or where)
         self.scope.mention(what.at)
         self.scope.mention(what)
 
-    def statement(self, at: int) -> tuple[NounPhrase, int] | None:
+    def statement(self, at: int, where: str | None = None) -> tuple[NounPhrase, int] | None:
         """There is a cup on the table; she is in the kitchen: pronouns refer to it from now."""
         text = self.text
         if text.word(at) == "there" and text.word(at + 1) in ("is", "are"):
             phrase = noun_phrase(text, at + 2)
             if phrase is None:
                 return None
-            self._mention_phrase(phrase)
+            self._mention_phrase(phrase, where)
             return phrase, phrase.end
         phrase = noun_phrase(text, at)
+        if phrase is not None and where and text.word(at - 1) in ("is", "are"):
+            self._mention_phrase(phrase, where)
+            return phrase, phrase.end
         if phrase is None or text.word(phrase.end) not in ("is", "are", "should"):
             return None
         phrase.end += 1 + (text.word(phrase.end + 1) == "be")
@@ -226,8 +255,18 @@ class Clauses:
         read_postmodifiers(text, phrase)
         if phrase.end == start:
             return None
-        self._mention_phrase(phrase)
+        self._mention_phrase(phrase, where)
         return phrase, phrase.end
+
+    def asker(self, at: int) -> Reading | None:
+        """The woman in the hall has a question (that needs answering)."""
+        phrase = None if verbs_at(self.text.words, at) else noun_phrase(self.text, at)
+        if phrase is None or not is_person(phrase, self.scope):
+            return None
+        end = self.text.phrase_end(_HAS_QUESTION, phrase.end)
+        return (
+            ([Answer(what="question", person=to_person(phrase, self.scope))], end) if end else None
+        )
 
     def alone(self, at: int) -> None:
         """A thing is named and nothing is said of it.

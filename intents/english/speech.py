@@ -3,15 +3,17 @@
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import connector_end
+from intents.english.clauses import connector_end, ends_clause
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.noun_phrases import NounPhrase, noun_phrase
-from intents.english.questions import Reading, property_question, question, small_talk
+from intents.english.postmodifiers import read_postmodifiers
+from intents.english.questions import Reading, property_question, question
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
+from intents.english.self_talk import small_talk
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.verbs import verbs_at
-from intents.goals import Answer, Count, Goal, Person, Say, Tell
+from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 
 _TO = lexicon.words("to for with")
 _ABOUT = lexicon.phrases(
@@ -121,8 +123,10 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
         at += text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
-    found = text.phrase_end(_WHAT_THEY_ARE, at)
-    if found and scope.object:
+    found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)
+    if found is not None and isinstance(scope.last, Count | Tell):
+        return [], found
+    if found is not None and scope.object and isinstance(scope.last, Find):
         return [Tell(object=scope.object, property="name", to=to)], found
     asked = question(text, at, scope, to, told=True)
     if asked and (to is None or to == ME or not isinstance(asked[0][0], Say)):
@@ -149,7 +153,12 @@ def inform(text: Text, at: int, scope: Scope) -> Reading:
     first = _listener(text, at, scope)
     if first:
         at = first.end
-    asked = property_question(text, at, scope, to_person(first, scope) if first else None)
+    to = to_person(first, scope) if first else None
+    asked = property_question(text, at, scope, to)
+    end = content_end(text, at)
+    talk = small_talk(text, at, end)
+    if asked is None and talk:
+        return [Say(what=talk.what, to=to)], end
     if asked is None:
         raise Misfit("that is to give something")
     return _to_listener(text, asked, scope)
@@ -173,12 +182,15 @@ def describe(text: Text, at: int, scope: Scope) -> Reading:
         goal = Tell(person=to_person(phrase, scope), property="description", to=to)
     else:
         query = to_object(phrase, scope, spots=True)
-        goal = Tell(object=query, property="description", to=to)
+        asked = "name" if query.superlative or query.count else "description"
+        goal = Tell(object=query, property=asked, to=to)
     return _to_listener(text, ([goal], phrase.end), scope)
 
 
-_WHAT_THEY_ARE = lexicon.phrases(
-    "what they are,what it is,what are they,what is it,which they are,what that is,which ones"
+_RESULT = lexicon.phrases(
+    "what they are,what it is,what are they,what is it,which they are,what that is,which ones,"
+    "the number,the result,the total,what the total is,the answer,how many,them for me,them,it,"
+    "the results,them to me,what you found,what you find,what you see"
 )
 
 
@@ -203,6 +215,8 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
     if first:
         person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
     start = at
+    if text.word(at) == "it" and isinstance(scope.last, Answer):
+        return [], at + 1
     while text.word(at) in lexicon.DETERMINERS | {"any", "one", "to", "all", "of", "questions"}:
         at += 1
     if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
@@ -230,6 +244,11 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
         if phrase and phrase.name("room", "place") and (person is None or person.at is None):
             here = to_place(phrase, scope)
             return replace(person, at=here) if person else Person(at=here), phrase.end
+    whose = NounPhrase(at, at, noun="person", said="person")
+    if text.word(at) == "who":
+        read_postmodifiers(text, whose)
+        if whose.end > at and person:
+            return replace(person, at=to_person(whose, scope).at or person.at), whose.end
     end = at
     while text.word(end) in skipped:
         end += 1

@@ -31,14 +31,14 @@ GRAMMAR_WORDS = (
 )  # fmt: skip
 """Every word that the grammar itself knows."""
 CORE = lexicon.words(
-    "please bring take place pick grab grasp find locate search look follow guide escort lead meet "
-    "greet introduce tell answer count open close switch turn walk move navigate deliver give hand "
-    "stand balance squat wait stop pause continue cancel repeat report left right forward backward "
-    "degrees metres meters seconds minutes person people object objects largest biggest smallest "
-    "heaviest lightest thinnest leftmost rightmost yellow orange purple black white brown green "
-    "where there under behind between above next then after from with into onto towards question "
-    "sitting standing lying waving raising pointing wearing something kitchen bathroom bedroom "
-    "table shelf counter could would second robot three seven eight thing things"
+    "please bring take place pick grab grasp find locate search look follow guide escort lead "
+    "meet greet introduce tell answer count open close switch turn walk move navigate deliver "
+    "give hand stand balance squat wait stop pause continue cancel repeat report left right "
+    "forward backward degrees metres meters seconds minutes person people object objects largest "
+    "biggest smallest heaviest lightest thinnest leftmost rightmost yellow orange purple black "
+    "white brown green where there under behind between above next then after from with into onto "
+    "towards question sitting standing lying waving raising pointing wearing something kitchen "
+    "bathroom bedroom table shelf counter could would second robot three seven eight thing things"
 )
 """The words of the grammar that misspelt words are corrected to."""
 COMMON_WORDS = frozenset(

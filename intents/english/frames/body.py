@@ -89,7 +89,7 @@ def lean(clause: Clause, scope: Scope) -> list[Goal]:
 
 _KINDS = (
     ("thumbs", "thumbs_up"), ("shake your head", "shake_head"), ("shake head", "shake_head"),
-    ("shake hands", "shake_hands"), ("high five", "high_five"), ("wave", "wave"), ("nod", "nod"),
+    ("shake", "shake_hands"), ("high five", "high_five"), ("wave", "wave"), ("nod", "nod"),
     ("point", "point"), ("clap", "clap"), ("shrug", "shrug"), ("danc", "dance"), ("bow", "bow"),
     ("curtsy", "bow"), ("cross your arms", "cross_arms"), ("raise both", "raise_both_arms"),
     ("raise your arms", "raise_both_arms"), ("raise your hands", "raise_both_arms"),

@@ -68,7 +68,7 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     to = _receiver(slots)
     if to is None:
         to = _near_destination(slots)
-    objects = slots.objects()
+    objects = slots.objects() or ([scope.object] if scope.object and to else [])
     need(objects, "What shall I bring?")
     at = slots.loose_place()
     slots.direction("backward")
@@ -121,7 +121,7 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     slots = Slots(clause, scope)
     to = _receiver(slots) or ME
     if isinstance(to, str):
-        raise Misfit(f"I can give things to people, not to the {to}")
+        return [_put_down(goal) for goal in bring(clause, scope)]
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     held = bare is None or bare.phrase.noun == "pronoun"
     objects = slots.objects() or [scope.object or ObjectQuery(held=True)]

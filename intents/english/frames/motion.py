@@ -4,7 +4,7 @@ from math import pi
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause
+from intents.english.clauses import Clause, Complement
 from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.noun_phrases import NounPhrase
@@ -148,6 +148,7 @@ def _look(phrase: NounPhrase, scope: Scope) -> LookAt:
 def find(clause: Clause, scope: Scope) -> list[Goal]:
     """Find the cup; look for Julia in the kitchen; search the bedroom for my phone."""
     slots = Slots(clause, scope)
+    slots.rest = [c for c in slots.rest if not _for_operator(c)]
     sought = slots.take("for")
     searched = slots.take("") if sought else None
     if sought is None:
@@ -160,6 +161,10 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     slots.take_person("for")
     slots.done()
     return [_find(phrase, scope, at) for phrase in sought.phrases]
+
+
+def _for_operator(said: Complement) -> bool:
+    return said.role == "for" and bool(said.phrases) and said.phrase.noun == "operator"
 
 
 def _find(phrase: NounPhrase, scope: Scope, at: str | None) -> Goal:

@@ -48,6 +48,7 @@ def follow(clause: Clause, scope: Scope) -> list[Goal]:
 def guide(clause: Clause, scope: Scope) -> list[Goal]:
     """Guide Julia from the desk to the exit."""
     slots = Slots(clause, scope)
+    slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said == "way")]
     if clause.verb.split()[0] not in _GUIDES and not slots.clause.with_role("", "with"):
         raise Misfit("that is not to guide anybody")
     to = _destination(slots)
