@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from executive.request import Setting
 from robot import messages as m
 from robot.model.description import load
 from robot.se3 import SE3
@@ -63,3 +64,8 @@ def puppet() -> SensingPuppet:
         for name, y_m in (("cup_red", 0.2), ("cup_blue", -0.2), ("bottle", 0.0))
     }
     return SensingPuppet(JUNO, things, world_map())
+
+
+WHERE = Setting(
+    world=None, world_map=world_map(), description=JUNO, world_name="test", robot_name="juno"
+)

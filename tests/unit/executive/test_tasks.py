@@ -5,14 +5,10 @@ from __future__ import annotations
 import pytest
 
 from executive.knowledge import Knowledge
-from executive.request import Refused, Setting, request
+from executive.request import Refused, request
 from executive.skills.parameters import PickParams, PlaceParams
 from executive.trees.tasks import errands
-from tests.fakes.worlds import JUNO, world_map
-
-WHERE = Setting(
-    world=None, world_map=world_map(), description=JUNO, world_name="test", robot_name="juno"
-)
+from tests.fakes.worlds import WHERE, world_map
 
 
 def steps(text: str) -> list[str]:
