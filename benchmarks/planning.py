@@ -23,7 +23,7 @@ from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model import description
-from robot.planning.body import UPRIGHT, Body
+from robot.planning.body import UPRIGHT, Body, Standing
 from robot.planning.requests import (
     ArmPlan,
     ArmRequest,
@@ -95,22 +95,25 @@ class Robot:
 
     def q_rad(self) -> Joints:
         """All motors."""
-        q = self.body.standing(self.posture).q.copy()
+        return tuple(self._standing().q.tolist())
+
+    def _standing(self) -> Standing:
+        q = self.body.nominal.copy()
         for side, joints in self.arms.items():
             q[self.body.arms[side].motors] = joints
         for side, opening in self.openings.items():
             hand = self.body.description.hands[side]
             q[self.body.motor(hand.motor)] = opening / hand.opening_per_motor
-        return tuple(q.tolist())
+        return self.body.stand(self.posture, q)
 
     def X_WB(self) -> SE3:
         """The base."""
-        return SE3.from_xy_yaw(*self.stance) @ self.body.standing(self.posture).X_SB
+        return SE3.from_xy_yaw(*self.stance) @ self._standing().X_SB
 
     def line(self, side: Side, X_WG: SE3) -> None:
         """Move a hand on a straight line, as far as inverse kinematics follows; raises Broken."""
         arm = self.body.arms[side]
-        X_WT = SE3.from_xy_yaw(*self.stance) @ self.body.standing(self.posture).X_ST[side]
+        X_WT = SE3.from_xy_yaw(*self.stance) @ self._standing().X_ST[side]
         q = np.array([self.arms[side]])
         rotation, position = arm.chain.forward(q)
         goal = X_WT.inverse() @ X_WG

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -73,7 +73,12 @@ class Body:
         self.arms: dict[Side, Arm] = {side: Arm(self.model, side) for side in SIDES}
         self.scenes = SceneCache(description)
         self.nominal = np.array(description.posture("nominal"))
-        self.standing = lru_cache(maxsize=64)(self._standing)
+        joints = [motor.joint for motor in description.motors.values()]
+        self._legs: dict[Side, tuple[Chain, Array]] = {}
+        for side in SIDES:
+            leg = Chain(self.model.model, description.base_body, description.feet[side].sole_site)
+            self._legs[side] = (leg, np.array([joints.index(name) for name in leg.joints]))
+        self._standings: dict[tuple[BodyPosture, Side | None], Standing] = {}
 
     def motor(self, name: str) -> int:
         """Index of a motor."""
@@ -99,44 +104,64 @@ class Body:
         touches = scene.touches(scene.trunk_geoms, solids_only=True)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 
-    def _standing(self, posture: BodyPosture) -> Standing:
-        """Where everything is when standing so: soles flat, pelvis level, CoM over their midpoint.
+    def standing(self, posture: BodyPosture, reaching: Side | None = None) -> Standing:
+        """Where everything is when standing so, the arms nominal or one of them reaching out.
 
-        Leaning moves the pelvis back; the legs follow by inverse kinematics.
+        Soles flat, pelvis level, the centre of mass over their midpoint; remembered.
+        """
+        key = (posture, reaching)
+        if key not in self._standings:
+            q = self.nominal.copy()
+            if reaching is not None:
+                q[self.arms[reaching].motors] = self._reaching(reaching)
+            self._standings[key] = self.stand(posture, q)
+        return self._standings[key]
+
+    def stand(self, posture: BodyPosture, q: Array) -> Standing:
+        """The same with arms and head as in `q`, shape (motors,).
+
+        Leaning, or stretching an arm out, moves the pelvis back; the legs follow by inverse
+        kinematics.
         """
         description, body = self.description, self.model
         walking = description.walking
         height = posture.height_m or walking.base_height_m
-        q = self.nominal.copy()
+        q = q.copy()
         for motor in description.indices("waist"):
             name = description.motor_names[motor]
-            if name.endswith("yaw"):
-                q[motor] = posture.yaw_rad
-            elif name.endswith("pitch"):
-                q[motor] = posture.pitch_rad
+            turns = {"yaw": posture.yaw_rad, "pitch": posture.pitch_rad}
+            q[motor] = next((v for end, v in turns.items() if name.endswith(end)), 0.0)
         data = body.data()
-        legs = {
-            side: Chain(body.model, description.base_body, description.feet[side].sole_site)
-            for side in SIDES
-        }
-        names = [motor.joint for motor in description.motors.values()]
-        forward = 0.0
+        at = np.array([0.0, 0.0, height])
         for _ in range(8):
             for side, sign in (("left", 1.0), ("right", -1.0)):
-                sole = np.array([[-forward, sign * 0.5 * walking.stance_width_m, -height]])
-                leg = np.array([names.index(name) for name in legs[side].joints])
-                q[leg] = legs[side].solve(np.eye(3)[None], sole, q[leg][None], iterations=60).q[0]
-            body.write_base(data, SE3((forward, 0.0, height)))
+                leg, motors = self._legs[side]
+                sole = np.array([[0.0, sign * 0.5 * walking.stance_width_m, 0.0]]) - at
+                q[motors] = leg.solve(np.eye(3)[None], sole, q[motors][None], iterations=60).q[0]
+            body.write_base(data, SE3((float(at[0]), float(at[1]), height)))
             body.write_joints(data, q)
             mujoco.mj_kinematics(body.model, data)
             mujoco.mj_comPos(body.model, data)
-            off = float(data.subtree_com[body.base_body][0])
-            if abs(off) < 1e-4:
+            off = data.subtree_com[body.base_body][:2]
+            if np.max(np.abs(off)) < 2e-4:
                 break
-            forward -= off
-        roots = {side: body.body_id(arm.chain.body) for side, arm in self.arms.items()}
+            at[:2] -= off
         trunks = {
-            side: SE3.from_rotation(data.xmat[root].reshape(3, 3), data.xpos[root])
-            for side, root in roots.items()
+            side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()
         }
-        return Standing(SE3((forward, 0.0, height)), q, trunks)
+        return Standing(SE3((float(at[0]), float(at[1]), height)), q, trunks)
+
+    def _reaching(self, side: Side) -> Array:
+        """Joints of an arm with its hand out level in front, above the height of the elbow."""
+        standing = self.standing(UPRIGHT)
+        sign = 1.0 if side == "left" else -1.0
+        height = 0.85 * self.description.shoulder_height_m
+        arm = self.arms[side]
+        X_TG = standing.X_ST[side].inverse() @ SE3((0.32, sign * 0.2, height))
+        q = self.nominal[arm.motors][None]
+        return arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), q, iterations=60).q[0]
+
+
+def _body_pose(body: BodyModel, data: Any, name: str) -> SE3:
+    at = body.body_id(name)
+    return SE3.from_rotation(data.xmat[at].reshape(3, 3), data.xpos[at])

@@ -161,10 +161,10 @@ class Checker:
 
     def _standing(self, share: float) -> tuple[SE3, Array]:
         """X_SB and all motors between upright (0) and the posture (1)."""
-        leaning = self.body.standing(self.lean.posture(self.side))
+        leaning = self.body.standing(self.lean.posture(self.side), self.side)
         if share == 1.0:
             return leaning.X_SB, leaning.q.copy()
-        upright = self.body.standing(UPRIGHT)
+        upright = self.body.standing(UPRIGHT, self.side)
         p = (1 - share) * np.array(upright.X_SB.p) + share * np.array(leaning.X_SB.p)
         X_SB = SE3((float(p[0]), float(p[1]), float(p[2])))
         return X_SB, (1 - share) * upright.q + share * leaning.q

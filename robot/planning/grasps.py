@@ -142,7 +142,7 @@ def _lifts(height_m: float) -> list[tuple[float, float]]:
     highest = 0.5 * height_m - 0.015
     if highest < lowest:
         return [(min(highest, 0.0) if highest > -0.5 * height_m else 0.0, 0.1)]
-    wanted = ((0.0, 0.0), (0.02, 0.02), (0.2 * height_m, 0.05))
+    wanted = ((0.0, 0.0), (0.02, 0.06), (0.2 * height_m, 0.12))
     lifts = {round(min(max(lift, lowest), highest), 4): cost for lift, cost in reversed(wanted)}
     return sorted(lifts.items())
 

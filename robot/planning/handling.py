@@ -44,6 +44,8 @@ ENOUGH = 4
 """So many that pass and bear every wobble end the search, too; or four times as many that pass."""
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
+LIFT_GAIN = 0.05
+"""A lower lift must score better by this."""
 END = "the end of its reach"
 
 
@@ -188,93 +190,110 @@ def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally)
 def _closely(
     body: Body, job: Job, checker: Checker, group: list[_Entry], tally: Tally
 ) -> Iterator[tuple[float, Choice]]:
-    """Those of a group (of one hand) that also pass at all other poses."""
-    side = group[0].side
-    arm = body.arms[side]
-    poses, q, ok, steady = _all_poses(body, job, side, group)
-    lifts = range(len(job.lifts_m))
+    """Those of a group (of one hand) that also pass at all other poses, each with its best lift."""
+    arm = body.arms[group[0].side]
+    poses = _all_poses(body, job, group)
     for i, entry in enumerate(group):
-        main, middle, back = (poses[k].take(np.array([i])) for k in range(3))
-        if not (ok[1, i] and ok[2, i]) or np.max(np.abs(q[2, i] - entry.q_main)) > MAX_TURN_RAD:
+        q_main, q_middle, q_back = (poses.q[k, i] for k in range(3))
+        turned = float(np.max(np.abs(q_back - q_main)))
+        if not (poses.met[1, i] and poses.met[2, i]) or turned > MAX_TURN_RAD:
             tally.touched[END] += 1
             continue
-        checker.prepare(entry.candidate, side, main)
-        touch = checker.on_line(q[1, i], q[2, i])
-        q_ready: Array | None = None
-        for k in (3 + lift for lift in lifts):
-            if touch is not None or not ok[k, i]:
+        checker.prepare(entry.candidate, entry.side, entry.main)
+        touch = checker.on_line(q_middle, q_back)
+        best: tuple[float, Choice] | None = None
+        lifts = [k for k in range(3, len(poses.targets)) if poses.met[k, i]]
+        for k in lifts if touch is None else ():
+            steady = float(poses.steady[k, i])
+            margin = float(np.min(reach.margins(arm, poses.q[[0, 2, k], i])))
+            score = margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady)
+            if best is not None and score < best[0] + LIFT_GAIN:
                 continue
-            touch = checker.lifted(q[k, i])
-            if touch is not None:
-                touch = None if k < 2 + len(lifts) else touch
-                continue
-            up = poses[k].take(np.array([i]))
-            first, last = (2, k) if job.kind == "pick" else (k, 2)
-            touch = checker.leaving(q[last, i])
-            if touch is None:
-                touch, q_ready = checker.ready(back if first == 2 else up, q[first, i])
-            if q_ready is None:
-                continue
-            margin = float(np.min(reach.margins(arm, q[[0, 2, k], i])))
-            score = margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady[i])
-            yield (
-                score,
-                Choice(
-                    side=side,
+            back, up = (poses.targets[n].take(np.array([i])) for n in (2, k))
+            touch, q_ready = _there_and_away(job, checker, back, up, q_back, poses.q[k, i])
+            if q_ready is not None:
+                choice = Choice(
+                    side=entry.side,
                     candidate=entry.candidate,
                     option=job.options[int(entry.candidate.option[0])],
-                    main=main,
+                    main=entry.main,
                     back=back,
                     up=up,
-                    q_main=q[0, i],
-                    q_back=q[2, i],
-                    q_up=q[k, i],
+                    q_main=q_main,
+                    q_back=q_back,
+                    q_up=poses.q[k, i],
                     q_ready=q_ready,
-                    margin=margin * float(steady[i]),
-                steadiness=float(steady[i]),
-                ),
-            )
-            break
-        if q_ready is None:
+                    margin=margin * steady,
+                    steadiness=steady,
+                )
+                best = (score, choice)
+        if best is None:
             tally.touched[touch or END] += 1
-        del middle
+        else:
+            yield best
 
 
-def _all_poses(
-    body: Body, job: Job, side: Side, group: list[_Entry]
-) -> tuple[list[Targets], Array, np.ndarray, Array]:
-    """Main, middle, back and the lifts of a group.
+def _there_and_away(
+    job: Job, checker: Checker, back: Targets, up: Targets, q_back: Array, q_up: Array
+) -> tuple[str | None, Array | None]:
+    """What is touched with the object raised, leaving, or arriving; and the ready joints."""
+    picking = job.kind == "pick"
+    touch = checker.lifted(q_up) or checker.leaving(q_up if picking else q_back)
+    if touch is not None:
+        return touch, None
+    return checker.ready(back if picking else up, q_back if picking else q_up)
 
-    Returns the targets, joints (poses, n, k), whether reached (poses, n), and the share of small
-    errors of the stance under which main, back and the first lift are still reached (n,).
+
+@dataclass(frozen=True, slots=True)
+class _Poses:
+    """Of a group of n: main, middle, back, then the lifts.
+
+    Attributes:
+        targets: a pose of the hand for each of the group.
+        q: joints, shape (poses, n, k).
+        met: whether it is reached, shape (poses, n).
+        steady: share of small errors of the stance under which main, back and this pose are all
+            reached, shape (poses, n).
     """
-    arm = body.arms[side]
+
+    targets: list[Targets]
+    q: Array
+    met: np.ndarray
+    steady: Array
+
+
+def _all_poses(body: Body, job: Job, group: list[_Entry]) -> _Poses:
+    """Joints for every pose of a group (of one hand), in one batch."""
+    side = group[0].side
     candidates = _join([entry.candidate for entry in group])
     trunks = reach.trunks_of(body, side, candidates)
     main = reach.targets_of(candidates, job.options, job.references)
     back_m = np.array([-job.options[option].back_m for option in candidates.option])
-    back = main.moved(along_m=back_m)
-    poses = [main, main.moved(along_m=0.5 * back_m), back]
-    poses += [main.moved(up_m=lift) for lift in job.lifts_m]
+    targets = [main, main.moved(along_m=0.5 * back_m), main.moved(along_m=back_m)]
+    targets += [main.moved(up_m=lift) for lift in job.lifts_m]
+    probed = [0, 2, *range(3, len(targets))]
     off = [trunks.wobbled(error) for error in reach.WOBBLE]
-    probed = [main, back, poses[3]]
-    everything = poses[1:] + probed * len(off)
-    hanging = [trunks] * (len(poses) - 1) + [one for one in off for _ in probed]
+    everything = targets + [targets[k] for k in probed] * len(off)
+    hanging = [trunks] * len(targets) + [one for one in off for _ in probed]
     n, q_main = len(group), np.stack([entry.q_main for entry in group])
     reached = reach.reach(
-        arm,
+        body.arms[side],
         reach.joined(hanging),
         Targets(
-            np.concatenate([targets.R for targets in everything]),
-            np.concatenate([targets.p for targets in everything]),
+            np.concatenate([each.R for each in everything]),
+            np.concatenate([each.p for each in everything]),
         ),
         np.tile(q_main, (len(everything), 1)),
+        iterations=18,
     )
-    count = len(poses) - 1
-    q = np.concatenate([q_main[None], reached.q.reshape(len(everything), n, -1)[:count]])
+    count = len(targets)
+    q = reached.q.reshape(len(everything), n, -1)[:count]
     ok = reached.ok.reshape(len(everything), n)
-    met = np.concatenate([np.ones((1, n), dtype=bool), ok[:count]])
-    return poses, q, met, ok[count:].mean(axis=0)
+    probes = ok[count:].reshape(len(off), len(probed), n)
+    steady = np.zeros((count, n))
+    for row, k in enumerate(probed):
+        steady[k] = (probes[:, 0] & probes[:, 1] & probes[:, row]).mean(axis=0)
+    return _Poses(targets, q, ok[:count], steady)
 
 
 def _row(targets: Targets, i: int) -> Targets:

@@ -93,7 +93,7 @@ def targets_of(candidates: Candidates, options: list[HandOption], references: Ar
 
 def trunks_of(body: Body, side: Side, candidates: Candidates, *, upright: bool = False) -> Trunks:
     """Where the arm hangs at every candidate's stance, in its posture (or standing upright)."""
-    poses = [body.standing(lean.posture(side)).X_ST[side] for lean in LEANS]
+    poses = [body.standing(lean.posture(side), side).X_ST[side] for lean in LEANS]
     lean = np.zeros_like(candidates.lean) if upright else candidates.lean
     R_ST = np.stack([pose.rotation() for pose in poses])[lean]
     return Trunks(candidates.stance, R_ST, np.array([pose.p for pose in poses])[lean])

@@ -24,6 +24,8 @@ STEP_IN_M = (0.25, 0.32, 0.40, 0.48, 0.56)
 """Lengths of the last straight steps from the standoff, tried in this order [m]."""
 ARM_ROOM_M = 0.42
 """Clearance of a standoff at which the arm can be raised freely [m]."""
+TIGHT_COST = 0.25
+"""Cost of a standoff that has only room for the body."""
 CHUNK = 6000
 REACH_M = 0.38
 """Ahead of the feet; further out the trunk leans, or the arm is stretched [m]."""
@@ -55,8 +57,11 @@ class Lean:
         )
 
 
+TALL_M = 0.605
+"""Base height for reaching up: the most a controller allows over the ordinary 0.587 [m]."""
 LEANS = (
     Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38, 0.42), 0.0, 480),
+    Lean(0.0, 0.0, (0.34, 0.38, 0.42), 0.15, 160, height_m=TALL_M),
     Lean(0.25, 0.0, (0.36, 0.40, 0.44, 0.48), 0.20, 320),
     Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40, 320),
     Lean(0.30, 0.0, (0.28, 0.34, 0.40), 0.60, 160, height_m=0.46),
@@ -160,7 +165,8 @@ def propose(
         rows = order[first : first + CHUNK]
         rows = rows[left[tags[rows, 2]] > 0]
         rows = rows[floor.clearances_m(stance[rows, :2]) >= NARROW_M]
-        back = standoffs.lengths(stance[rows])
+        back, tight = standoffs.lengths(stance[rows])
+        cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
         inside = _within(tags[rows, 2], left)
         kept.append(rows[inside])
@@ -168,6 +174,8 @@ def propose(
         if not left.any():
             break
     order, standoff = np.concatenate(kept), np.concatenate(backs)
+    again = np.argsort(cost[order], kind="stable")
+    order, standoff = order[again], standoff[again]
     found = Candidates(
         stance=stance[order],
         standoff_m=standoff,
@@ -241,9 +249,10 @@ class _Standoffs:
         self._labels = floor.regions(radius_m)
         self._home = floor.home(self._labels, start[0], start[1])
 
-    def lengths(self, stance: Array) -> Array:
-        """The first length that leads to such a place (0: none), shape (n,)."""
+    def lengths(self, stance: Array) -> tuple[Array, np.ndarray]:
+        """The first length that leads to such a place (0: none), and if it is tight, shape (n,)."""
         result = np.zeros(len(stance))
+        tight = np.zeros(len(stance), dtype=bool)
         back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
         for room in (ARM_ROOM_M, self._radius):
             for length in STEP_IN_M:
@@ -253,4 +262,5 @@ class _Standoffs:
                 free = (label > 0) & ((label == self._home) if self._home else True)
                 free &= self._floor.clearances_m(at) >= room
                 result[rows[free]] = length
-        return result
+                tight[rows[free]] = room == self._radius
+        return result, tight
