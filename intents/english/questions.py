@@ -240,6 +240,8 @@ def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | N
         if is_person(phrase, scope):
             return [Count(person=to_person(phrase, scope), to=to)], end
         return [Count(object=to_object(phrase, scope), to=to)], end
+    if phrase.superlative and phrase.end >= len(text):
+        return [Tell(object=to_object(phrase, scope), property="name", to=to)], phrase.end
     if text.word(after) not in ("which", "what"):
         return None
     amount = number(text.words, after + 1)

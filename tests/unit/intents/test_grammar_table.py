@@ -220,6 +220,66 @@ SPELLING = {
     "PICK UP THE ORANGE!!!": '[{"goal":"pick","object":{"name":"orange"}}]',
 }
 
+FREE_SPEECH = {
+    "put the red mug on the sofa and the blue mug on the workbench": (
+        '[{"goal":"place","object":{"name":"mug","color":"red"},"on":"sofa"},'
+        '{"goal":"place","object":{"name":"mug","color":"blue"},"on":"workbench"}]'
+    ),
+    "pick up the red mug, then the blue one": (
+        '[{"goal":"pick","object":{"name":"mug","color":"red"}},'
+        '{"goal":"pick","object":{"name":"mug","color":"blue"}}]'
+    ),
+    "grab the orange and the thermos and put them on the sofa": (
+        '[{"goal":"pick","object":{"name":"orange"}},{"goal":"pick","object":{"name":"thermos"}},'
+        '{"goal":"place","object":{"name":"orange"},"on":"sofa"},'
+        '{"goal":"place","object":{"name":"thermos"},"on":"sofa"}]'
+    ),
+    "before you go to the sofa, pick up the orange": (
+        '[{"goal":"pick","object":{"name":"orange"}},{"goal":"go_to","place":"sofa"}]'
+    ),
+    "after picking up the orange, go to the sofa": (
+        '[{"goal":"pick","object":{"name":"orange"}},{"goal":"go_to","place":"sofa"}]'
+    ),
+    "go to the sofa after picking up the orange": (
+        '[{"goal":"pick","object":{"name":"orange"}},{"goal":"go_to","place":"sofa"}]'
+    ),
+    "go to x = 1.5, y = -2": '[{"goal":"go_to","pose":{"x_m":1.5,"y_m":-2.0}}]',
+    "turn 180": '[{"goal":"go_to","by":{"turn_rad":3.141593}}]',
+    "walk over to the locker and look at it": (
+        '[{"goal":"go_to","place":"locker"},{"goal":"look_at","place":"locker"}]'
+    ),
+    "go get me the thermos": f'[{{"goal":"bring","object":{{"name":"thermos"}},{ME}}}]',
+    "bring me what is on the workbench": (
+        f'[{{"goal":"bring","object":{{"at":"workbench"}},{ME}}}]'
+    ),
+    "give me the thing on the sofa that weighs the least": (
+        f'[{{"goal":"bring","object":{{"superlative":"lightest","at":"sofa"}},{ME}}}]'
+    ),
+    "On the workbench there is a screwdriver. Bring it to Ada.": (
+        '[{"goal":"bring","object":{"name":"screwdriver","at":"workbench"},"to":{"name":"Ada"}}]'
+    ),
+    "of the tools on the workbench, which is the heaviest?": (
+        '[{"goal":"tell","of":{"category":"tool","superlative":"heaviest","at":"workbench"},'
+        '"property":"name"}]'
+    ),
+    "look at the sofa and tell me how many mugs there are": (
+        '[{"goal":"count","object":{"name":"mug","at":"sofa"},' + ME + "}]"
+    ),
+    "find the largest thing on the sofa and tell me what it is": (
+        '[{"goal":"tell","of":{"superlative":"largest","at":"sofa"},"property":"name",' + ME + "}]"
+    ),
+    "meet and greet Noor": (
+        '[{"goal":"meet","person":{"name":"Noor"}},{"goal":"greet","person":{"name":"Noor"}}]'
+    ),
+    "I want the lemonade from the locker, can you bring it to me?": (
+        f'[{{"goal":"bring","object":{{"name":"lemonade","at":"locker"}},{ME}}}]'
+    ),
+    "Emil is on the sofa, bring him the thermos": (
+        '[{"goal":"bring","object":{"name":"thermos"},"to":{"name":"Emil","at":"sofa"}}]'
+    ),
+    "hello": '[{"goal":"greet","person":{"who":"operator"}}]',
+}
+
 
 def check(said: str, goals: str) -> None:
     outcome = parse(said, WORKSHOP)
@@ -254,6 +314,11 @@ def test_people_and_questions(said: str, goals: str) -> None:
 
 @pytest.mark.parametrize(("said", "goals"), MISSION.items())
 def test_mission_devices_and_control_flow(said: str, goals: str) -> None:
+    check(said, goals)
+
+
+@pytest.mark.parametrize(("said", "goals"), FREE_SPEECH.items())
+def test_free_speech(said: str, goals: str) -> None:
     check(said, goals)
 
 
