@@ -19,6 +19,7 @@ from executive.progress import Lines, LiveTree, Progress, Silent
 from intents.outcomes import Question
 from robot.clock import WallClock
 from robot.errors import Failure
+from robot.messages import BodyState
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
 
@@ -143,7 +144,12 @@ def walk(options: Walk) -> int:
         interrupts.listen(),
         runtimes.opened(kind, where, seed=options.seed, folder=None) as (runtime, _),
     ):
-        walked = walking.walk(runtime, options.twist, interrupts=interrupts)
+        with Console(quiet=options.as_json).status("walking") as status:
+
+            def show(body: BodyState) -> None:
+                status.update(f"walking: {body.stamp_s:.0f} of {options.twist.duration_s:.0f} s")
+
+            walked = walking.walk(runtime, options.twist, interrupts=interrupts, on_tick=show)
         past_s = runtime.clock.now_s()
         late = doing.late_periods(runtime)
     if options.as_json:
