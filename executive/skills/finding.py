@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from executive.skills.asking import stance_of
 from executive.skills.body import Body
 from executive.skills.looking import fresh_track, see, turn_head
 from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.visiting import stances_around, stances_at, walk_to_any
+from executive.skills.visiting import has_room, stances_around, stances_at, walk_to_any
+from executive.skills.walking import stand_still, turn_by
 from robot.messages import Place
 from robot.se3 import SE3, Vector3
 
@@ -37,16 +39,14 @@ def find(
         found = yield from _check_belief(body, object_id, believed)
         if found is not None:
             return found
-    body.phase = f"looking around for the {name}"
     begin_s = body.now_s
-    for p_W in _glances(body.X_WS):
-        yield from turn_head(body, p_W)
-        yield from body.wait(GLANCE_S)
-        if fresh_track(body, object_id, begin_s) is not None:
-            return (yield from see(body, object_id))
+    body.phase = f"looking around for the {name}"
+    found = yield from _look_around(body, object_id, begin_s)
+    if found is not None:
+        return found
     looked: list[str] = []
     for place in _places(body, place_ids):
-        found = yield from _look_at_place(body, object_id, place)
+        found = yield from _look_at_place(body, object_id, place, begin_s)
         if found is not None:
             return found
         looked.append(place.name)
@@ -75,10 +75,25 @@ def _check_belief(body: Body, object_id: str, X_WO: SE3) -> Script[SE3 | None]:
         return None
 
 
-def _look_at_place(body: Body, object_id: str, place: Place) -> Script[SE3 | None]:
+def _look_around(body: Body, object_id: str, begin_s: float) -> Script[SE3 | None]:
+    """Look ahead, left and right, then where there is room turn around and do it again."""
+    for half_turn in (False, True):
+        if half_turn and not has_room(body, stance_of(body.X_WS)):
+            return None
+        if half_turn:
+            yield from turn_by(body, math.pi)
+            yield from stand_still(body)
+        for p_W in _glances(body.X_WS):
+            yield from turn_head(body, p_W)
+            yield from body.wait(GLANCE_S)
+            if fresh_track(body, object_id, begin_s) is not None:
+                return (yield from see(body, object_id))
+    return None
+
+
+def _look_at_place(body: Body, object_id: str, place: Place, begin_s: float) -> Script[SE3 | None]:
     """Walk to a place and look over it; None if the object is not there or no path leads there."""
     body.phase = f"going to look at the {place.name}"
-    begin_s = body.now_s
     try:
         yield from walk_to_any(body, stances_at(place, body.X_WS), name=place.name)
     except GaveUp as end:
@@ -102,9 +117,10 @@ def _places(body: Body, place_ids: Sequence[str]) -> list[Place]:
     if place_ids:
         return [body.place(place_id) for place_id in place_ids]
     here = body.X_WS.p
-    surfaces = [place for place in body.map.places if not place.floor]
-    # Boards above one another (a shelf's) are seen from one spot; the glances find both.
-    return sorted(surfaces, key=lambda place: (math.dist(place.X_WP.p[:2], here[:2]), place.id))
+    surfaces = {place.X_WP.p: place for place in body.map.places if not place.floor}
+    return sorted(
+        surfaces.values(), key=lambda place: (math.dist(place.X_WP.p[:2], here[:2]), place.id)
+    )
 
 
 def _glances(X_WS: SE3) -> list[Vector3]:

@@ -74,6 +74,12 @@ def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[S
     )
 
 
+def has_room(body: Body, stance: Stance) -> bool:
+    """Whether the body can turn there without its arms touching anything."""
+    things = (*body.map.obstacles, *body.world.unmapped)
+    return all(clearance_m(stance[:2], thing) >= ROOM_M for thing in things)
+
+
 def heading_to(X_WS: SE3, x_m: float, y_m: float) -> float:
     """Heading on arrival at a point, where none is wanted: the way one comes, or as one stands."""
     dx, dy = x_m - X_WS.p[0], y_m - X_WS.p[1]
@@ -103,9 +109,4 @@ def _nearest_first(stances: list[Stance], X_WS: SE3) -> list[Stance]:
 
 def _roomy_first(body: Body, stances: Sequence[Stance]) -> list[Stance]:
     """The same order, but places too narrow for the arms come last."""
-    things = (*body.map.obstacles, *body.world.unmapped)
-
-    def is_narrow(stance: Stance) -> bool:
-        return any(clearance_m(stance[:2], thing) < ROOM_M for thing in things)
-
-    return sorted(stances, key=is_narrow)
+    return sorted(stances, key=lambda stance: not has_room(body, stance))
