@@ -63,7 +63,7 @@ class ObjectQuery(_Slots, frozen=True, kw_only=True):
         color: Colour word ("red").
         size: Size word ("big", "small").
         superlative: Which of those that fit.
-        count: How many, or "all"; absent means one.
+        count: How many, or "all"; 1 is any one ("a cup"), absent is the one that fits.
         at: Place or room where it is.
         relation: Where it is relative to another object.
         held: It is what the robot holds, or what was spoken of last ("it").

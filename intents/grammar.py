@@ -169,6 +169,8 @@ class Grammar(Clauses):
         if not before and after < len(text) and verbs_at(text.words, after):
             goals, end = self._sequence(after, nested=True)
             return [Repeat(times=times, goals=tuple(goals))], end
+        if text.words[verb - 2 : verb] in (["do", "it"], ["do", "that"]) and amount is None:
+            return None
         again = list(before or self.history)
         if not again:
             raise Unclear("What shall I repeat?")

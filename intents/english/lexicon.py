@@ -121,7 +121,8 @@ CLOTHES = words(
 
 LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
     {
-        "on": "on,on top of,upon,atop,atop of",
+        "on": "on,in the middle of,in the center of,in the centre of,at the edge of,"
+        "at the center of,on the edge of,in the middle part of,on top of,upon,atop,atop of",
         "in": "in,right in,out in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,down "
         "in,in at",
@@ -162,10 +163,10 @@ FILLERS = phrases(
     "please,kindly,thank you very much,thank you,thanks,many thanks,um,uh,uhm,er,erm,hmm,hm,"
     "carefully,gently,quickly,slowly,immediately,right now,right away,at once,straight away,"
     "as soon as possible,asap,if you can,if possible,if you please,if you could,"
-    "if you do not mind,if you would,you know,dear robot,mister robot,mr robot,robot,hey robot,"
-    "robot listen,listen robot,kind sir,would you be so kind,would you kindly,for a moment please,"
-    "safely,my friend,when you can,whenever you can,when you get a chance,when you have time,"
-    "my dear,basically,actually,kinda,sort of"
+    "if you do not mind,if you would,possibly,perhaps,dear robot,mister robot,mr robot,robot,"
+    "hey robot,robot listen,listen robot,kind sir,would you be so kind,would you kindly,"
+    "for a moment please,safely,my friend,when you can,whenever you can,when you get a chance,"
+    "when you have time,my dear,basically,actually,kinda,sort of"
 )
 """Words that can be dropped wherever they stand."""
 OPENERS = phrases(

@@ -215,7 +215,8 @@ def _read_quantity(text: Text, phrase: NounPhrase, at: int) -> int:
         else:
             amount = None if text.name_at(at) else number(text.words, at)
             ordinary = amount and amount.value == int(amount.value) and amount.value < 1000
-            if not ordinary or amount is None or text.word(amount.end) in UNIT_WORDS:
+            units = UNIT_WORDS - lexicon.BODY_NOUNS
+            if not ordinary or amount is None or text.word(amount.end) in units:
                 return at
             if word == "one" and not is_content(text, amount.end):
                 return at
@@ -326,8 +327,11 @@ def _something(text: Text, phrase: NounPhrase, at: int) -> int:
         phrase.noun, phrase.names = ("name", named) if named else ("unknown", ())
         phrase.said = f"something to {text.word(at + 2)}"
         return at + 3
-    if text.word(at) in ("everything",):
+    if text.word(at) == "everything":
         phrase.count = "all"
+    if text.word(at) in _SOMETHING and text.word(at + 1) in COLORS:
+        phrase.color = COLORS[text.word(at + 1)]
+        return at + 2
     return at + 1
 
 
@@ -373,6 +377,8 @@ def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) ->
 def _goes_on_unknown(text: Text, at: int) -> bool:
     """Whether words that are no names, verbs or people go on with a compound."""
     if text.word(at) in _SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
+        return False
+    if text.lookup(lexicon.SUPERLATIVES, at):
         return False
     return is_content(text, at)
 

@@ -134,6 +134,10 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if weight:
         phrase.superlative, end = weight
         return end
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most and text.words[most[1] : most[1] + 2] == ["to", "you"]:
+        phrase.superlative = most[0]
+        return most[1] + 2
     aside = _aside(text, phrase, at)
     if aside:
         return aside

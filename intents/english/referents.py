@@ -28,6 +28,7 @@ from intents.goals import (
 ME = Person(who="operator")
 _OBJECTS = ("object", "category")
 _SPOTS = ("place", "room")
+_INDEFINITE = ("a", "an", "any", "another")
 
 
 @dataclass(slots=True)
@@ -120,10 +121,17 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         color=phrase.color,
         size=phrase.size,
         superlative=superlative,
-        count=phrase.count,
+        count=phrase.count or (1 if _is_any(phrase) else None),
         at=at,
         relation=relation,
     )
+
+
+def _is_any(phrase: NounPhrase) -> bool:
+    """A cup, any cup, one of the cups, something: whichever it is."""
+    if phrase.superlative or phrase.noun not in ("name", "object"):
+        return False
+    return phrase.determiner in _INDEFINITE or phrase.said in ("something", "anything")
 
 
 def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, str]:

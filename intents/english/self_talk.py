@@ -21,9 +21,10 @@ _ABOUT_ROBOT: dict[ReportTopic, str] = {
     "what you are doing,what is going on,your status,what are you working on,"
     "what is your current task,are you busy,what are you doing right now,what are you doing now",
     "health": "how are you,how are you doing,are you okay,are you alright,are you all right,"
-    "how do you feel,what is your battery level,how much battery do you have,is everything okay,"
-    "is anything wrong,are you healthy,how is your battery,how is your health,your health,"
-    "how hot are your motors,are your motors hot",
+    "how do you feel,what is your battery level,what is the battery level,battery,"
+    "how much battery do you have,is everything okay,is anything wrong,are you healthy,"
+    "how is your battery,how is your health,your health,how hot are your motors,"
+    "are your motors hot",
     "why": "why did you stop,why did you fail,what went wrong,what happened,why are you stopping,"
     "why did you do that,why did it fail,why have you stopped,why are you not moving,"
     "why did you not do it,why is that,why,why not,why did you drop it,why did you fall,"

@@ -5,118 +5,127 @@ from intents.english.lexicon import Phrase
 
 SPELLINGS: dict[str, str] = {
     "go": (
-        "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,come over,enter,"
-        "head,head over,proceed,travel,get to,get over,return,visit,reach,approach,advance,run,"
-        "hurry,make your way,find your way,find way,find the way,take yourself,get yourself,"
-        "go out,step,roll,journey,arrive,arrive at,be at,get back,go back,come back,"
-        "position yourself,pass by,move yourself,start walking,start moving,start going,wander,"
-        "stroll,cruise,swing by,stop by"
+        "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,"
+        "come over,enter,head,head over,proceed,travel,get to,get over,return,visit,"
+        "reach,approach,advance,run,hurry,make your way,find your way,find way,"
+        "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
+        "arrive at,be at,get back,go back,come back,position yourself,pass by,"
+        "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
+        "swing by,stop by,sidestep,side step,strafe,shuffle"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
-    "turn": "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around",
+    "turn": (
+        "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around,"
+        "turn to face,turn and face"
+    ),
     "find": (
-        "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,hunt for,"
-        "find out where,search out,seek out,look around for,go find,track down,recognize,find me,"
-        "try to find,hunt,scan for,check for,find for me,trace,look up,single out,look,"
-        "look around,look in"
+        "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,"
+        "hunt for,find out where,search out,seek out,look around for,go find,track down,"
+        "recognize,find me,try to find,hunt,scan for,check for,find for me,trace,look up,"
+        "single out,look,look around,look in,show me,show us"
     ),
     "pick": (
-        "pick,pick up,grab,grasp,collect,catch,lift,hold,obtain,get hold of,grab hold of,"
-        "take hold of,pick out,gather,seize,lift up,raise,acquire,grip,snatch,clutch,scoop up,"
-        "withdraw,extract,remove,pull,pull out,procure,choose,select,take away"
+        "pick,pick up,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
+        "grab hold of,take hold of,pick out,gather,seize,lift up,raise,acquire,grip,"
+        "snatch,clutch,scoop up,withdraw,extract,remove,pull,pull out,procure,choose,"
+        "select,take away"
     ),
     "take": (
-        "take,get,take up,go get,go take,retrieve,fetch,go fetch,go and fetch,go and get,take out,"
-        "bring up"
+        "take,get,take up,go get,go take,retrieve,fetch,go fetch,go and fetch,"
+        "go and get,take out,bring up"
     ),
     "put": (
-        "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
-        "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop"
+        "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"
+        "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
+        "leave,move,drop"
     ),
     "drop": (
-        "drop,put down,set down,release,let go of,let go,drop off,leave behind,throw away,"
-        "dispose of,discard,throw out,get rid of,dump,trash,bin,recycle,place down,leave,lower"
+        "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
+        "throw away,dispose of,discard,throw out,get rid of,dump,trash,bin,recycle,"
+        "place down,leave,lower"
     ),
     "bring": (
-        "bring,deliver,carry,transport,transfer,bring over,bring back,bring along,return with,"
-        "come back with,convey,haul,supply,send,drag,bring out,move,get,pull"
+        "bring,deliver,carry,transport,transfer,bring over,bring back,bring along,"
+        "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
+        "pull"
     ),
     "inform": "give me,give us,give,provide,provide me with,show me,share,get me",
     "give": (
-        "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,pass on,"
-        "hand out,distribute,share,hand in,lend,feed"
+        "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
+        "pass on,hand out,distribute,share,hand in,lend,feed"
     ),
     "want": (
-        "i want,i need,i would like,i would love,can i have,could i have,may i have,can i get,"
-        "could i get,may i get,i will have,i will take,i would like to have,i want to have,"
-        "i am looking for,we need,we want,we would like,i require,can we have,could we have,"
-        "i could use,i would appreciate,let me have,i feel like,i am in need of,do you have,"
-        "i like,i crave"
+        "i want,i need,i would like,i would love,can i have,could i have,may i have,"
+        "can i get,could i get,may i get,i will have,i will take,i would like to have,"
+        "i want to have,i am looking for,we need,we want,we would like,i require,"
+        "can we have,could we have,i could use,i would appreciate,let me have,i feel like,"
+        "i am in need of,do you have,i like,i crave"
     ),
     "follow": (
-        "follow,go after,come after,go behind,come behind,go along with,go with,come with,tail,"
-        "chase,track,follow after,follow along,follow behind,walk behind,walk after,trail,"
-        "walk with,keep up with,pursue,shadow,stay with,move behind"
+        "follow,go after,come after,go behind,come behind,go along with,go with,come with,"
+        "tail,chase,track,follow after,follow along,follow behind,walk behind,walk after,"
+        "trail,walk with,keep up with,pursue,shadow,stay with,move behind"
     ),
     "guide": (
-        "show,guide,escort,lead,accompany,conduct,usher,navigate,direct,show the way,help,"
-        "show around,take along,bring along with,steer,walk home,see,take,bring,walk,move,"
-        "return with,come back with,bring back,get back with"
+        "show,guide,escort,lead,accompany,conduct,usher,navigate,direct,show the way,"
+        "help,show around,take along,bring along with,steer,walk home,see,take,bring,"
+        "walk,move,return with,come back with,bring back,get back with"
     ),
     "meet": (
         "meet,get to know,get acquainted with,meet up with,meet with,become acquainted with,"
-        "make the acquaintance of,encounter,acquaint yourself with,contact,find and meet,see to,"
-        "join"
+        "make the acquaintance of,encounter,acquaint yourself with,contact,find and meet,"
+        "see to,join"
     ),
     "collect": "get,fetch,pick up,collect,pick,go get,retrieve,go fetch",
     "greet": (
-        "greet,say hello to,say hi to,say hello,say hi,say good morning to,say good evening to,"
-        "salute,welcome,introduce yourself to,introduce yourself,present yourself to,"
-        "present yourself,give a greeting to,wave hello to,say hey to,say goodbye to,"
-        "say good morning,hello to,introduce,say greetings to,give your regards to,"
-        "self introduce to"
+        "greet,say hello to,say hi to,say hello,say hi,say good morning to,"
+        "say good evening to,salute,welcome,introduce yourself to,introduce yourself,"
+        "present yourself to,present yourself,give a greeting to,wave hello to,say hey to,"
+        "say goodbye to,say good morning,hello to,introduce,say greetings to,"
+        "give your regards to,self introduce to"
     ),
     "say": (
-        "say,speak,utter,announce,state,declare,pronounce,recite,express,sing,relay,mention,"
-        "talk about,give out,speak about,convey that,repeat after me"
+        "say,speak,utter,announce,state,declare,pronounce,recite,express,sing,relay,"
+        "mention,talk about,give out,speak about,convey that,repeat after me"
     ),
     "tell": (
-        "tell,inform,let,notify,advise,update,remind,report,explain,let me know,relay to,"
-        "share with,explain to,brief,identify,name,find out,check,determine,figure out,"
-        "do you know,can i know,i want to know,i would like to know,i need to know,work out,"
-        "tell about,look and tell,specify,list,speak to,speak with,talk to,talk with,respond with,"
-        "recount,communicate,communicate to,indicate,learn,verify,let know,say to,state to,"
-        "i wonder,report to,disclose,reveal,detail,point out"
+        "tell,inform,let,notify,advise,update,remind,report,explain,let me know,"
+        "relay to,share with,explain to,brief,identify,name,find out,check,determine,"
+        "figure out,do you know,can i know,i want to know,i would like to know,"
+        "i need to know,work out,tell about,look and tell,specify,list,speak to,"
+        "speak with,talk to,talk with,respond with,recount,communicate,communicate to,"
+        "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
+        "reveal,detail,point out"
     ),
     "describe": "describe,give a description of,give me a description of,tell me about,tell about",
     "answer": (
-        "answer,respond,respond to,reply,reply to,answer to,give an answer to,give an answer,"
-        "answer back,provide an answer to,field,ask,ask for,get asked,help with,"
-        "give a response to,resolve,give the answer to,give the answer,give them the answer to,"
-        "provide the answer to,respond to the"
+        "answer,respond,respond to,reply,reply to,answer to,give an answer to,"
+        "give an answer,answer back,provide an answer to,field,ask,ask for,get asked,"
+        "help with,give a response to,resolve,give the answer to,give the answer,"
+        "give them the answer to,provide the answer to,respond to the"
     ),
     "count": "count,count up,give me the number of,tell me the number of,enumerate",
     "look": (
-        "look,look at,inspect,examine,check,watch,observe,have a look at,take a look at,check on,"
-        "check out,look over,look into,glance at,stare at,gaze at,control,monitor,view,"
-        "check up on,turn your head to,turn your head towards,turn your head,peek at,focus on,"
-        "keep an eye on,see,scan"
+        "look,look at,inspect,examine,check,watch,observe,have a look at,take a look at,"
+        "check on,check out,look over,look into,glance at,stare at,gaze at,control,"
+        "monitor,view,check up on,turn your head to,turn your head towards,turn your head,"
+        "peek at,focus on,keep an eye on,see,scan"
     ),
     "open": "open,open up,unlock,unclose,uncover",
     "close": "close,shut,close up,lock,cover",
     "switch": (
-        "switch,turn,power,activate,deactivate,switch on,switch off,turn on,turn off,power on,"
-        "power off,power up,start up,shut off,shut down,put on,put off,disable,enable,light,"
-        "turn down,light up,power down,start,kill,extinguish,disconnect"
+        "switch,turn,power,activate,deactivate,switch on,switch off,turn on,turn off,"
+        "power on,power off,power up,start up,shut off,shut down,put on,put off,disable,"
+        "enable,light,turn down,light up,power down,start,kill,extinguish,disconnect"
     ),
     "stand": (
-        "stand,stand up,get up,stand still,stand straight,stand upright,rise,remain standing,"
-        "straighten up,stay standing,keep standing,get on your feet,balance"
+        "stand,stand up,get up,stand still,stand straight,stand upright,rise,"
+        "remain standing,straighten up,stay standing,keep standing,get on your feet,balance"
     ),
     "squat": (
-        "squat,crouch,squat down,crouch down,kneel,kneel down,bend your knees,duck,duck down,"
-        "do a squat,do squats,hunker down,go down on your knees,take a squat,bend your legs,"
-        "get down"
+        "squat,crouch,squat down,crouch down,kneel,kneel down,bend your knees,duck,"
+        "duck down,do a squat,do squats,hunker down,go down on your knees,take a squat,"
+        "bend your legs,get down"
     ),
     "lean": "lean,lean over,tilt,bend,bend over,incline",
     "sit": "sit,sit down,take a seat,have a seat,be seated",
@@ -125,35 +134,37 @@ SPELLINGS: dict[str, str] = {
         "balance yourself,keep balancing"
     ),
     "lift_leg": (
-        "lift your,raise your,lift one,raise one,lift a,lift up your,raise up your,hold up your,"
-        "put up your,hold your,stretch out your,extend your,put your,lower your,move your,put one,"
-        "lift up one,raise up one"
+        "lift your,raise your,lift one,raise one,lift a,lift up your,raise up your,"
+        "hold up your,put up your,hold your,stretch out your,extend your,put your,"
+        "lower your,move your,put one,lift up one,raise up one"
     ),
     "gesture": (
-        "wave,nod,point,bow,clap,dance,shrug,point at,point to,wave at,wave to,bow to,nod at,"
-        "nod to,shake your head,shake head,nod your head,nod head,give a thumbs up,thumbs up,"
-        "show a thumbs up,give me a thumbs up,clap your hands,take a bow,give a wave,"
-        "give me a wave,wave your hand,wave your arm,wave your right hand,wave your left hand,"
-        "wave hello,wave goodbye,shake hands with,shake hands,high five,give me a high five,"
-        "give a high five,cross your arms,shrug your shoulders,do a dance,do a bow,wave your arms,"
-        "wave both hands,curtsy,show thumbs up,point towards,make a bow,bow down,raise your hand,"
-        "raise your arm,raise your left hand,raise your right hand,raise your left arm,"
-        "raise your right arm,raise both arms,raise both hands,raise your arms,raise your hands,"
-        "shake my hand,shake his hand,shake her hand,shake my right hand,high five me"
+        "wave,nod,point,bow,clap,dance,shrug,point at,point to,wave at,wave to,bow to,"
+        "nod at,nod to,shake your head,shake head,nod your head,nod head,give a thumbs up,"
+        "thumbs up,show a thumbs up,give me a thumbs up,clap your hands,take a bow,"
+        "give a wave,give me a wave,wave your hand,wave your arm,wave your right hand,"
+        "wave your left hand,wave hello,wave goodbye,shake hands with,shake hands,high five,"
+        "give me a high five,give a high five,cross your arms,shrug your shoulders,"
+        "do a dance,do a bow,wave your arms,wave both hands,curtsy,show thumbs up,"
+        "point towards,make a bow,bow down,raise your hand,raise your arm,"
+        "raise your left hand,raise your right hand,raise your left arm,raise your right arm,"
+        "raise both arms,raise both hands,raise your arms,raise your hands,shake my hand,"
+        "shake his hand,shake her hand,shake my right hand,high five me"
     ),
     "wait": (
-        "wait,hold on,stay,stay here,stay there,wait here,wait there,hang on,remain,stay put,"
-        "do nothing,stay where you are,hold still,remain here,rest for,idle,wait around,stand by,"
-        "keep still,wait up,sleep for,stay still,hold your position,hold position"
+        "wait,hold on,stay,stay here,stay there,wait here,wait there,hang on,remain,"
+        "stay put,do nothing,stay where you are,hold still,remain here,rest for,idle,"
+        "wait around,stand by,keep still,wait up,sleep for,stay still,hold your position,"
+        "hold position"
     ),
     "stop": (
-        "stop,halt,freeze,stop moving,stop it,stop that,stop now,emergency stop,emergency,"
-        "stop there,abort everything,do not move,stop right there,stop walking,stop everything,"
-        "stop what you are doing,e stop,estop,full stop"
+        "stop,halt,freeze,stop moving,stop it,stop that,stop now,emergency stop,"
+        "emergency,stop there,abort everything,do not move,stop right there,stop walking,"
+        "stop everything,stop what you are doing,e stop,estop,full stop"
     ),
     "pause": (
-        "pause,pause the mission,pause the task,take a break,interrupt,hold the mission,pause it,"
-        "pause that"
+        "pause,pause the mission,pause the task,take a break,interrupt,hold the mission,"
+        "pause it,pause that"
     ),
     "resume": (
         "resume,continue,carry on,keep going,proceed with the task,go ahead,unpause,"
@@ -164,23 +175,26 @@ SPELLINGS: dict[str, str] = {
     ),
     "cancel": (
         "cancel,abort,cancel that,cancel it,never mind,nevermind,forget it,forget that,"
-        "forget about it,forget about that,give up,abandon,abort the mission,cancel the mission,"
-        "cancel the task,abort the task,abandon the mission,abandon the task,cancel everything,"
-        "undo that,abort that,abort it,call it off,forget everything,give it up,cancel this"
+        "forget about it,forget about that,give up,abandon,abort the mission,"
+        "cancel the mission,cancel the task,abort the task,abandon the mission,"
+        "abandon the task,cancel everything,undo that,abort that,abort it,call it off,"
+        "forget everything,give it up,cancel this"
     ),
     "report": (
-        "report your,report status,give me a status report,give a status report,status report,"
-        "give me your status,status,report on your,report in,tell me your status,say your status,"
-        "give me a report,give a report,report your status,report what you see,report on yourself,"
-        "self check,do a self check,report your health,health check,battery level,status update,"
+        "report your,report status,give me a status report,give a status report,"
+        "status report,give me your status,status,report on your,report in,"
+        "tell me your status,say your status,give me a report,give a report,"
+        "report your status,report what you see,report on yourself,self check,"
+        "do a self check,report your health,health check,battery level,status update,"
         "give me a status update,describe what you see,tell me about your status,"
         "describe your surroundings,report your position,report your location,"
-        "report where you are,report what you are holding"
+        "report where you are,report what you are holding,report,report health,"
+        "report battery,report position,report location,report holding"
     ),
     "repeat": (
-        "repeat,do it again,do that again,repeat that,repeat it,once more,one more time,again,"
-        "repeat this,repeat the following,do this again,do the same again,do the following,"
-        "do it once more,do that once more,same again"
+        "repeat,do it again,do that again,repeat that,repeat it,once more,one more time,"
+        "again,repeat this,repeat the following,do this again,do the same again,"
+        "do the following,do it once more,do that once more,same again,do it,do that"
     ),
 }  # fmt: skip
 """Sense to spellings; a spelling may have several senses, the frames tell them apart."""

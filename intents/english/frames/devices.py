@@ -76,6 +76,8 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
         on, off = said.how == "on", said.how != "on"
     if on == off:
         raise Misfit("on or off?")
+    if said is None and not particles & {"on", "off"}:
+        raise Misfit("switch what?")
     if said is None:
         raise Unclear(f"What shall I switch {'on' if on else 'off'}?")
     slots.direction("up", "down")

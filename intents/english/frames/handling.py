@@ -24,6 +24,7 @@ from intents.goals import (
     Place,
 )
 
+_HOW = {"left": "to the left of", "right": "to the right of", "in_front": "in front of"}
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -207,9 +208,8 @@ def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
     if is_person(place.of, scope):
         raise Misfit("I can put things on or in places; to people I give them")
     if place.how not in ("on", "in", None, "near", "above"):
-        raise NotUnderstood(
-            f"I can put things on or in a place, not {place.how.replace('_', ' ')} one"
-        )
+        where = _HOW.get(place.how, place.how)
+        raise NotUnderstood(f"I can put things on or in a place, not {where} something")
     near_object = place.how == "near" and not is_spot(place.of) and place.of.name("object")
     if near_object:
         raise NotUnderstood("I can put things on or in a place, not next to another object")

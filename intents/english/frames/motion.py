@@ -9,7 +9,7 @@ from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.noun_phrases import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
-from intents.english.trouble import Misfit
+from intents.english.trouble import Misfit, NotUnderstood
 from intents.goals import (
     OPERATOR,
     Displacement,
@@ -52,6 +52,10 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if target is None or source is not None:
         raise Misfit("I need to know where to go to")
     slots.done()
+    said = clause.text.words[clause.first : target.phrase.start]
+    way = next((w for w in ("around", "along", "past") if w in said), None)
+    if way:
+        raise NotUnderstood(f"I can walk to a place, not {way} one")
     return [_towards(clause, scope, target.phrase)]
 
 

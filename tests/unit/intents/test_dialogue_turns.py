@@ -85,6 +85,11 @@ def test_what_is_not_there_is_refused_with_what_is() -> None:
     assert "green jar" in refused.reason
 
 
+def test_who_asks_for_any_one_is_not_asked_which() -> None:
+    for said in ("pick up a jar", "pick up any jar", "take one of the jars"):
+        assert isinstance(converse(said)[0], Goals)
+
+
 def test_without_a_world_nothing_is_ambiguous() -> None:
     outcome = converse("pick up the jar", entities=())[0]
     assert isinstance(outcome, Goals)

@@ -38,13 +38,13 @@ HANDLING = {
     "bring me the lemonade": f'[{{"goal":"bring","object":{{"name":"lemonade"}},{ME}}}]',
     "fetch me something to drink": f'[{{"goal":"bring","object":{{"category":"drink"}},{ME}}}]',
     "I'd like a drink from the locker": (
-        f'[{{"goal":"bring","object":{{"category":"drink","at":"locker"}},{ME}}}]'
+        f'[{{"goal":"bring","object":{{"category":"drink","count":1,"at":"locker"}},{ME}}}]'
     ),
     "deliver the screwdriver to Ada in the garage": (
         '[{"goal":"bring","object":{"name":"screwdriver"},"to":{"name":"Ada","at":"garage"}}]'
     ),
     "bring the woman wearing a blue coat an orange": (
-        '[{"goal":"bring","object":{"name":"orange"},"to":{"gender":"female",'
+        '[{"goal":"bring","object":{"name":"orange","count":1},"to":{"gender":"female",'
         '"wearing":{"color":"blue","item":"coat"}}}]'
     ),
     "bring the thermos to the office": (
@@ -74,7 +74,7 @@ SEQUENCES = {
         f'{{"goal":"bring","object":{{"name":"mug","color":"blue"}},{ME}}}]'
     ),
     "There is an orange on the sofa. Take it to the workbench.": (
-        '[{"goal":"place","object":{"name":"orange","at":"sofa"},"on":"workbench"}]'
+        '[{"goal":"place","object":{"name":"orange","count":1,"at":"sofa"},"on":"workbench"}]'
     ),
     "the red mug, could you bring it here": (
         f'[{{"goal":"bring","object":{{"name":"mug","color":"red"}},{ME}}}]'
