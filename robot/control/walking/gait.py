@@ -41,10 +41,10 @@ ESCAPE_MARGIN_M = 0.0
 LATE_S = 0.25
 DEADBAND_M = 0.02
 FREEZE_S = 0.08
-TIMING_DEADBAND_S = 0.06
+TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
 SHORTEST_SHARE = 0.65
-LONGEST_SHARE = 1.5
+LONGEST_SHARE = 1.35
 DCM_GAIN_1_S = 4.0
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
@@ -332,37 +332,49 @@ class Gait:
         assert self.swing is not None
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
         command = self._command(xi, xi_ref, zmp_ref)
-        xi_end, _ = self._plan.at(self._nominal_s)
         if self.duration_s - self.phase_s > FREEZE_S:
-            self._retime(dt_s, xi, xi_end, command)
-        growth = math.exp(self.omega_1_s * max(0.0, self.duration_s - self.phase_s))
-        shift = [0.0, 0.0]
-        for k in (0, 1):
-            zmp = 0.5 * (zmp_ref[k] + command[k])
-            shift[k] = zmp + growth * (xi[k] - zmp) - xi_end[k]
+            self._retime(dt_s, xi, xi_ref, command)
+        left_s = max(0.0, self.duration_s - self.phase_s)
+        shift = [
+            self._error_at_end(xi[k] - xi_ref[k], command[k] - zmp_ref[k], left_s) for k in (0, 1)
+        ]
         size = math.hypot(*shift)
         scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
         nominal = self._landings[0]
         wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
         self.swing.aim(self._reachable(wanted), dt_s)
 
-    def _retime(self, dt_s: float, xi: Point, xi_end: Point, command: Point) -> None:
-        """Move the end of the step towards the time at which the DCM is sideways where planned."""
+    def _error_at_end(self, error: float, correction: float, left_s: float) -> float:
+        """DCM error along one axis after `left_s`.
+
+        While the ZMP is not at the edge of the foot the error decays with the feedback; at the
+        edge, with `correction` [m] all that the foot gives, what it cannot hold grows with omega.
+        """
+        decayed = error * math.exp(-DCM_GAIN_1_S * left_s)
+        grown = correction + (error - correction) * math.exp(self.omega_1_s * left_s)
+        return max(decayed, grown) if error > 0.0 else min(decayed, grown)
+
+    def _retime(self, dt_s: float, xi: Point, xi_ref: Point, command: Point) -> None:
+        """Move the end of the step towards the time at which the DCM is sideways where planned.
+
+        Only for an error that the foot cannot take back: small ones are the ZMP's to correct.
+        """
         assert self.swing is not None
         support = self.planted[self.support]
         s = sign_of(other(self.support))
-        now, end, zmp = (
-            s * support.relative(Sole(p[0], p[1], 0.0))[1] for p in (xi, xi_end, command)
+        xi_end, _ = self._plan.at(self._nominal_s)
+        now, planned, end, zmp = (
+            s * support.relative(Sole(p[0], p[1], 0.0))[1] for p in (xi, xi_ref, xi_end, command)
         )
+        left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
+        grown = self._error_at_end(now - planned, zmp, left_s)
+        wanted_s = self._nominal_s
+        if abs(grown) > TIMING_DEADBAND_M:
+            wanted_s = LONGEST_SHARE * self._nominal_s
+            if now - zmp > 0.005 and end - zmp > 0.005:
+                wanted_s = self.phase_s + math.log((end - zmp) / (now - zmp)) / self.omega_1_s
         shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
-        if now - zmp < 0.005 or end - zmp < 0.005:
-            wanted_s = longest
-        else:
-            wanted_s = self.phase_s + math.log((end - zmp) / (now - zmp)) / self.omega_1_s
-        if abs(wanted_s - self._nominal_s) < TIMING_DEADBAND_S:
-            wanted_s = self._nominal_s
-        wanted_s = max(shortest, min(longest, wanted_s))
-        wanted_s = max(wanted_s, self.phase_s + FREEZE_S)
+        wanted_s = max(shortest, min(longest, wanted_s), self.phase_s + FREEZE_S)
         gain = dt_s / (TIMING_FILTER_S + dt_s)
         self.duration_s += gain * (wanted_s - self.duration_s)
         self.swing.duration_s = self.duration_s
