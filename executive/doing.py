@@ -175,8 +175,8 @@ def closing(summary: Summary) -> list[str]:
     ]
     pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
     lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
-    counts = f"{summary.recoveries} recoveries, {summary.clamped} commands clamped"
-    lines.append(f"  {counts}, {summary.refused} refused")
+    recovered = "1 recovery" if summary.recoveries == 1 else f"{summary.recoveries} recoveries"
+    lines.append(f"  {recovered}, {summary.clamped} commands clamped, {summary.refused} refused")
     lines += [f"  {late}" for late in summary.late]
     if summary.folder:
         lines.append(f"  journal: {summary.folder}/journal.jsonl")

@@ -13,6 +13,7 @@ from executive.loop import Interrupts
 from robot.errors import failure
 from robot.messages import Damp, Stand
 from robot.model import description
+from robot.planning.requests import BasePathRequest, PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.worlds import puppet, world_map
 
@@ -128,6 +129,25 @@ def test_a_task_that_fails_ends_with_1_its_code_and_a_cure(runtime, humanoid):
     assert "(object_not_seen)" in text
     assert "What to do:" in text
     assert runtime.puppet.mode == "stand"
+
+
+def test_a_place_that_no_path_leads_to_ends_with_1_after_waiting(runtime, humanoid):
+    blocked = failure("no_path", "no free path leads to the table")
+    runtime.planner.failures[BasePathRequest] = [blocked] * 100
+    status, text = humanoid("do", "go to the table", "--fast")
+    assert status == 1
+    assert "(no_path)" in text
+    assert "wait, then try again (2 of 2)" in text
+    assert runtime.puppet.mode == "stand"
+
+
+def test_a_missed_grasp_is_tried_again_and_done(runtime, humanoid):
+    missed = failure("grasp_missed", "the fingers closed on air")
+    runtime.planner.failures[PickRequest] = [missed]
+    status, text = humanoid("do", "pick up the red cup", "--fast")
+    assert status == 0, text
+    assert "look again, then retry (1 of 2)" in text
+    assert "1 recovery" in text
 
 
 def test_a_fall_ends_with_1(runtime, humanoid):
