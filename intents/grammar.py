@@ -20,7 +20,7 @@ from intents.english.referents import ME, Scope, is_person, to_object, to_person
 from intents.english.self_talk import about_robot
 from intents.english.sentences import Clauses
 from intents.english.text import Text
-from intents.english.trouble import Misfit, ReadingError, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (
     Bring,
@@ -49,6 +49,9 @@ _HELLO = lexicon.phrases(
 )
 
 
+_DEEPEST = 4
+
+
 class Grammar(Clauses):
     """Reads one sentence.
 
@@ -59,6 +62,7 @@ class Grammar(Clauses):
     def __init__(self, text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> None:
         super().__init__(text, scope)
         self.history = history
+        self._depth = 0
 
     def read(self) -> list[Goal]:
         """The goals of the whole sentence.
@@ -75,6 +79,15 @@ class Grammar(Clauses):
 
     def _sequence(self, at: int, *, nested: bool) -> tuple[list[Goal], int]:
         """Clauses one after the other; if nested only up to a full stop or "otherwise"."""
+        self._depth += nested
+        try:
+            if self._depth > _DEEPEST:
+                raise NotUnderstood("There are too many conditions in one another")
+            return self._clauses(at, nested=nested)
+        finally:
+            self._depth -= nested
+
+    def _clauses(self, at: int, *, nested: bool) -> tuple[list[Goal], int]:
         goals: list[Goal] = []
         last = 0
         while True:

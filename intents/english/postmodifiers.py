@@ -42,6 +42,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     counted = phrase.noun in ("one", "object") or not phrase.said
     said = singular(phrase.said.split()[-1]) if phrase.said else ""
+    if phrase.noun == "one" and not phrase.determiner:
+        phrase.determiner = "any"
     if counted or (said in lexicon.CONTAINERS and (inner.names or not phrase.names)):
         phrase.noun, phrase.names, phrase.said = inner.noun, inner.names, inner.said
         phrase.color, phrase.size = phrase.color or inner.color, phrase.size or inner.size

@@ -256,7 +256,7 @@ FREE_SPEECH = {
         f'[{{"goal":"bring","object":{{"superlative":"lightest","at":"sofa"}},{ME}}}]'
     ),
     "On the workbench there is a screwdriver. Bring it to Ada.": (
-        '[{"goal":"bring","object":{"name":"screwdriver","at":"workbench"},"to":{"name":"Ada"}}]'
+        '[{"goal":"bring","object":{"name":"screwdriver","count":1,"at":"workbench"},"to":{"name":"Ada"}}]'
     ),
     "of the tools on the workbench, which is the heaviest?": (
         '[{"goal":"tell","of":{"category":"tool","superlative":"heaviest","at":"workbench"},'
