@@ -11,9 +11,9 @@ import math
 
 import mujoco
 import numpy as np
-from scipy.interpolate import CubicSpline  # pyright: ignore[reportMissingTypeStubs]
 
 from robot.kinematics.dynamics import Dynamics
+from robot.kinematics.spline import ClampedSpline
 from robot.messages import Activity, MoveArm, MoveHand, Side
 from robot.model.body import BodyModel
 from robot.se3 import SE3, Array
@@ -50,7 +50,7 @@ class Arm:
         self.qdd: Array = np.zeros(len(self.motors))
         self.activity = Activity(id=0, status="done")
         self._time_s = 0.0
-        self._spline: CubicSpline | None = None
+        self._spline: ClampedSpline | None = None
         self._line: Line | None = None
         nv = body.model.nv
         self._jac: Array = np.zeros((6, nv))
@@ -68,7 +68,7 @@ class Arm:
             positions = np.vstack([self.q, positions])
         else:
             positions[0] = self.q
-        self._spline = CubicSpline(times, positions, bc_type="clamped")
+        self._spline = ClampedSpline(times, positions)
         self._line = None
         self._time_s = 0.0
         self.activity = Activity(id=command.id, status="running")
@@ -116,12 +116,11 @@ class Arm:
 
     def _follow(self, measured: Array) -> None:
         assert self._spline is not None
-        end_s = float(self._spline.x[-1])
-        time_s = min(self._time_s, end_s)
-        self.q = np.asarray(self._spline(time_s))
+        end_s = float(self._spline.times_s[-1])
         over = self._time_s >= end_s
-        self.qd = np.zeros_like(self.q) if over else np.asarray(self._spline(time_s, 1))
-        self.qdd = np.zeros_like(self.q) if over else np.asarray(self._spline(time_s, 2))
+        self.q, self.qd, self.qdd = self._spline.at(min(self._time_s, end_s))
+        if over:
+            self.qd, self.qdd = np.zeros_like(self.q), np.zeros_like(self.q)
         if over:
             error = float(np.abs(self.q - measured).max())
             if error < JOINT_DONE_RAD:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.spatial import ConvexHull  # pyright: ignore[reportMissingTypeStubs]
 
 from robot.control.walking.footsteps import Sole
 from robot.se3 import Array
@@ -26,9 +25,10 @@ class SupportPolygon:
             c, s = math.cos(sole.yaw), math.sin(sole.yaw)
             for x, y in ((lx, ly), (lx, -ly), (-lx, -ly), (-lx, ly)):
                 corners.append((sole.x + c * x - s * y, sole.y + s * x + c * y))
-        hull = ConvexHull(np.array(corners))
-        self.vertices: list[Point] = [corners[i] for i in hull.vertices]
-        self.planes: Array = hull.equations
+        self.vertices: list[Point] = convex_hull(corners)
+        n = len(self.vertices)
+        edges = [(self.vertices[i], self.vertices[(i + 1) % n]) for i in range(n)]
+        self.planes: Array = np.array([_outside(start, end) for start, end in edges])
 
     def margin_m(self, point: Point) -> float:
         """Distance to the nearest edge, positive inside."""
@@ -56,3 +56,30 @@ class SupportPolygon:
             if d2 < best_d2:
                 best, best_d2 = (px, py), d2
         return best
+
+
+def convex_hull(points: list[Point]) -> list[Point]:
+    """Corners counter-clockwise (Andrew's monotone chain, 1979; scipy.spatial takes long to load)."""
+    ordered = sorted(set(points))
+    hull: list[Point] = []
+    for chain in (ordered, ordered[::-1]):
+        base = len(hull)
+        for point in chain:
+            while len(hull) >= base + 2 and _turn(hull[-2], hull[-1], point) <= 0.0:
+                hull.pop()
+            hull.append(point)
+        hull.pop()
+    return hull
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    """Positive where a, b, c turn left."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _outside(start: Point, end: Point) -> tuple[float, float, float]:
+    """Half plane a x + b y + c <= 0 left of an edge, with a unit normal."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(dx, dy)
+    a, b = dy / length, -dx / length
+    return a, b, -(a * start[0] + b * start[1])

@@ -130,7 +130,7 @@ def test_with_nothing_good_yet_the_first_refusal_damps(body, limits):
     assert damps(limits.apply(bad, state))
 
 
-@pytest.mark.parametrize("motor", [0, 3, 15, 24])
+@pytest.mark.parametrize("motor", [0, 3, 15, 25])
 def test_overspeed_trips_by_name_and_is_latched_until_reset(body, limits, motor):
     state = at_rest(body)
     state.qd = np.zeros(body.count)
