@@ -25,6 +25,7 @@ from robot.messages import (
 from robot.se3 import SE3
 
 SILENT_AFTER_S = 1.0
+WORLD_SILENT_AFTER_S = 2.0
 
 SIDES: tuple[Side, Side] = ("left", "right")
 ARM_CHANNEL: dict[Side, Literal["left_arm", "right_arm"]] = {
@@ -76,7 +77,7 @@ class Body:
         if world is None:
             raise give_up("localisation_lost", "there is no world model yet")
         age_s = self.now_s - world.stamp_s
-        if age_s > SILENT_AFTER_S:
+        if age_s > WORLD_SILENT_AFTER_S:
             raise give_up("localisation_lost", "the world model stopped", age_s=age_s)
         return world
 

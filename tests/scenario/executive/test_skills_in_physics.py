@@ -1,0 +1,94 @@
+"""The skills on the whole stack under them: physics, controller, perception, planners."""
+
+import math
+
+import pytest
+
+from executive.skills.catalogue import make
+from executive.skills.context import SkillContext
+from executive.skills.parameters import (
+    BalanceParams,
+    FloorPose,
+    NavigateParams,
+    PickParams,
+    PlaceParams,
+    Step,
+)
+from executive.skills.place import tilt
+from robot.bringup.fast import FastRuntime
+from robot.model.description import load
+from robot.planning.inline import InlinePlanner
+
+JUNO = load("juno")
+TICK_S = 0.05
+
+
+@pytest.fixture(scope="module")
+def planner():
+    return InlinePlanner(JUNO)
+
+
+def carry_out(runtime, context, parameters, *, limit_s=180.0):
+    """Run one skill to its end; the report."""
+    skill = make(parameters, context)
+    skill.start(runtime.clock.now_s())
+    end_s = runtime.clock.now_s() + limit_s
+    while runtime.clock.now_s() < end_s:
+        runtime.advance(TICK_S)
+        report = skill.step(runtime.clock.now_s())
+        if report.status != "running":
+            return report
+    raise AssertionError(f"still {report.phase!r} after {limit_s} s")
+
+
+def stance(runtime):
+    return (runtime.link.world().X_WN @ runtime.link.body().X_NS).flat()
+
+
+def test_walk_turn_and_postures(planner):
+    with FastRuntime("empty", seed=3) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=3)
+        goal = NavigateParams(pose=FloorPose(x_m=0.8, y_m=-0.4, yaw_rad=0.6))
+        assert carry_out(runtime, context, goal).status == "succeeded"
+        X_WB = runtime.plant.oracle.X_WB()
+        assert math.dist(X_WB.p[:2], (0.8, -0.4)) < 0.06  # the base leans a little off the stance
+        assert (
+            carry_out(runtime, context, NavigateParams(by=Step(forward_m=-0.3))).status
+            == "succeeded"
+        )
+        report = carry_out(runtime, context, BalanceParams(mode="squat", duration_s=1.0))
+        assert report.status == "succeeded"
+        report = carry_out(runtime, context, BalanceParams(mode="one_leg", duration_s=1.5))
+        assert report.status == "succeeded", report
+        assert runtime.link.body().mode == "stand"
+
+
+@pytest.mark.slow
+def test_a_cup_is_picked_from_the_table_and_put_on_the_shelf(planner):
+    with FastRuntime("kitchen", seed=1) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=1)
+        before = runtime.plant.oracle.X_WO("red_cup")
+        report = carry_out(runtime, context, PickParams(object_id="red_cup"))
+        assert report.status == "succeeded", report
+        held = context.holdings.find("red_cup")
+        cup = runtime.plant.oracle.X_WO("red_cup")
+        hand = runtime.link.world().X_WN @ runtime.link.body().hands[held.side].X_NG
+        assert math.dist(cup.p, before.p) > 0.1, "it left the table"
+        assert math.dist((hand @ held.X_GO).p, cup.p) < 0.015, "it is where the hand thinks it is"
+
+        report = carry_out(
+            runtime, context, PlaceParams(object_id="red_cup", place_id="shelf_middle")
+        )
+        assert report.status == "succeeded", report
+        runtime.advance(1.0)
+        cup = runtime.plant.oracle.X_WO("red_cup")
+        shelf = next(p for p in runtime.link.map().places if p.id == "shelf_middle")
+        x_m, y_m, z_m = shelf.X_WP.inverse().apply(cup.p)
+        assert abs(x_m) < shelf.size_m[0] / 2
+        assert abs(y_m) < shelf.size_m[1] / 2
+        assert z_m == pytest.approx(0.05, abs=0.01)
+        assert tilt(cup) < 0.1
+        assert runtime.link.body().mode == "stand"
+        assert context.holdings.all() == ()

@@ -1,0 +1,65 @@
+"""Where to stand: before surfaces facing them, around people, where there is room."""
+
+import math
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.skills.body import Body
+from executive.skills.parameters import NavigateParams
+from executive.skills.visiting import BEFORE_EDGE_M, has_room, stances_around, stances_at
+from robot.messages import Obstacle, Place, Shape
+from robot.se3 import SE3, wrap_angle
+from tests.fakes.stage import Stage
+
+coordinate = st.floats(-5.0, 5.0)
+angle = st.floats(-math.pi, math.pi)
+
+
+@given(coordinate, coordinate, angle, st.floats(0.2, 2.0), st.floats(0.2, 2.0))
+def test_at_a_surface_one_stands_before_an_edge_and_faces_it(x, y, yaw, size_x, size_y):
+    X_WP = SE3.from_xy_yaw(x, y, yaw, z_m=0.7)
+    place = Place(id="desk", name="desk", X_WP=X_WP, size_m=(size_x, size_y))
+    stances = stances_at(place, SE3())
+    assert len(stances) == 4
+    for stance in stances:
+        px, py, _ = X_WP.inverse().apply((stance[0], stance[1], 0.7))
+        outside = (abs(px) - size_x / 2, abs(py) - size_y / 2)
+        assert max(outside) == pytest.approx(BEFORE_EDGE_M)
+        bearing = math.atan2(y - stance[1], x - stance[0])
+        assert abs(wrap_angle(bearing - stance[2])) < 1e-6
+    away = [math.dist(stance[:2], (0.0, 0.0)) for stance in stances]
+    assert away == sorted(away)
+
+
+@given(coordinate, coordinate, coordinate, coordinate, st.floats(0.5, 2.0))
+def test_around_a_person_one_faces_them_at_a_distance(px, py, x, y, distance):
+    stances = stances_around((px, py, 0.0), SE3((x, y, 0.0)), distance_m=distance)
+    for stance in stances:
+        assert math.dist(stance[:2], (px, py)) == pytest.approx(distance)
+        bearing = math.atan2(py - stance[1], px - stance[0])
+        assert abs(wrap_angle(bearing - stance[2])) < 1e-6
+
+
+def walled_in():
+    """The test kitchen with a wall close to the table's near side."""
+    stage = Stage()
+    shape = Shape(kind="box", size_m=(0.1, 4.0, 2.0))
+    wall = Obstacle(id="wall", name="wall", X_WO=SE3((1.05, 0.0, 1.0)), shapes=(shape,))
+    world_map = msgspec.structs.replace(stage.puppet.world_map, obstacles=(wall,))
+    stage.puppet.world_map = world_map
+    return stage
+
+
+def test_room_is_measured_to_the_nearest_outline():
+    body = Body(walled_in().context)
+    assert not has_room(body, (1.3, 0.0, 0.0))
+    assert has_room(body, (1.5, 0.0, 0.0))
+
+
+def test_a_narrow_side_is_left_for_a_roomy_one():
+    stage = walled_in()
+    assert stage.run(NavigateParams(place_id="table")).status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], (1.3, 0.0)) > 0.5
