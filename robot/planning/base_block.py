@@ -10,7 +10,7 @@ from robot.planning.floor import CELL_M, Floor
 from robot.planning.requests import Stance
 from robot.se3 import Array
 
-STEP_M = 0.02
+STEP_M = 0.01
 
 
 def explain_no_path(floor: Floor, start: Stance, goal: Stance, *, needed_m: float) -> Failure:

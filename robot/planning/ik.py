@@ -184,7 +184,8 @@ class Chain:
                 [positions - at, _rotation_vector(rotations @ here.transpose(0, 2, 1))], axis=1
             )
             jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), axes], axis=2)
-            pull = (self._middle - q) / self._half_range**2
+            off = (self._middle - q) / self._half_range  # -1 at the upper limit, 1 at the lower
+            pull = off**3 / self._half_range
             change = _damped_step(jacobian, error, pull, gain=np.full((len(q), 1), RELAX_GAIN))
             q = np.clip(q + change, self.lower, self.upper)
         return self.solve(rotations, positions, q, iterations=6).q

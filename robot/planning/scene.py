@@ -167,6 +167,9 @@ class Scene:
             if special and self.names[geom] in special:
                 margin[geom] = special[self.names[geom]]
         self.model.geom_margin[:] = margin
+        # The broad phase goes by bodies: their margins are the largest of their geoms'.
+        self.model.body_margin[:] = 0.0
+        np.maximum.at(self.model.body_margin, self.model.geom_bodyid, margin)
 
     def touches(
         self,

@@ -20,6 +20,8 @@ from robot.se3 import Array
 HEADINGS = 24
 NARROW_M = 0.09
 """Least distance of the stance's middle to any outline: trunk and feet [m]."""
+ROOMY_M, NARROW_COST_PER_M = 0.16, 2.0
+"""A stance nearer to an outline than this costs so much a metre."""
 STEP_IN_M = (0.25, 0.32, 0.40, 0.48, 0.56)
 """Lengths of the last straight steps from the standoff, tried in this order [m]."""
 ARM_ROOM_M = 0.42
@@ -164,7 +166,9 @@ def propose(
     for first in range(0, total, CHUNK):
         rows = order[first : first + CHUNK]
         rows = rows[left[tags[rows, 2]] > 0]
-        rows = rows[floor.clearances_m(stance[rows, :2]) >= NARROW_M]
+        clearance = floor.clearances_m(stance[rows, :2])
+        cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, ROOMY_M - clearance)
+        rows = rows[clearance >= NARROW_M]
         back, tight = standoffs.lengths(stance[rows])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
