@@ -404,7 +404,13 @@ def from_json(text: str | bytes) -> tuple[Goal, ...]:
 
 
 def _outward(goal: _Plain) -> _Plain:
-    """Merge the two subjects of a tell into "of", here and in nested goals."""
+    """Merge the two subjects of a tell into "of", here and in nested goals.
+
+    A person of whom nothing is said that tells them from an object stays in "person".
+    """
+    person = cast("_Plain", goal.get("person") or _Plain())
+    if goal["goal"] == "tell" and "person" in goal and not _is_person(person, goal):
+        return {"goal": "tell", "property": "name", **goal}
     if goal["goal"] == "tell":
         rest = {k: v for k, v in goal.items() if k not in ("goal", "object", "person")}
         subject = goal.get("object") or goal.get("person") or _Plain()
@@ -413,6 +419,11 @@ def _outward(goal: _Plain) -> _Plain:
         k: [_outward(g) for g in cast("tuple[_Plain, ...]", v)] if k in _NESTED else v
         for k, v in goal.items()
     }
+
+
+def _is_person(slots: Iterable[str], goal: _Plain) -> bool:
+    """Whether the slots of "of" can only be a person's."""
+    return bool(_PERSON_ONLY.intersection(slots)) or goal.get("property") in _PERSON_PROPERTIES
 
 
 def _inward(data: object) -> object:
@@ -426,8 +437,7 @@ def _inward(data: object) -> object:
         rest = {k: v for k, v in goal.items() if k != "of"}
         of = goal["of"]
         keys: set[str] = set(cast("_Plain", of)) if isinstance(of, dict) else set()
-        is_person = bool(keys & _PERSON_ONLY) or goal.get("property") in _PERSON_PROPERTIES
-        rest["person" if is_person else "object"] = cast("object", of)
+        rest["person" if _is_person(keys, goal) else "object"] = cast("object", of)
         return rest
     plain: _Plain = {k: _inward(v) if k in _NESTED else v for k, v in goal.items()}
     return plain

@@ -33,6 +33,8 @@ EVERY_SHAPE = (
     GoTo(by=Displacement(forward_m=2.0)),
     Tell(person=Person(gender="male"), property="posture", to=Person(name="Ada")),
     Tell(object=ObjectQuery(superlative="largest", at="desk")),
+    Tell(person=Person(at="desk"), to=Person(who="operator")),
+    Tell(person=Person(name="Ada")),
     Pick(object=ObjectQuery(relation=Relation(how="behind", of=CUP))),
     Balance(mode="one_leg", side="left", duration_s=3.0),
     Repeat(times=2, goals=(Tell(object=CUP), Stop())),
