@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+from robot.control.walking.adaptation import DCM_GAIN_1_S, error_at_end, time_to_reach
 from robot.control.walking.dcm import DcmPlan, Point, Segment
 from robot.control.walking.footsteps import (
     FootstepPlanner,
@@ -45,7 +46,6 @@ TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
 SHORTEST_SHARE = 0.65
 LONGEST_SHARE = 1.35
-DCM_GAIN_1_S = 4.0
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
 ZMP_MARGIN_M = 0.008
@@ -324,11 +324,7 @@ class Gait:
         self._plan = DcmPlan(segments, terminal, self.omega_1_s)
 
     def _adjust(self, dt_s: float, xi: Point) -> None:
-        """Shift the landing, and its time, by the DCM error that the stance foot cannot take back.
-
-        The time is the one at which the DCM passes its planned place sideways (Khadiv et al.,
-        "Walking control based on step timing adaptation", 2020, in closed form for one axis).
-        """
+        """Shift the landing and its time by the DCM error that the stance foot leaves."""
         assert self.swing is not None
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
         command = self._command(xi, xi_ref, zmp_ref)
@@ -336,7 +332,8 @@ class Gait:
             self._retime(dt_s, xi, xi_ref, command)
         left_s = max(0.0, self.duration_s - self.phase_s)
         shift = [
-            self._error_at_end(xi[k] - xi_ref[k], command[k] - zmp_ref[k], left_s) for k in (0, 1)
+            error_at_end(xi[k] - xi_ref[k], command[k] - zmp_ref[k], left_s, self.omega_1_s)
+            for k in (0, 1)
         ]
         size = math.hypot(*shift)
         scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
@@ -344,21 +341,8 @@ class Gait:
         wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
         self.swing.aim(self._reachable(wanted), dt_s)
 
-    def _error_at_end(self, error: float, correction: float, left_s: float) -> float:
-        """DCM error along one axis after `left_s`.
-
-        While the ZMP is not at the edge of the foot the error decays with the feedback; at the
-        edge, with `correction` [m] all that the foot gives, what it cannot hold grows with omega.
-        """
-        decayed = error * math.exp(-DCM_GAIN_1_S * left_s)
-        grown = correction + (error - correction) * math.exp(self.omega_1_s * left_s)
-        return max(decayed, grown) if error > 0.0 else min(decayed, grown)
-
     def _retime(self, dt_s: float, xi: Point, xi_ref: Point, command: Point) -> None:
-        """Move the end of the step towards the time at which the DCM is sideways where planned.
-
-        Only for an error that the foot cannot take back: small ones are the ZMP's to correct.
-        """
+        """Move the end of the step towards the time at which the DCM is sideways where planned."""
         assert self.swing is not None
         support = self.planted[self.support]
         s = sign_of(other(self.support))
@@ -367,14 +351,12 @@ class Gait:
             s * support.relative(Sole(p[0], p[1], 0.0))[1] for p in (xi, xi_ref, xi_end, command)
         )
         left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
-        grown = self._error_at_end(now - planned, zmp, left_s)
         wanted_s = self._nominal_s
-        if abs(grown) > TIMING_DEADBAND_M:
-            wanted_s = LONGEST_SHARE * self._nominal_s
-            if now - zmp > 0.005 and end - zmp > 0.005:
-                wanted_s = self.phase_s + math.log((end - zmp) / (now - zmp)) / self.omega_1_s
-        shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
-        wanted_s = max(shortest, min(longest, wanted_s), self.phase_s + FREEZE_S)
+        if abs(error_at_end(now - planned, zmp, left_s, self.omega_1_s)) > TIMING_DEADBAND_M:
+            shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
+            wanted_s = self.phase_s + time_to_reach(now - zmp, end - zmp, self.omega_1_s)
+            wanted_s = max(shortest, min(longest, wanted_s))
+        wanted_s = max(wanted_s, self.phase_s + FREEZE_S)
         gain = dt_s / (TIMING_FILTER_S + dt_s)
         self.duration_s += gain * (wanted_s - self.duration_s)
         self.swing.duration_s = self.duration_s

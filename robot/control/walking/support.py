@@ -59,7 +59,7 @@ class SupportPolygon:
 
 
 def convex_hull(points: list[Point]) -> list[Point]:
-    """Corners counter-clockwise (Andrew's monotone chain, 1979; scipy.spatial takes long to load)."""
+    """Corners counter-clockwise (Andrew's monotone chain, 1979; scipy takes long to load)."""
     ordered = sorted(set(points))
     hull: list[Point] = []
     for chain in (ordered, ordered[::-1]):
