@@ -8,7 +8,7 @@ from executive.skills.asking import pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.context import SkillContext
 from executive.skills.parameters import NavigateParams, Step
-from executive.skills.script import Script, give_up
+from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stepping import step_to
 from executive.skills.stowing import stow_arms
@@ -23,6 +23,7 @@ from executive.skills.walking import follow, plan_path, stand_still, turn_by, wa
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3
 
+FREEING_M = 0.4
 DETOUR = 1.25
 """A path longer than the straight line by more than this goes around something."""
 
@@ -79,11 +80,24 @@ def walk_by(body: Body, step: Step) -> Script[None]:
     if straight_m < 1e-6:
         return
     goal = stance_of(X_WS_turned @ SE3((step.forward_m, step.left_m, 0.0)))
-    path = yield from plan_path(body, goal)
-    if path.length_m > DETOUR * straight_m + 0.1:
+    if (yield from _is_free(body, goal, straight_m)):
+        yield from _walk_straight(body, goal)
+    else:
         yield from walk_to(body, goal)
-        return
-    yield from _walk_straight(body, goal)
+
+
+def _is_free(body: Body, goal: Stance, straight_m: float) -> Script[bool]:
+    """Whether nothing stands on the straight line.
+
+    A short step away from what the robot touches is what frees it, so that is no obstacle.
+    """
+    try:
+        path = yield from plan_path(body, goal)
+    except GaveUp as end:
+        if end.failure.code == "start_in_collision" and straight_m <= FREEING_M:
+            return True
+        raise
+    return path.length_m <= DETOUR * straight_m + 0.1
 
 
 def _walk_straight(body: Body, goal: Stance) -> Script[None]:

@@ -147,6 +147,16 @@ def test_steps_are_relative_to_here(stage, step, goal):
     assert abs(wrap_angle(stage.puppet.X_WS.yaw_rad - goal[2])) < 0.06
 
 
+def test_a_short_step_frees_a_robot_that_touches_something(stage):
+    touching = failure("start_in_collision", "its hand touches the table")
+    stage.planner.failures[BasePathRequest] = [touching]
+    assert stage.run(NavigateParams(by=Step(forward_m=-0.3))).status == "succeeded"
+    assert stage.puppet.X_WS.p[0] == pytest.approx(-0.3, abs=0.03)
+    stage.planner.failures[BasePathRequest] = [touching]
+    report = stage.run(NavigateParams(by=Step(forward_m=1.0)))
+    assert report.failure.code == "start_in_collision"
+
+
 def test_a_step_back_does_not_turn_around(stage):
     headings = []
     tick = stage.puppet.tick
