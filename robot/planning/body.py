@@ -146,9 +146,7 @@ class Body:
             if np.max(np.abs(off)) < 2e-4:
                 break
             at[:2] -= off
-        trunks = {
-            side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()
-        }
+        trunks = {side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()}
         return Standing(SE3((float(at[0]), float(at[1]), height)), q, trunks)
 
     def _reaching(self, side: Side) -> Array:

@@ -328,11 +328,12 @@ def _explain(job: Job, floor: Floor, candidates: int, total: int, tally: Tally) 
             y_m=y,
             height_m=z,
         )
-    blocker, count = (tally.touched.most_common(1) or [("itself", 0)])[0]
+    common = tally.touched.most_common(2) or [("itself", 0)]
+    blockers = [name for name, _ in common]
     return failure(
         "goal_in_collision",
-        f"every way for the hand to {job.what} found touches {blocker}",
-        blocked_by=blocker,
+        f"every way for the hand to {job.what} found touches {' or '.join(blockers)}",
+        blocked_by=", ".join(blockers),
         tried=float(tally.reached),
-        blocked=float(count),
+        blocked=float(sum(count for _, count in common)),
     )

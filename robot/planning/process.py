@@ -83,6 +83,10 @@ class ProcessPlanner:
             self._restart()
         self._advance()
 
+    def kill_worker(self) -> None:
+        """End the process at once, whatever it does; the next poll notices."""
+        self._process.kill()
+
     def close(self) -> None:
         """End the worker; safe to call twice."""
         self._kill()

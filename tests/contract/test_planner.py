@@ -1,0 +1,127 @@
+"""Both planners keep the same promises: tickets, answers once, cancelling, equal answers."""
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import pytest
+
+from robot.errors import Failure
+from robot.model.description import load
+from robot.planning.inline import PLAN_SPAN_S, InlinePlanner
+from robot.planning.process import ProcessPlanner
+from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PickRequest, PlanRequest
+from robot.planning.worker import Planner
+from tests.fakes.planning_room import START, on_table, surroundings
+
+PATH = BasePathRequest(start=START, goal=(2.95, -1.2, 0.0), around=surroundings(), seed=3)
+PICK = PickRequest(object_id="cup", around=surroundings(on_table(0.1, 0.1)), start=START, seed=3)
+ROBOT = load("juno")
+PATIENCE_S = 60.0
+
+
+@dataclass
+class ByHand:
+    """A clock that a test moves."""
+
+    time_s: float = 0.0
+    later: list[float] = field(default_factory=list)
+
+    def now_s(self) -> float:
+        return self.time_s
+
+    def sleep_until(self, time_s: float) -> None:
+        self.time_s = max(self.time_s, time_s)
+
+
+@pytest.fixture(scope="module", params=["inline", "process"])
+def planner(request: pytest.FixtureRequest) -> Iterator[Planner]:
+    if request.param == "inline":
+        yield InlinePlanner(ROBOT)
+        return
+    with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as process:
+        yield process
+
+
+def answer_of(planner: Planner, ticket: int) -> object:
+    """Wait on the wall clock, as a live run would; an inline planner needs its span only."""
+    end = time.monotonic() + PATIENCE_S
+    while (answer := planner.poll(ticket, now_s=PLAN_SPAN_S)) is None:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    return answer
+
+
+def ask(planner: Planner, request: PlanRequest) -> object:
+    return answer_of(planner, planner.submit(request, now_s=0.0))
+
+
+def test_a_request_is_answered_once(planner: Planner) -> None:
+    ticket = planner.submit(PATH, now_s=0.0)
+    assert isinstance(answer_of(planner, ticket), BasePath)
+    with pytest.raises(KeyError):
+        planner.poll(ticket, now_s=1.0)
+
+
+def test_tickets_grow_and_answers_find_their_request(planner: Planner) -> None:
+    path, pick = planner.submit(PATH, now_s=0.0), planner.submit(PICK, now_s=0.0)
+    assert pick > path
+    assert isinstance(answer_of(planner, pick), PickPlan)
+    assert isinstance(answer_of(planner, path), BasePath)
+
+
+def test_the_same_request_gives_the_same_answer(planner: Planner) -> None:
+    first = ask(planner, PICK)
+    ask(planner, PATH)
+    assert ask(planner, PICK) == first
+
+
+def test_both_planners_agree(planner: Planner) -> None:
+    assert ask(planner, PICK) == ask(InlinePlanner(ROBOT), PICK)
+
+
+def test_a_cancelled_request_is_forgotten(planner: Planner) -> None:
+    ticket = planner.submit(PATH, now_s=0.0)
+    planner.cancel(ticket)
+    planner.cancel(ticket)
+    with pytest.raises(KeyError):
+        planner.poll(ticket, now_s=1.0)
+    assert isinstance(ask(planner, PATH), BasePath)
+
+
+def test_a_failure_is_an_answer(planner: Planner) -> None:
+    answer = ask(planner, PickRequest(object_id="ghost", around=surroundings(), start=START))
+    assert isinstance(answer, Failure)
+    assert answer.code == "object_not_seen"
+
+
+def test_inline_hands_out_after_its_span() -> None:
+    planner = InlinePlanner(ROBOT, span_s=0.3)
+    ticket = planner.submit(PATH, now_s=10.0)
+    assert planner.poll(ticket, now_s=10.29) is None
+    assert isinstance(planner.poll(ticket, now_s=10.3), BasePath)
+
+
+def test_what_runs_over_its_budget_times_out_and_the_next_is_answered() -> None:
+    clock = ByHand()
+    with ProcessPlanner(ROBOT, budget_s=2.0, clock=clock) as planner:
+        late = planner.submit(PICK, now_s=0.0)
+        end = time.monotonic() + PATIENCE_S
+        answer: object = None
+        while answer is None and time.monotonic() < end:
+            clock.time_s += 10.0  # a period of the tick takes ten seconds of this clock
+            answer = planner.poll(late, now_s=0.0)
+        assert isinstance(answer, Failure)
+        assert (answer.code, answer.evidence["budget_s"]) == ("planner_timeout", 2.0)
+        assert isinstance(ask(planner, PATH), BasePath)
+
+
+def test_a_dead_worker_fails_its_request_and_is_replaced() -> None:
+    with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as planner:
+        assert isinstance(ask(planner, PATH), BasePath)
+        ticket = planner.submit(PICK, now_s=0.0)
+        planner.kill_worker()
+        answer = answer_of(planner, ticket)
+        assert isinstance(answer, Failure)
+        assert answer.code == "internal"
+        assert isinstance(ask(planner, PATH), BasePath)

@@ -1,0 +1,17 @@
+"""One compiled robot for all tests of planning."""
+
+import pytest
+
+from robot.model.description import load
+from robot.planning.body import Body
+from robot.planning.solve import Solver
+
+
+@pytest.fixture(scope="session")
+def solver() -> Solver:
+    return Solver(load("juno"))
+
+
+@pytest.fixture(scope="session")
+def body(solver: Solver) -> Body:
+    return solver.body

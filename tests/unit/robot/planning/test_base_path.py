@@ -1,0 +1,115 @@
+"""Base paths are free, end at the goal, repeat from the seed; failures name the cause."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robot.errors import Failure
+from robot.planning.floor import Floor
+from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.solids import solids_of
+from robot.planning.solve import Solver
+from robot.se3 import wrap_angle
+from tests.fakes.planning_room import START, block, surroundings
+
+BEFORE_TABLE = (1.05, 0.8, 0.0)
+BEFORE_SHELF = (2.95, -1.2, 0.0)
+
+
+def path(
+    solver: Solver, start: Stance, goal: Stance, *, seed: int = 0, more=()
+) -> BasePath | Failure:
+    around = surroundings(more=more)
+    answer = solver.solve(BasePathRequest(start=start, goal=goal, around=around, seed=seed))
+    assert isinstance(answer, BasePath | Failure)
+    return answer
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("goal", [BEFORE_TABLE, BEFORE_SHELF, (-1.0, -2.0, 3.0)])
+def test_a_path_is_free_and_ends_at_the_goal(solver: Solver, goal: Stance, seed: int) -> None:
+    found = path(solver, START, goal, seed=seed)
+    assert isinstance(found, BasePath)
+    assert found.waypoints[-1] == pytest.approx(goal)
+    floor = Floor(solids_of(surroundings()), surroundings().map.bounds_m)
+    stops = [START, *found.waypoints]
+    radius = solver.body.description.body_radius_m
+    for a, b in zip(stops[:-2], stops[1:-1], strict=True):
+        assert floor.segment_clearance_m(a[:2], b[:2]) >= radius - 0.02
+    length = sum(math.dist(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False))
+    assert found.length_m == pytest.approx(length)
+
+
+def test_the_last_steps_to_a_table_are_straight_ahead(solver: Solver) -> None:
+    found = path(solver, START, BEFORE_TABLE)
+    assert isinstance(found, BasePath)
+    (x0, y0, yaw0), (x1, y1, yaw1) = found.waypoints[-2:]
+    assert yaw0 == yaw1 == 0.0
+    assert y0 == pytest.approx(y1)
+    assert 0.05 < x1 - x0 < 0.8
+
+
+def test_one_walks_forward_on_long_ways(solver: Solver) -> None:
+    found = path(solver, START, BEFORE_SHELF)
+    assert isinstance(found, BasePath)
+    stops = [START, *found.waypoints]
+    for a, b in zip(stops, stops[1:], strict=False):
+        if math.dist(a[:2], b[:2]) > 0.1:
+            heading = math.atan2(b[1] - a[1], b[0] - a[0])
+            assert abs(wrap_angle(heading - b[2])) < 0.6
+
+
+def test_backing_off_keeps_the_heading(solver: Solver) -> None:
+    found = path(solver, BEFORE_TABLE, (0.75, 0.8, 0.0))
+    assert isinstance(found, BasePath)
+    assert found.waypoints == ((0.75, 0.8, 0.0),)
+
+
+def test_a_path_is_not_much_longer_than_it_must_be(solver: Solver) -> None:
+    found = path(solver, START, BEFORE_SHELF)
+    assert isinstance(found, BasePath)
+    assert found.length_m < 1.15 * math.dist(START[:2], BEFORE_SHELF[:2])
+
+
+def test_the_same_seed_gives_the_same_path(solver: Solver) -> None:
+    first = path(solver, START, BEFORE_SHELF, seed=5)
+    path(solver, START, BEFORE_TABLE, seed=9)
+    assert path(solver, START, BEFORE_SHELF, seed=5) == first
+
+
+def test_a_goal_inside_furniture_is_refused_by_name(solver: Solver) -> None:
+    found = path(solver, START, (1.5, 0.8, 0.0))
+    assert isinstance(found, Failure)
+    assert (found.code, found.evidence["blocked_by"]) == ("goal_in_collision", "table")
+
+
+def test_a_start_inside_furniture_is_refused_by_name(solver: Solver) -> None:
+    found = path(solver, (0.8, -0.8, 0.0), START)
+    assert isinstance(found, Failure)
+    assert (found.code, found.evidence["blocked_by"]) == ("start_in_collision", "chair")
+
+
+def test_a_wall_across_the_room_is_named(solver: Solver) -> None:
+    found = path(solver, START, BEFORE_SHELF, more=(block("bar", 2.3, 0.0, (0.1, 6.0, 1.0)),))
+    assert isinstance(found, Failure)
+    assert (found.code, found.evidence["blocked_by"]) == ("no_path", "bar")
+
+
+def test_a_gap_too_narrow_is_measured_and_named(solver: Solver) -> None:
+    bars = (
+        block("left bar", 2.3, 1.65, (0.1, 2.9, 1.0)),
+        block("right bar", 2.3, -1.6, (0.1, 2.9, 1.0)),
+    )
+    found = path(solver, START, BEFORE_SHELF, more=bars)
+    assert isinstance(found, Failure)
+    assert found.code == "no_path"
+    assert found.evidence["gap_m"] == pytest.approx(0.35, abs=0.06)
+    assert set(str(found.evidence["blocked_by"]).split(", ")) == {"left bar", "right bar"}
+
+
+def test_waypoints_are_near_enough_to_follow(solver: Solver) -> None:
+    found = path(solver, START, BEFORE_SHELF)
+    assert isinstance(found, BasePath)
+    gaps = np.linalg.norm(np.diff([w[:2] for w in found.waypoints], axis=0), axis=1)
+    assert gaps.max() < 0.8

@@ -1,0 +1,59 @@
+"""Distances on the floor are those of the outlines."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robot.planning.floor import Floor
+from robot.planning.solids import Solid
+from robot.se3 import SE3
+
+BOUNDS = (-3.0, -3.0, 3.0, 3.0)
+
+
+def box(yaw: float = 0.0, z: float = 0.5) -> Solid:
+    X_WG = SE3.from_xy_yaw(1.0, 0.0, yaw, z_m=z)
+    return Solid(id="box", kind="box", size_m=(1.0, 0.4, 0.2), X_WG=X_WG)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "distance"), [(0.0, 0.0, 0.5), (1.0, 1.0, 0.8), (1.0, 0.0, -0.2), (0.2, 0.6, 0.5)]
+)
+def test_distance_to_a_box(x: float, y: float, distance: float) -> None:
+    floor = Floor((box(),), BOUNDS)
+    assert floor.clearance_m(x, y) == pytest.approx(distance, abs=0.015)
+
+
+def test_a_turned_box_is_a_turned_rectangle() -> None:
+    floor = Floor((box(math.pi / 2),), BOUNDS)
+    assert floor.clearance_m(1.0, 1.0) == pytest.approx(0.5, abs=0.015)
+    assert floor.clearance_m(0.3, 0.0) == pytest.approx(0.5, abs=0.015)
+
+
+def test_a_cylinder_is_a_circle() -> None:
+    post = Solid(id="post", kind="cylinder", size_m=(0.5, 0.5, 1.0), X_WG=SE3((0.0, 0.0, 0.5)))
+    floor = Floor((post,), BOUNDS)
+    for angle in np.linspace(0, 6, 7):
+        assert floor.clearance_m(math.cos(angle), math.sin(angle)) == pytest.approx(0.75, abs=0.02)
+
+
+def test_a_lamp_overhead_is_walked_under() -> None:
+    assert Floor((box(z=2.0),), BOUNDS).clearance_m(1.0, 0.0) > 1.0
+
+
+def test_outside_of_the_bounds_nothing_is_free() -> None:
+    floor = Floor((), BOUNDS)
+    assert floor.clearance_m(3.5, 0.0) < 0.0
+    assert floor.clearance_m(2.9, 0.0) == pytest.approx(0.1, abs=0.01)
+
+
+def test_one_and_many_points_agree() -> None:
+    floor = Floor((box(0.4),), BOUNDS)
+    xy = np.random.default_rng(0).uniform(-2.8, 2.8, (50, 2))
+    assert np.allclose(floor.clearances_m(xy), [floor.clearance_m(x, y) for x, y in xy])
+
+
+def test_the_nearest_is_named() -> None:
+    assert Floor((box(),), BOUNDS).nearest(0.4, 0.0) == ("box", pytest.approx(0.1))
+    assert Floor((), BOUNDS).nearest(2.5, 0.0)[0] == "the edge of the map"

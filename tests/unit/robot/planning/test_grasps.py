@@ -1,0 +1,73 @@
+"""Grasps are on the object, level, within the hand's opening."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robot.errors import Failure
+from robot.messages import Shape
+from robot.planning.body import Body
+from robot.planning.grasps import HandOption, held_option, pick_options
+from robot.se3 import SE3
+
+AT = SE3((1.0, 2.0, 0.8))
+
+
+def options(body: Body, shape: Shape, X_WO: SE3 = AT) -> list[HandOption]:
+    found = pick_options(shape, X_WO, body.description.hands["right"])
+    assert isinstance(found, list)
+    return found
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Shape(kind="cylinder", size_m=(0.07, 0.07, 0.10)),
+        Shape(kind="cylinder", size_m=(0.065, 0.065, 0.20)),
+        Shape(kind="box", size_m=(0.06, 0.10, 0.12)),
+        Shape(kind="box", size_m=(0.05, 0.05, 0.05)),
+    ],
+)
+@pytest.mark.parametrize("yaw", [0.0, 0.7])
+def test_every_grasp_holds_the_object(body: Body, shape: Shape, yaw: float) -> None:
+    X_WO = SE3.from_xy_yaw(1.0, 2.0, yaw, z_m=0.8)
+    for option in options(body, shape, X_WO):
+        turn = SE3.from_xy_yaw(0.0, 0.0, (option.headings or (0.3,))[0])
+        X_WG = SE3(X_WO.p) @ turn @ SE3.from_rotation(option.R0, option.offset)
+        assert abs(X_WG.rotation()[2, 1]) < 1e-6  # closes level
+        assert abs(X_WG.p[2] - X_WO.p[2]) <= shape.size_m[2] / 2
+        assert option.opening_m <= 0.09
+        centre = X_WG.inverse().apply(X_WO.p)
+        assert abs(centre[1]) < 1e-6  # between the fingers
+        if option.headings is not None:
+            assert np.allclose((X_WG @ option.X_GO).matrix(), X_WO.matrix(), atol=1e-6)
+
+
+def test_a_box_is_held_across_its_narrow_side(body: Body) -> None:
+    found = options(body, Shape(kind="box", size_m=(0.06, 0.20, 0.10)))
+    for option in found:
+        assert option.opening_m == pytest.approx(0.06)
+        assert all(abs(math.cos(heading)) < 1e-6 for heading in option.headings or ())
+
+
+def test_a_lying_bottle_is_taken_from_above(body: Body) -> None:
+    lying = SE3.from_rpy(math.pi / 2, 0.0, 0.0, AT.p)
+    for option in options(body, Shape(kind="cylinder", size_m=(0.06, 0.06, 0.2)), lying):
+        assert option.R0[2, 0] < -0.7
+
+
+def test_what_is_too_wide_has_no_grasp(body: Body) -> None:
+    hand = body.description.hands["right"]
+    found = pick_options(Shape(kind="box", size_m=(0.2, 0.3, 0.1)), AT, hand)
+    assert isinstance(found, Failure)
+    assert (found.code, found.evidence["width_m"]) == ("no_grasp", pytest.approx(0.1))
+
+
+def test_a_held_thing_is_put_down_as_it_is_held() -> None:
+    X_GO = SE3.from_rpy(0.1, -0.2, 0.4, (0.01, 0.0, 0.02))
+    option = held_option(X_GO, Shape(kind="box", size_m=(0.06, 0.06, 0.1)), yaws=(0.5,))
+    assert option.headings is not None
+    turn = SE3.from_xy_yaw(0.0, 0.0, option.headings[0])
+    X_OG = turn @ SE3.from_rotation(option.R0, option.offset)
+    assert np.allclose((X_OG @ X_GO).matrix(), SE3.from_xy_yaw(0, 0, 0.5).matrix(), atol=1e-9)

@@ -1,0 +1,239 @@
+"""Picks and places stand where they can, in the room there is; failures name the cause."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robot.errors import Failure
+from robot.messages import Shape
+from robot.planning.body import Body
+from robot.planning.floor import Floor
+from robot.planning.requests import (
+    PickPlan,
+    PickRequest,
+    PlacePlan,
+    PlaceRequest,
+    Stance,
+    Surroundings,
+)
+from robot.planning.solids import solids_of
+from robot.planning.solve import Solver
+from robot.se3 import SE3
+from tests.fakes.planning_room import (
+    BOARDS_M,
+    CUP,
+    START,
+    block,
+    held_cup,
+    on_table,
+    room,
+    surroundings,
+)
+
+BOARD = {board: room().places[1 + i] for i, board in enumerate(BOARDS_M)}
+TABLE = room().places[0]
+
+
+def pick(solver: Solver, around: Surroundings, **more) -> PickPlan | Failure:
+    answer = solver.solve(PickRequest(object_id="cup", around=around, start=START, **more))
+    assert isinstance(answer, PickPlan | Failure)
+    return answer
+
+
+def place(solver: Solver, on, around: Surroundings, **more) -> PlacePlan | Failure:
+    fields = {"place": on, "side": "right", "held": held_cup(), "around": around, "start": START}
+    answer = solver.solve(PlaceRequest(**{**fields, **more}))
+    assert isinstance(answer, PlacePlan | Failure)
+    return answer
+
+
+def check_standing(body: Body, around: Surroundings, plan: PickPlan | PlacePlan) -> None:
+    """The stance is free, the standoff has room, the step in between is straight ahead."""
+    solids = solids_of(around)
+    floor = Floor(solids, around.map.bounds_m)
+    assert body.trunk_touch(solids, plan.stance, clearance_m=0.02) is None
+    assert floor.clearance_m(*plan.standoff[:2]) >= body.description.body_radius_m
+    (x0, y0, yaw0), (x1, y1, yaw1) = plan.standoff, plan.stance
+    assert yaw0 == yaw1
+    assert math.atan2(y1 - y0, x1 - x0) == pytest.approx(yaw0, abs=1e-6)
+
+
+def reaches(body: Body, plan: PickPlan | PlacePlan, X_WG: SE3, stance: Stance) -> float:
+    """How far the hand stays short of a pose, from joints near the pre-grasp [m]."""
+    arm = body.arms[plan.side]
+    X_WT = SE3.from_xy_yaw(*stance) @ body.standing(plan.posture, plan.side).X_ST[plan.side]
+    X_TG = X_WT.inverse() @ X_WG
+    start = np.array([plan.pre_rad])
+    solved = arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), start, iterations=60)
+    return float(solved.position_error_m[0])
+
+
+@pytest.mark.parametrize("x", [-0.2, 0.0, 0.2])
+@pytest.mark.parametrize("y", [-0.5, 0.0, 0.5])
+def test_a_cup_anywhere_on_the_table(solver: Solver, x: float, y: float) -> None:
+    around = surroundings(on_table(x, y))
+    plan = pick(solver, around, seed=3)
+    assert isinstance(plan, PickPlan), plan
+    check_standing(solver.body, around, plan)
+    X_WO = around.objects[0].X_WO
+    assert np.allclose((X_WO @ plan.X_OG).matrix(), plan.X_WG_grasp.matrix(), atol=1e-9)
+    assert plan.X_WG_lift.p[2] - plan.X_WG_grasp.p[2] >= 0.04
+    behind = plan.X_WG_grasp.inverse().apply(plan.X_WG_pre.p)
+    assert behind == pytest.approx([-0.087, 0.0, 0.0], abs=0.03)
+    x0, y0, yaw = plan.stance
+    for dx, dy, turn in ((0, 0, 0), (0.015, 0.01, 0.02), (-0.015, -0.01, -0.02)):
+        for X_WG in (plan.X_WG_pre, plan.X_WG_grasp, plan.X_WG_lift):
+            assert reaches(solver.body, plan, X_WG, (x0 + dx, y0 + dy, yaw + turn)) < 2e-3
+
+
+def test_the_hand_asked_for_is_used(solver: Solver) -> None:
+    for side in ("left", "right"):
+        plan = pick(solver, surroundings(on_table(0.0, 0.0)), side=side)
+        assert isinstance(plan, PickPlan)
+        assert plan.side == side
+
+
+def test_a_table_against_a_wall_is_reached_from_the_other_sides(solver: Solver) -> None:
+    far = block("partition", 1.85, 0.8, (0.04, 1.6, 1.5))
+    around = surroundings(on_table(-0.05, 0.0), more=(far,))
+    plan = pick(solver, around)
+    assert isinstance(plan, PickPlan), plan
+    assert plan.stance[0] < 1.4
+    check_standing(solver.body, around, plan)
+
+
+def test_a_deep_reach_leans_the_trunk(solver: Solver) -> None:
+    """The cup at the far edge, walls on three sides: only over the table."""
+    walls = (
+        block("east", 1.85, 0.8, (0.04, 1.6, 1.5)),
+        block("north", 1.5, 1.45, (0.6, 0.04, 1.5)),
+        block("south", 1.5, 0.15, (0.6, 0.04, 1.5)),
+    )
+    plan = pick(solver, surroundings(on_table(0.12, 0.0), more=walls))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.posture.pitch_rad > 0.0
+
+
+def test_carrying_is_near_the_body_and_upright(solver: Solver) -> None:
+    plan = pick(solver, surroundings(on_table(-0.1, 0.2)))
+    assert isinstance(plan, PickPlan)
+    arm, standing = solver.body.arms[plan.side], solver.body.standing(plan.posture)
+    rotation, position = arm.chain.forward(np.array([plan.carry_rad]))
+    X_SG = standing.X_ST[plan.side] @ SE3.from_rotation(rotation[0], position[0])
+    assert math.hypot(*X_SG.p[:2]) < 0.45
+    up = (X_SG @ plan.X_OG.inverse()).rotation()[2, 2]
+    assert up == pytest.approx(1.0, abs=1e-3)
+
+
+def test_the_same_seed_gives_the_same_plan(solver: Solver) -> None:
+    around = surroundings(on_table(0.1, -0.2))
+    first = pick(solver, around, seed=4)
+    pick(solver, surroundings(on_table(-0.2, 0.4)), seed=5)
+    assert pick(solver, around, seed=4) == first
+    assert pick(Solver(solver.body.description), around, seed=4) == first
+
+
+@pytest.mark.parametrize("height", BOARDS_M)
+def test_a_free_spot_on_every_board(solver: Solver, height: float) -> None:
+    around = surroundings()
+    plan = place(solver, BOARD[height], around)
+    assert isinstance(plan, PlacePlan), plan
+    check_standing(solver.body, around, plan)
+    assert plan.X_WO.p[2] == pytest.approx(height + 0.05)
+    assert plan.X_WO.rotation()[2, 2] == pytest.approx(1.0)
+    assert np.allclose((plan.X_WG_release @ held_cup().X_GO).matrix(), plan.X_WO.matrix())
+    assert 0.015 < plan.X_WG_pre.p[2] - plan.X_WG_release.p[2] < 0.06
+    on = BOARD[height].X_WP.inverse().apply(plan.X_WO.p)
+    assert abs(on[0]) < 0.14 - 0.035
+    assert abs(on[1]) < 0.43 - 0.035
+
+
+def test_other_things_are_left_room(solver: Solver) -> None:
+    others = tuple(on_table(0.0, y, name=f"cup {y}") for y in (-0.4, -0.2, 0.0, 0.2))
+    plan = place(solver, TABLE, surroundings(*others))
+    assert isinstance(plan, PlacePlan)
+    gaps = [math.dist(plan.X_WO.p[:2], other.X_WO.p[:2]) for other in others]
+    assert min(gaps) > 0.14
+
+
+def test_a_wanted_spot_is_kept_to(solver: Solver) -> None:
+    target = on_table(-0.15, 0.3).X_WO
+    plan = place(solver, TABLE, surroundings(), target=target)
+    assert isinstance(plan, PlacePlan)
+    assert plan.X_WO.p == pytest.approx(target.p)
+
+
+def test_a_full_place_has_no_spot(solver: Solver) -> None:
+    full = tuple(
+        on_table(x, y, name=f"cup {x} {y}")
+        for x in (-0.2, 0.0, 0.2)
+        for y in np.arange(-0.5, 0.51, 0.2)
+    )
+    failed = place(solver, TABLE, surroundings(*full))
+    assert isinstance(failed, Failure)
+    assert failed.code == "no_free_spot"
+
+
+def test_a_thing_too_high_for_a_board_is_refused(solver: Solver) -> None:
+    tall = held_cup().__class__(
+        id="cup", shape=Shape(kind="cylinder", size_m=(0.06, 0.06, 0.3)), X_GO=SE3()
+    )
+    failed = place(solver, BOARD[0.60], surroundings(), held=tall)
+    assert isinstance(failed, Failure)
+    assert (failed.code, failed.evidence["height_m"]) == ("no_free_spot", 0.3)
+
+
+def test_an_object_nobody_has_seen(solver: Solver) -> None:
+    failed = pick(solver, surroundings())
+    assert isinstance(failed, Failure)
+    assert failed.code == "object_not_seen"
+
+
+def test_what_the_hand_cannot_hold(solver: Solver) -> None:
+    crate = Shape(kind="box", size_m=(0.3, 0.3, 0.3))
+    failed = pick(solver, surroundings(on_table(0.0, 0.0, shape=crate)))
+    assert isinstance(failed, Failure)
+    assert failed.code == "no_grasp"
+
+
+def test_a_cup_too_high_is_out_of_reach_by_some_amount(solver: Solver) -> None:
+    cup = on_table(0.0, 0.0)
+    high = type(cup)(id="cup", shape=CUP, X_WO=SE3((1.25, 0.8, 1.7)))
+    failed = pick(solver, surroundings(high))
+    assert isinstance(failed, Failure)
+    assert failed.code == "out_of_reach"
+    assert float(failed.evidence["short_m"]) > 0.1
+
+
+def test_a_cup_on_an_island_of_furniture_has_no_stance(solver: Solver) -> None:
+    moat = tuple(
+        block(f"crate {i}", 1.5 + dx, 0.8 + dy, size)
+        for i, (dx, dy, size) in enumerate(
+            [
+                (-0.62, 0.0, (0.6, 2.4, 0.6)),
+                (0.62, 0.0, (0.6, 2.4, 0.6)),
+                (0.0, 0.92, (0.64, 0.6, 0.6)),
+                (0.0, -0.92, (0.64, 0.6, 0.6)),
+            ]
+        )
+    )
+    failed = pick(solver, surroundings(on_table(0.0, 0.0), more=moat))
+    assert isinstance(failed, Failure)
+    assert failed.code == "no_stance"
+
+
+def test_a_cup_in_a_cage_names_the_cage(solver: Solver) -> None:
+    bars = tuple(
+        on_table(dx, dy, name="cage", shape=Shape(kind="box", size_m=(sx, sy, 0.3)))
+        for dx, dy, sx, sy in [
+            (0.06, 0.0, 0.02, 0.16),
+            (-0.06, 0.0, 0.02, 0.16),
+            (0.0, 0.06, 0.16, 0.02),
+            (0.0, -0.06, 0.16, 0.02),
+        ]
+    )
+    failed = pick(solver, surroundings(on_table(0.0, 0.0), *bars))
+    assert isinstance(failed, Failure)
+    assert failed.code == "goal_in_collision"
+    assert "cage" in str(failed.evidence["blocked_by"])
