@@ -6,158 +6,32 @@ follows it (see :mod:`intents.english.postmodifiers`). Nothing is decided here a
 phrase is for; :mod:`intents.english.referents` turns it into an object, a person or a place.
 """
 
-from dataclasses import dataclass, field
-from typing import Literal
-
 from intents.english import lexicon
 from intents.english.lexer import QUOTE
 from intents.english.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
-from intents.english.measures import NUMBER_WORDS, UNIT_WORDS, number
-from intents.english.names import Match, Name
+from intents.english.measures import UNIT_WORDS, number
+from intents.english.names import Match
+from intents.english.phrase import SOMETHING, Locative, NounPhrase, is_content
+from intents.english.pronouns import free_relative, part_of, pronoun
 from intents.english.properties import property_of
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
-from intents.goals import Clothing, How, Superlative
 
-Noun = Literal[
-    "name", "object", "person", "place", "one", "body", "pronoun", "operator", "here", "there",
-    "unknown",
-]  # fmt: skip
-
-
-@dataclass(slots=True)
-class Locative:
-    """Where something is: a preposition and what follows it; ``how`` None is plain "at"."""
-
-    how: How | None
-    of: "NounPhrase"
-
-
-@dataclass(slots=True)
-class NounPhrase:
-    """What was said of a thing, a person or a place, in words ``start`` to ``end``.
-
-    Attributes:
-        noun: What kind of noun it has; "name" means ``names`` holds names of the vocabulary.
-        said: The noun as it was said.
-        exact: The noun is a whole name, not a part of one.
-        names: What the noun can stand for; several names of one kind mean that it is ambiguous.
-        side: "left" or "right", of the body or of several things.
-        places: Where it is, in the order said.
-    """
-
-    start: int
-    end: int
-    noun: Noun = "unknown"
-    said: str = ""
-    exact: bool = True
-    names: tuple[Name, ...] = ()
-    determiner: str = ""
-    color: str | None = None
-    size: str | None = None
-    superlative: Superlative | None = None
-    count: int | Literal["all"] | None = None
-    gender: Literal["male", "female"] | None = None
-    posture: Literal["sitting", "standing", "lying"] | None = None
-    gesture: str | None = None
-    wearing: Clothing | None = None
-    side: str = ""
-    level: str = ""
-    places: list[Locative] = field(default_factory=list[Locative])
-
-    @property
-    def is_person(self) -> bool:
-        """It can only be a person."""
-        marked = self.gender or self.gesture or self.wearing
-        return self.noun in ("person", "operator") or bool(marked) or self.name("person") != ""
-
-    def name(self, *kinds: str) -> str:
-        """The first name of these kinds, or an empty string."""
-        return next((n.name for kind in kinds for n in self.names if n.kind == kind), "")
-
-    def all_names(self, *kinds: str) -> list[str]:
-        """All names of these kinds."""
-        return list(dict.fromkeys(n.name for n in self.names if n.kind in kinds))
-
-
-_SOMETHING = lexicon.words("something anything everything")
-_HOLDERS = (lexicon.OBJECT_NOUNS - _SOMETHING) | lexicon.CONTAINERS
-_NO_NOUN = (
-    lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
-    | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
-                    "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice")
-)  # fmt: skip
-_PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
-                       "left right rest")  # fmt: skip
-
-
-def is_content(text: Text, at: int) -> bool:
-    """Whether a word can be part of a noun: no function word, number or sign."""
-    word = text.word(at)
-    return word[0].isalpha() and word not in _NO_NOUN
+_HOLDERS = (lexicon.OBJECT_NOUNS - SOMETHING) | lexicon.CONTAINERS
 
 
 def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     """The noun phrase that begins at a word, as long as it goes."""
     from intents.english.postmodifiers import read_postmodifiers
 
-    part = _part_of(text, start)
+    part = part_of(text, start)
     if part:
         return noun_phrase(text, part)
-    phrase = _free_relative(text, start) or _pronoun(text, start) or _full(text, start)
+    phrase = free_relative(text, start) or pronoun(text, start) or _full(text, start)
     if phrase is None:
         return None
     read_postmodifiers(text, phrase)
     return phrase
-
-
-def _part_of(text: Text, start: int) -> int | None:
-    """The top of the counter is the counter: where the whole begins."""
-    at = start + (text.word(start) in ("the", "its"))
-    at += text.word(at) in ("left", "right", "far", "very") and text.word(at + 1) in _PARTS
-    if text.word(at) in _PARTS and text.word(at + 1) == "of" and at > start:
-        return at + 2
-    return None
-
-
-def _free_relative(text: Text, start: int) -> NounPhrase | None:
-    """Bring me *what is on the table*; *whatever weighs* the least."""
-    word, after = text.word(start), text.word(start + 1)
-    if start == 0 or word not in ("what", "whatever", "whoever"):
-        return None
-    noun: Noun = "person" if word == "whoever" else "object"
-    if after in ("is", "are"):
-        return NounPhrase(start, start + 2, noun=noun, said=word)
-    if word != "what" or after == "weighs":
-        return NounPhrase(start, start + 1, noun=noun, said=word)
-    return None
-
-
-def _pronoun(text: Text, start: int) -> NounPhrase | None:
-    """Me, it, them, here: a phrase of one word."""
-    word = text.word(start)
-    if word in lexicon.OPERATOR_WORDS:
-        return NounPhrase(start, start + 1, noun="operator", said=word)
-    if word in ("the", "your") and text.word(start + 1) in ("operator", "user"):
-        return NounPhrase(start, start + 2, noun="operator", said="operator")
-    if word in ("here", "there", "back"):
-        noun: Noun = "there" if word == "there" else "here"
-        return NounPhrase(start, start + 1, noun=noun, said=word)
-    if word in ("over", "right") and text.word(start + 1) in ("here", "there"):
-        noun = "here" if text.word(start + 1) == "here" else "there"
-        return NounPhrase(start, start + 2, noun=noun, said=noun)
-    if word not in lexicon.PRONOUNS:
-        return None
-    determines = word in DETERMINERS and is_content(text, start + 1)
-    if text.word(start + 1) in _SOMETHING:
-        determines = False
-    if determines and (not verbs_at(text.words, start + 1) or text.name_at(start + 1)):
-        return None
-    if word == "this" and number(text.words, start + 1):
-        return None
-    end = start + 2 if text.word(start + 1) in ("both", "all") else start + 1
-    return NounPhrase(start, end, noun="pronoun", said=word)
 
 
 def _full(text: Text, start: int) -> NounPhrase | None:
@@ -329,7 +203,7 @@ def _something(text: Text, phrase: NounPhrase, at: int) -> int:
         return at + 3
     if text.word(at) == "everything":
         phrase.count = "all"
-    if text.word(at) in _SOMETHING and text.word(at + 1) in COLORS:
+    if text.word(at) in SOMETHING and text.word(at + 1) in COLORS:
         phrase.color = COLORS[text.word(at + 1)]
         return at + 2
     return at + 1
@@ -376,7 +250,7 @@ def _read_unknown_compound(text: Text, phrase: NounPhrase, at: int, end: int) ->
 
 def _goes_on_unknown(text: Text, at: int) -> bool:
     """Whether words that are no names, verbs or people go on with a compound."""
-    if text.word(at) in _SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
+    if text.word(at) in SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
         return False
     if text.lookup(lexicon.SUPERLATIVES, at):
         return False

@@ -3,7 +3,8 @@
 from intents.english import lexicon
 from intents.english.lexer import COMMA, singular
 from intents.english.lexicon import COLORS, DETERMINERS, LOCATIVES, POSTURES
-from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
+from intents.english.noun_phrases import noun_phrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.text import Text
 from intents.goals import Clothing, Superlative
 

@@ -3,7 +3,8 @@
 from intents.english import lexicon
 from intents.english.lexer import COMMA
 from intents.english.measures import number
-from intents.english.noun_phrases import Locative, NounPhrase, noun_phrase
+from intents.english.noun_phrases import noun_phrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.properties import property_of
 from intents.english.referents import Scope, is_person, to_object, to_person

@@ -6,7 +6,7 @@ from typing import cast
 from msgspec.structs import replace
 
 from intents.english.names import NameIndex
-from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
 from intents.goals import (

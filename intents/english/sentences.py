@@ -7,7 +7,8 @@ from intents.english.clauses import Clause, Complement, connector_end, ends_clau
 from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import number
-from intents.english.noun_phrases import NounPhrase, noun_phrase
+from intents.english.noun_phrases import noun_phrase
+from intents.english.phrase import NounPhrase
 from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.questions import Reading, question
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place

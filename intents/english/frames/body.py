@@ -2,7 +2,7 @@
 
 from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots
-from intents.english.noun_phrases import NounPhrase
+from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
 from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, Side

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.clauses import Clause, Complement
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
-from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear

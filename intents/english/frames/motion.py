@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from intents.english.clauses import Clause, Complement
 from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
-from intents.english.noun_phrases import NounPhrase
+from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
 from intents.goals import (

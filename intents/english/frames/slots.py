@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from intents.english.clauses import Clause, Complement
-from intents.english.noun_phrases import Locative, NounPhrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
