@@ -151,9 +151,10 @@ class Grammar(Clauses):
                 continue
             if found:
                 return found
-        if errors:
-            raise max(errors, key=lambda e: e.weight)
-        raise self.not_understood(at)
+        worst = max(errors, key=lambda e: e.weight, default=None)
+        if worst is None or (isinstance(worst, Misfit) and str(worst).endswith("?")):
+            raise self.not_understood(at)
+        raise worst
 
     def _verb(self, at: int) -> Reading:
         """A verb with its complements; "meet and greet Ada" shares one."""
@@ -323,8 +324,10 @@ def _same_object(wanted: Goal, found: list[Goal]) -> bool:
 
 
 def _as_wished(goal: Goal, wish: Goal) -> Goal:
-    """The goal with where the wish said that the thing is."""
-    if isinstance(goal, Bring | Pick) and isinstance(wish, Bring) and goal.object.at is None:
+    """The goal with where the wish said that the thing is; to fetch it is to bring it."""
+    if isinstance(goal, Pick):
+        return wish
+    if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
         return replace(goal, object=replace(goal.object, at=wish.object.at))
     return goal
 
@@ -343,7 +346,7 @@ def _told_there(before: Goal, goal: Goal) -> Goal:
 
 
 def _already_sought(before: Goal, goal: Goal) -> bool:
-    """Find the largest things and tell me what they are: telling finds them."""
+    """Look for the tallest cup, then name it: telling finds it."""
     if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
         told_of = goal.object or goal.person
         return told_of is not None and told_of.at == before.place

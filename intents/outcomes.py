@@ -10,7 +10,7 @@ ParserName = Literal["grammar", "model", "stop"]
 
 
 class Goals(msgspec.Struct, frozen=True, kw_only=True):
-    """It can be carried out as said.
+    """It can be done.
 
     Attributes:
         parser: Which parser understood it.
@@ -54,7 +54,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Refusal(msgspec.Struct, frozen=True, kw_only=True):
-    """It is not for this robot, or it was not understood; ``reason`` says which part and why."""
+    """It was not understood, or no robot can do it here; ``reason`` says which part and why."""
 
     reason: str
     parser: ParserName = "grammar"

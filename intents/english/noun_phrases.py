@@ -49,7 +49,7 @@ def _full(text: Text, start: int) -> NounPhrase | None:
 
 def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """A phrase without a noun: "the blue", "the largest", "all of them", "two"."""
-    if text.word(at) == "of":
+    if text.word(at) == "of" and not phrase.superlative:
         return at if phrase.count else None
     told_apart = phrase.color or phrase.size or phrase.superlative or phrase.level
     if phrase.determiner and told_apart:

@@ -70,7 +70,7 @@ def _read_on(text: Text, phrase: NounPhrase) -> int:
 
 
 def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
-    """How many people in the office are wearing red?"""
+    """How many guests wear hats?"""
     start = at + 2 if text.words[at : at + 2] in (["what", "is"], ["what", "are"]) else at
     start += text.word(start) == "the"
     if text.words[start : start + 2] == ["how", "many"] or (
@@ -102,7 +102,7 @@ def _where(text: Text, at: int, scope: Scope) -> Reading | None:
 
 
 def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
-    """What is the pose of the person? The person's pose; what pose the person is in."""
+    """What is Ada's pose? What colour is the cup?"""
     asked = text.word(at) in ("what", "which")
     start = _skip(text, at + asked)
     start += text.word(start) in ("the", "its", "their", "his", "her")
@@ -139,7 +139,7 @@ def _tell(phrase: NounPhrase | None, name: str, scope: Scope, to: Person | None)
 
 
 def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Reading | None:
-    """Which object is the lightest on the table? What are the three largest things there?"""
+    """Which cup is lightest? What are the two tallest things here?"""
     asked = text.word(at) in ("what", "which")
     start = _skip(text, at + 1) if asked else at
     start += text.words[start : start + 2] == ["one", "of"]
@@ -212,7 +212,7 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
 
 
 def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
-    """What is the person doing? How is the person in the hall standing?"""
+    """What is Ada doing? How is she standing?"""
     if text.words[at : at + 2] not in (["what", "is"], ["how", "is"]):
         return None
     phrase = noun_phrase(text, at + 2)

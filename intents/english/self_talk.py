@@ -38,13 +38,11 @@ _TOPICS: dict[lexicon.Phrase, ReportTopic] = {
     phrase: topic for topic, text in _ABOUT_ROBOT.items() for phrase in lexicon.phrases(text)
 }
 _SMALL_TALK = lexicon.words(
-    "what which is it the a an of today tomorrow day time date week month current now this joke "
-    "something about yourself your team teams 's name affiliation country leader are you who me s "
-    "in year to know whether dream or not on electric sheep tell day's time's right be funny"
+    "what which is it the a an of today tomorrow day time date week month year current now this "
+    "joke something funny about yourself your team teams 's name country affiliation leader are "
+    "you who me in right be to tell"
 )
-_SMALL_TALK_HEADS = lexicon.words(
-    "time day date joke yourself name affiliation country something dream"
-)
+_SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation country something")
 
 
 def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:

@@ -24,9 +24,8 @@ _POSE = lexicon.words("x y position point coordinates coordinate pose location t
 
 
 _HAS_QUESTION = lexicon.phrases(
-    "has a question,have a question,has a question for you,has a question that needs answering,"
-    "is asking you a question,wants to ask you a question,is asking a question,needs an answer,"
-    "has a question to be answered,has a question that needs to be answered"
+    "has a question,have a question,has a question for you,is asking a question,needs an answer,"
+    "is asking you something,has something to ask,has something to ask you"
 )
 
 
@@ -260,7 +259,7 @@ class Clauses:
         return phrase, phrase.end
 
     def asker(self, at: int) -> Reading | None:
-        """The woman in the hall has a question (that needs answering)."""
+        """Ada has a question."""
         phrase = None if verbs_at(self.text.words, at) else noun_phrase(self.text, at)
         if phrase is None or not is_person(phrase, self.scope):
             return None

@@ -58,7 +58,7 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
 
 
 def say(text: Text, at: int, scope: Scope) -> Reading:
-    """Say something about yourself to the waving person; say "hello"."""
+    """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
         end = content_end(text, at)
         to, _ = _last_listener(text, at + 1, end, scope)
@@ -146,7 +146,7 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
 
 
 def inform(text: Text, at: int, scope: Scope) -> Reading:
-    """Give me the number of cups; show me the pose of the person.
+    """Give me the number of cups; show me Emil's pose.
 
     Raises:
         Misfit: It is a thing that is to be given.
@@ -208,7 +208,7 @@ def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:
 
 
 def answer(text: Text, at: int, scope: Scope) -> Reading:
-    """Answer the question of the person; answer a quiz; answer "what is the time?"."""
+    """Answer Emil; answer his quiz; answer "how old are you?"."""
     asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
     person = None
     at += text.word(at) in ("to", "with")
@@ -236,7 +236,7 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
 
 
 def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Person | None, int]:
-    """Of the person in the kitchen; asked by Julia; you will be asked."""
+    """Of somebody outside; asked by Ada; that Ada has."""
     skipped = lexicon.words("asked posed given that you will be are is which being they he she ask "
                             "asks may have has from of by for to on in at about with")  # fmt: skip
     where = text.lookup(lexicon.LOCATIVES, at)
@@ -260,7 +260,7 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
 
 
 def _read_out(text: Text, at: int) -> int:
-    """The question itself is read out: up to the end of its sentence."""
+    """It is read out, up to the end of its sentence."""
     while at < len(text) and text.word(at) != FULL_STOP:
         at += 1
     return at

@@ -18,7 +18,7 @@ class Misfit(ReadingError):
 
 
 class NotUnderstood(ReadingError):
-    """A name or a request that is not for this robot or this world."""
+    """A name or a request that means nothing here."""
 
     weight = 1
 

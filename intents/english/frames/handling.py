@@ -29,7 +29,7 @@ _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "tos
 
 
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
-    """Pick up the cup; take the cup from the desk."""
+    """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
@@ -109,7 +109,7 @@ def _unknown_receiver(goal: Complement, scope: Scope) -> str:
 
 
 def _near_destination(slots: Slots) -> str | None:
-    """Carry the vase up to the piano."""
+    """Bring the vase near the piano."""
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     if bare and bare.phrase.places and bare.phrase.places[-1].how == "near":
         place = detach_place(bare.phrase)
@@ -118,7 +118,7 @@ def _near_destination(slots: Slots) -> str | None:
 
 
 def give(clause: Clause, scope: Scope) -> list[Goal]:
-    """Give it to Julia; give me the vase from the piano (which is to bring)."""
+    """Give it to Ada; give me a plum off the tree (which is to bring)."""
     slots = Slots(clause, scope)
     to = _receiver(slots) or ME
     if isinstance(to, str):

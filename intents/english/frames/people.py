@@ -36,7 +36,7 @@ def _destination(slots: Slots) -> str | None:
 
 
 def follow(clause: Clause, scope: Scope) -> list[Goal]:
-    """Follow Liam from the desk to the office."""
+    """Follow Ada out of the lab."""
     slots = Slots(clause, scope)
     to = _destination(slots)
     people = _someone(slots, "Whom shall I follow?", "at", "with")
@@ -46,7 +46,7 @@ def follow(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def guide(clause: Clause, scope: Scope) -> list[Goal]:
-    """Guide Julia from the desk to the exit."""
+    """Guide Ada out to the garden."""
     slots = Slots(clause, scope)
     slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said == "way")]
     if clause.verb.split()[0] not in _GUIDES and not slots.clause.with_role("", "with"):
@@ -65,7 +65,7 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def meet(clause: Clause, scope: Scope) -> list[Goal]:
-    """Meet Liam at the desk."""
+    """Meet Ada by the gate."""
     slots = Slots(clause, scope)
     people = _someone(slots, "Whom shall I meet?", "with", "to")
     slots.done()
@@ -82,7 +82,7 @@ def collect(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def greet(clause: Clause, scope: Scope) -> list[Goal]:
-    """Say hello to Julia; introduce yourself."""
+    """Greet Ada; introduce yourself."""
     slots = Slots(clause, scope)
     people = slots.persons()
     other = slots.take_person("to", "for", "with")

@@ -150,9 +150,7 @@ PEOPLE = {
         '[{"goal":"guide","person":{"name":"Noor","at":"sofa"},"to":"front door"}]'
     ),
     "follow me": '[{"goal":"follow","person":{"who":"operator"}}]',
-    "follow the person pointing to the left": (
-        '[{"goal":"follow","person":{"gesture":"pointing left"}}]'
-    ),
+    "follow whoever is pointing left": ('[{"goal":"follow","person":{"gesture":"pointing left"}}]'),
     "get to know the woman sitting on the sofa": (
         '[{"goal":"meet","person":{"gender":"female","posture":"sitting","at":"sofa"}}]'
     ),
@@ -167,14 +165,16 @@ PEOPLE = {
     "how many tools are on the workbench?": (
         '[{"goal":"count","object":{"category":"tool","at":"workbench"}}]'
     ),
-    "tell me how many people in the garage are wearing green": (
-        '[{"goal":"count","person":{"wearing":{"color":"green"},"at":"garage"},' + ME + "}]"
+    "tell me how many women wear green in the garage": (
+        '[{"goal":"count","person":{"gender":"female","wearing":{"color":"green"},"at":"garage"},'
+        + ME
+        + "}]"
     ),
-    "what is the smallest thing on the sofa?": (
+    "which is the smallest of the things on the sofa?": (
         '[{"goal":"tell","of":{"superlative":"smallest","at":"sofa"},"property":"name"}]'
     ),
-    "tell me the pose of the person in the hall": (
-        '[{"goal":"tell","of":{"at":"office"},"property":"posture",' + ME + "}]"
+    "tell me Noor's pose": (
+        '[{"goal":"tell","of":{"name":"Noor"},"property":"posture",' + ME + "}]"
     ),
 }
 MISSION = {
@@ -252,8 +252,8 @@ FREE_SPEECH = {
     "bring me what is on the workbench": (
         f'[{{"goal":"bring","object":{{"at":"workbench"}},{ME}}}]'
     ),
-    "give me the thing on the sofa that weighs the least": (
-        f'[{{"goal":"bring","object":{{"superlative":"lightest","at":"sofa"}},{ME}}}]'
+    "hand me the tool that weighs the least": (
+        '[{"goal":"bring","object":{"category":"tool","superlative":"lightest"},' + ME + "}]"
     ),
     "On the workbench there is a screwdriver. Bring it to Ada.": (
         '[{"goal":"bring","object":{"name":"screwdriver","count":1,"at":"workbench"},"to":{"name":"Ada"}}]'
@@ -265,13 +265,15 @@ FREE_SPEECH = {
     "look at the sofa and tell me how many mugs there are": (
         '[{"goal":"count","object":{"name":"mug","at":"sofa"},' + ME + "}]"
     ),
-    "find the largest thing on the sofa and tell me what it is": (
-        '[{"goal":"tell","of":{"superlative":"largest","at":"sofa"},"property":"name",' + ME + "}]"
+    "find the heaviest tool and tell me what it is": (
+        '[{"goal":"tell","of":{"category":"tool","superlative":"heaviest"},"property":"name",'
+        + ME
+        + "}]"
     ),
     "meet and greet Noor": (
         '[{"goal":"meet","person":{"name":"Noor"}},{"goal":"greet","person":{"name":"Noor"}}]'
     ),
-    "I want the lemonade from the locker, can you bring it to me?": (
+    "I want the lemonade from the locker, please fetch it": (
         f'[{{"goal":"bring","object":{{"name":"lemonade","at":"locker"}},{ME}}}]'
     ),
     "Emil is on the sofa, bring him the thermos": (
