@@ -9,7 +9,7 @@ from executive.skills.script import GaveUp, Script, give_up
 from robot.errors import Failure
 from robot.messages import Side
 from robot.planning import requests
-from robot.planning.requests import PlanRequest, Stance, Surroundings
+from robot.planning.requests import PlanRequest, Stance
 from robot.se3 import SE3
 
 ANSWER_TIMEOUT_S = 30.0
@@ -36,12 +36,6 @@ def ask(body: Body, request: PlanRequest, plan: type[P]) -> Script[P]:
             yield
     finally:
         planner.cancel(ticket)
-
-
-def surroundings(body: Body, *ignored: str) -> Surroundings:
-    """What a plan keeps clear of now; what the hands hold is not in the way."""
-    held = tuple(held.object_id for held in body.context.holdings.all())
-    return Surroundings.of(body.map, body.world, ignored=(*held, *ignored))
 
 
 def held_in(body: Body, side: Side) -> requests.Held | None:

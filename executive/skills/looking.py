@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from executive.skills.body import Body
 from executive.skills.script import Script, give_up
+from executive.skills.support import pose_on_support
 from robot.messages import Look, Track
 from robot.se3 import SE3, Vector3
 
@@ -70,6 +71,8 @@ def _fresh(body: Body, object_id: str) -> Script[SE3 | None]:
         if track is not None and track.seen_s > seen_s:
             seen_s, count = track.seen_s, count + 1
         if track is not None and count >= SIGHTINGS:
-            return track.X_WO
+            break
     track = fresh_track(body, object_id, begin_s)
-    return track.X_WO if track is not None else None
+    if track is None or track.X_WO is None:
+        return None
+    return pose_on_support(body, object_id, track.X_WO)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 from executive.skills.approaching import approach, come_nearer, withdraw
-from executive.skills.asking import ask, stance_of, surroundings
+from executive.skills.asking import ask, stance_of
 from executive.skills.context import SkillContext
 from executive.skills.finding import find
 from executive.skills.gripping import (
@@ -20,6 +22,7 @@ from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME, stow_arms
+from executive.skills.support import pose_on_support, surroundings
 from robot.messages import ObjectInfo
 from robot.planning.requests import PickPlan, PickRequest
 from robot.se3 import SE3
@@ -161,8 +164,9 @@ class Pick(ScriptedSkill):
         track = fresh_track(self.body, info.id, self.body.now_s - FRESH_S)
         if track is None or track.X_WO is None:
             return X_WO
-        moved_m = max(abs(a - b) for a, b in zip(track.X_WO.p, X_WO.p, strict=True))
-        return track.X_WO if moved_m <= FOLLOW_AT_MOST_M else X_WO
+        X_WO_now = pose_on_support(self.body, info.id, track.X_WO)
+        moved_m = math.dist(X_WO_now.p, X_WO.p)
+        return X_WO_now if moved_m <= FOLLOW_AT_MOST_M else X_WO
 
     def _check_gap(self, info: ObjectInfo, plan: PickPlan, gap_m: float) -> None:
         """The fingers must have closed on the object, about where it is as wide as planned."""

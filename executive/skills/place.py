@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from executive.skills.approaching import approach, come_nearer, withdraw
-from executive.skills.asking import ask, held_in, stance_of, surroundings
+from executive.skills.asking import ask, held_in, stance_of
 from executive.skills.context import SkillContext
 from executive.skills.gripping import check_grips, open_fingers, set_payload
 from executive.skills.holding import Held
@@ -15,6 +15,7 @@ from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME
+from executive.skills.support import surroundings, tilt
 from robot.messages import ObjectInfo, Place
 from robot.planning.requests import PlacePlan, PlaceRequest
 from robot.se3 import SE3
@@ -180,12 +181,6 @@ class PutDown(ScriptedSkill):
                 off_m=round(off_m, 4),
                 tilt_rad=round(tilt_rad, 3),
             )
-
-
-def tilt(X_WO: SE3) -> float:
-    """Angle between an object's z axis and the vertical [rad]."""
-    _, x, y, _ = X_WO.quat_wxyz
-    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
 
 
 def _is_over(place: Place, X_WO: SE3) -> bool:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from executive.skills.asking import ask, held_in, surroundings
+from executive.skills.asking import ask, held_in
 from executive.skills.body import ARM_CHANNEL, Body
 from executive.skills.gripping import check_grips
 from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.support import surroundings
 from robot.messages import MoveArm, MoveHand, Side
 from robot.planning.requests import ArmPlan, ArmRequest, Joints
 from robot.se3 import SE3

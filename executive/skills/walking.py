@@ -9,7 +9,7 @@ import math
 
 import msgspec
 
-from executive.skills.asking import ask, pose_of, stance_of, surroundings
+from executive.skills.asking import ask, pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.follower import Follower, Twist, turn_towards
 from executive.skills.gripping import check_grips
@@ -17,6 +17,7 @@ from executive.skills.looking import look_at
 from executive.skills.obstructions import in_the_way
 from executive.skills.script import Script, give_up
 from executive.skills.stepping import is_at_stance, miss, step_to
+from executive.skills.support import surroundings
 from robot.messages import Obstacle, Stand, Walk
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import wrap_angle

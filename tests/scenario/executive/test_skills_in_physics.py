@@ -14,7 +14,7 @@ from executive.skills.parameters import (
     PlaceParams,
     Step,
 )
-from executive.skills.place import tilt
+from executive.skills.support import tilt
 from robot.bringup.fast import FastRuntime
 from robot.model.description import load
 from robot.planning.inline import InlinePlanner

@@ -1,0 +1,63 @@
+"""What things stand on: a sighting is a few millimetres off, a surface of the map is not.
+
+An upright thing seen just above or just inside a surface stands on it. Planners then do not find
+it sunk into the table, and the hand grasps it at the height that was meant.
+"""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from executive.skills.body import Body
+from robot.messages import ObjectInfo, Place
+from robot.planning.requests import Surroundings
+from robot.se3 import SE3
+
+NEAR_M = 0.02
+UPRIGHT_RAD = 0.2
+OVERHANG_M = 0.02
+
+
+def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
+    """The pose, moved up or down onto the surface that the object must be standing on, if any."""
+    if tilt(X_WO) > UPRIGHT_RAD:
+        return X_WO
+    bottom_m = info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
+    x_m, y_m, z_m = X_WO.p
+    for place in places:
+        surface_m = place.X_WP.p[2]
+        if abs(z_m + bottom_m - surface_m) < NEAR_M and _is_over(place, X_WO):
+            return SE3((x_m, y_m, surface_m - bottom_m), X_WO.quat_wxyz)
+    return X_WO
+
+
+def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:
+    """`supported` with what the map knows."""
+    return supported(X_WO, body.object_info(object_id), body.map.places)
+
+
+def surroundings(body: Body, *ignored: str) -> Surroundings:
+    """What a plan keeps clear of now; what the hands hold is not in the way."""
+    held = tuple(held.object_id for held in body.context.holdings.all())
+    around = Surroundings.of(body.map, body.world, ignored=(*held, *ignored))
+    objects = tuple(
+        msgspec.structs.replace(thing, X_WO=pose_on_support(body, thing.id, thing.X_WO))
+        for thing in around.objects
+    )
+    return msgspec.structs.replace(around, objects=objects)
+
+
+def tilt(X_WO: SE3) -> float:
+    """Angle between an object's z axis and the vertical [rad]."""
+    _, x, y, _ = X_WO.quat_wxyz
+    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
+
+
+def _is_over(place: Place, X_WO: SE3) -> bool:
+    """Whether a pose is inside a surface's rectangle, seen from above."""
+    x_m, y_m, _ = place.X_WP.inverse().apply(X_WO.p)
+    half_x, half_y = 0.5 * place.size_m[0], 0.5 * place.size_m[1]
+    inside = abs(x_m) <= half_x + OVERHANG_M and abs(y_m) <= half_y + OVERHANG_M
+    return bool(inside and not place.floor)
