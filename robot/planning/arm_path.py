@@ -7,10 +7,9 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from robot.errors import Failure, failure
-from robot.planning import sampling
+from robot.planning import numerics, sampling
 from robot.planning.body import Arm, Body
 from robot.planning.requests import ArmPlan, ArmRequest
 from robot.planning.scene import HELD, Scene, Touch
@@ -252,7 +251,7 @@ def _find(
     blocker = _thing(name, request)
     return failure(
         "planner_timeout",
-        f"no free way for the {request.side} arm in {checks} checks; mostly {blocker} is in the way",
+        f"no free way for the {request.side} arm in {checks} checks; {blocker} is in the way",
         blocked_by=blocker,
         checks=float(checks),
     )
@@ -264,11 +263,11 @@ def _straight(corridor: Corridor, start: Array, goal: Array) -> Array | None:
         return np.stack([start, goal])
     chain = corridor.arm.chain
     (R0, R1), (p0, p1) = chain.forward(np.stack([start, goal]))
-    turn = Rotation.from_matrix(R0.T @ R1).as_rotvec()
-    shares = np.linspace(0.0, 1.0, max(3, math.ceil(float(np.linalg.norm(p1 - p0)) / LINE_M)) + 1)
+    turn = numerics.turn_between(R0, R1)
+    count = max(3, math.ceil(float(np.linalg.norm(p1 - p0)) / LINE_M))
     path = [start]
-    for share in shares[1:].tolist():
-        R = R0 @ Rotation.from_rotvec(share * turn).as_matrix()
+    for share in (step / count for step in range(1, count + 1)):
+        R = numerics.turned(R0, share * turn)
         near = path[-1] + (goal - path[-1]) * 0.2
         solved = chain.solve(R[None], ((1 - share) * p0 + share * p1)[None], near[None])
         if not solved.ok()[0] or not corridor.line_free(path[-1], solved.q[0]):
@@ -295,16 +294,13 @@ def _timed(
     timed = time_path(rounded(corners, cuts), velocity=velocity, acceleration=acceleration)
     positions = np.clip(timed.positions_rad, corridor.arm.lower, corridor.arm.upper)
     timed = Timed(timed.times_s, positions)
-    spline = timed.spline()
-    at = np.linspace(0.0, timed.times_s[-1], 3 * len(timed.times_s))
-    dense = np.clip(np.asarray(spline(at)), corridor.arm.lower, corridor.arm.upper)
+    dense = timed.sampled(3 * len(timed.times_s))
+    dense = np.clip(dense, corridor.arm.lower, corridor.arm.upper)
     return timed if corridor.all_free(dense) else None
 
 
 def _limits(body: Body, arm: Arm, speed: float) -> tuple[Array, Array]:
     """Velocities [rad/s] and accelerations [rad/s2], shape (n,)."""
-    motors = list(body.description.motors.values())
-    top = np.array([motors[i].velocity_limit_rad_s for i in arm.motors])
-    return speed * np.minimum(SPEED_RAD_S, 0.8 * top), np.full(
-        len(top), speed**2 * ACCELERATION_RAD_S2
-    )
+    top = body.model.velocity_limit_rad_s[arm.motors]
+    most = np.full(len(top), speed**2 * ACCELERATION_RAD_S2)
+    return speed * np.minimum(SPEED_RAD_S, 0.8 * top), most

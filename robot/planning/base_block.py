@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
 from robot.errors import Failure, failure
+from robot.planning import numerics
 from robot.planning.floor import CELL_M, Floor
+from robot.planning.numerics import Indices
 from robot.planning.requests import Stance
 from robot.se3 import Array
 
@@ -16,7 +17,7 @@ STEP_M = 0.01
 def explain_no_path(floor: Floor, start: Stance, goal: Stance, *, needed_m: float) -> Failure:
     """The failure of a base path: how wide the widest way is, and what narrows it."""
     ends = np.array([start[:2], goal[:2]])
-    wider: Array | None = None
+    wider: Indices | None = None
     for radius in np.arange(0.5 * needed_m, 0.0, -STEP_M).tolist():
         labels = floor.regions(radius)
         at = [floor.home(labels, *end) for end in ends.tolist()]
@@ -45,18 +46,18 @@ def explain_no_path(floor: Floor, start: Stance, goal: Stance, *, needed_m: floa
     )
 
 
-def _meeting(floor: Floor, wider: Array, labels: Array, ends: Array) -> Array:
+def _meeting(floor: Floor, wider: Indices, labels: Indices, ends: Array) -> Array:
     """Where the two regions of the wider clearance meet through the narrower free space."""
     first, second = (floor.home(wider, *end) for end in ends.tolist())
     grown, target, free = wider == first, wider == second, labels > 0
     if not first or not second:
         return ends[0 if not first else 1]
     for _ in range(400):
-        touching = ndimage.binary_dilation(grown, structure=np.ones((3, 3)), mask=free)
+        touching = numerics.grown(grown, inside=free)
         if (touching & target).any() or (touching == grown).all():
             break
         grown = touching
-    met = np.argwhere(ndimage.binary_dilation(target, iterations=1) & grown)
+    met = np.argwhere(numerics.grown(target) & grown)
     cells = met if len(met) else np.argwhere(grown)
     row, column = cells[len(cells) // 2]
     return np.array([floor.bounds_m[0] + column * CELL_M, floor.bounds_m[1] + row * CELL_M])

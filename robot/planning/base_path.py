@@ -7,12 +7,13 @@ a table) is left and entered on a short straight line with the heading kept.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
 from robot.errors import Failure, failure
 from robot.model.description import RobotDescription
-from robot.planning import sampling
+from robot.planning import numerics, sampling
 from robot.planning.base_block import explain_no_path
 from robot.planning.body import Body
 from robot.planning.floor import Floor
@@ -120,10 +121,8 @@ def _plan_at(
 def _finish(floor: Floor, start: Stance, waypoints: list[Stance]) -> BasePath:
     """Add up length and clearance."""
     stops = [start, *waypoints]
-    length = sum(math.dist(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False))
-    clearance = min(
-        floor.segment_clearance_m(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False)
-    )
+    length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(stops))
+    clearance = min(floor.segment_clearance_m(a[:2], b[:2]) for a, b in pairwise(stops))
     return BasePath(waypoints=tuple(waypoints), length_m=length, clearance_m=clearance)
 
 
@@ -246,7 +245,7 @@ def _spaced(points: Array) -> Array:
     keep = np.concatenate([[True], steps > 1e-9])
     points, along = points[keep], np.concatenate([[0.0], np.cumsum(steps[steps > 1e-9])])
     count = max(1, round(along[-1] / SPACING_M))
-    at = np.linspace(0.0, along[-1], count + 1)
+    at = numerics.even(0.0, float(along[-1]), count + 1)
     return np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
 
 

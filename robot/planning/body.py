@@ -13,6 +13,7 @@ from robot.messages import Side
 from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
 from robot.planning.ik import Chain
+from robot.planning.numerics import Indices
 from robot.planning.requests import BodyPosture, Stance
 from robot.planning.scene import Scene, SceneCache, Touch
 from robot.planning.solids import Solid
@@ -59,7 +60,7 @@ class Arm:
                 f"group '{side}_arm' lists {', '.join(joints)}; the MJCF has "
                 f"{', '.join(self.chain.joints)} from {root} to the grasp site"
             )
-        self.motors = np.array(description.indices(f"{side}_arm"))
+        self.motors: Indices = np.array(description.indices(f"{side}_arm"))
         self.lower, self.upper = self.chain.lower, self.chain.upper
 
 
@@ -74,7 +75,7 @@ class Body:
         self.scenes = SceneCache(description)
         self.nominal = np.array(description.posture("nominal"))
         joints = [motor.joint for motor in description.motors.values()]
-        self._legs: dict[Side, tuple[Chain, Array]] = {}
+        self._legs: dict[Side, tuple[Chain, Indices]] = {}
         for side in SIDES:
             leg = Chain(self.model.model, description.base_body, description.feet[side].sole_site)
             self._legs[side] = (leg, np.array([joints.index(name) for name in leg.joints]))
@@ -134,9 +135,10 @@ class Body:
         data = body.data()
         at = np.array([0.0, 0.0, height])
         for _ in range(8):
-            for side, sign in (("left", 1.0), ("right", -1.0)):
+            for side in SIDES:
                 leg, motors = self._legs[side]
-                sole = np.array([[0.0, sign * 0.5 * walking.stance_width_m, 0.0]]) - at
+                aside = (0.5 if side == "left" else -0.5) * walking.stance_width_m
+                sole = np.array([[0.0, aside, 0.0]]) - at
                 q[motors] = leg.solve(np.eye(3)[None], sole, q[motors][None], iterations=60).q[0]
             body.write_base(data, SE3((float(at[0]), float(at[1]), height)))
             body.write_joints(data, q)
@@ -146,7 +148,9 @@ class Body:
             if np.max(np.abs(off)) < 2e-4:
                 break
             at[:2] -= off
-        trunks = {side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()}
+        trunks: dict[Side, SE3] = {
+            side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()
+        }
         return Standing(SE3((float(at[0]), float(at[1]), height)), q, trunks)
 
     def _reaching(self, side: Side) -> Array:

@@ -13,7 +13,7 @@ from robot.planning.grasps import HandOption
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.scene import Scene
-from robot.planning.solids import Solid, solid
+from robot.planning.solids import solid
 from robot.planning.stances import LEANS, Candidates
 from robot.se3 import SE3, Array
 
@@ -145,11 +145,11 @@ class Checker:
 
         The trunk leans by `share` of the candidate's posture; X_WS is the stance unless given.
         """
-        X_WS = X_WS or SE3.from_xy_yaw(*self.candidate.stance_of(0))
+        stance = X_WS or SE3.from_xy_yaw(*self.candidate.stance_of(0))
         X_SB, motors = self._standing(share)
         motors[self.arm.motors] = q_arm
         motors[self.body.motor(self.body.description.hands[self.side].motor)] = finger
-        scene.pose(X_WS @ X_SB, motors)
+        scene.pose(stance @ X_SB, motors)
         scene.update()
         scene.set_clearance(clearance_m)
         names = frozenset({allowed} if allowed else ())

@@ -6,8 +6,8 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from scipy import ndimage
-
+from robot.planning import numerics
+from robot.planning.numerics import Indices, Mask
 from robot.planning.solids import Solid
 from robot.se3 import Array
 
@@ -50,21 +50,22 @@ class Floor:
 
     def clearances_m(self, xy: Array) -> Array:
         """The same for many points, shape (n, 2) to (n,)."""
-        at = [(xy[:, 1] - self._y0) / CELL_M, (xy[:, 0] - self._x0) / CELL_M]
-        return ndimage.map_coordinates(self._field, at, order=1, mode="constant", cval=-1.0)
+        return numerics.grid_values(self._field, self._row_column(xy), outside=-1.0)
+
+    def _row_column(self, xy: Array) -> tuple[Array, Array]:
+        return (xy[:, 1] - self._y0) / CELL_M, (xy[:, 0] - self._x0) / CELL_M
 
     def segment_clearance_m(self, a: tuple[float, float], b: tuple[float, float]) -> float:
         """Least clearance on the straight line from a to b [m]."""
         count = max(2, math.ceil(math.hypot(b[0] - a[0], b[1] - a[1]) / (0.5 * CELL_M)) + 1)
-        share = np.linspace(0.0, 1.0, count)[:, None]
+        share = numerics.even(0.0, 1.0, count)[:, None]
         return float(np.min(self.clearances_m((1 - share) * np.array(a) + share * np.array(b))))
 
-    def regions(self, clearance_m: float) -> Array:
+    def regions(self, clearance_m: float) -> Indices:
         """Label of every cell's connected free region (0: not free), shape of the grid."""
-        labels, _ = ndimage.label(self._field >= clearance_m, structure=np.ones((3, 3)))
-        return labels
+        return numerics.regions(self._field >= clearance_m)
 
-    def label_at(self, labels: Array, xy: Array) -> Array:
+    def label_at(self, labels: Indices, xy: Array) -> Indices:
         """Labels of the cells nearest to points, shape (n, 2) to (n,); 0 outside."""
         column = np.rint((xy[:, 0] - self._x0) / CELL_M).astype(int)
         row = np.rint((xy[:, 1] - self._y0) / CELL_M).astype(int)
@@ -72,17 +73,16 @@ class Floor:
         found = labels[np.clip(row, 0, self._height - 1), np.clip(column, 0, self._width - 1)]
         return np.where(inside, found, 0)
 
-    def distance_to_m(self, mask: np.ndarray, xy: Array) -> Array:
+    def distance_to_m(self, mask: Mask, xy: Array) -> Array:
         """Distance of points, shape (n, 2), to the nearest cell of a mask of the grid [m], (n,)."""
         if not mask.any():
             return np.zeros(len(xy))
-        far = CELL_M * ndimage.distance_transform_edt(~mask)
-        at = [(xy[:, 1] - self._y0) / CELL_M, (xy[:, 0] - self._x0) / CELL_M]
-        return ndimage.map_coordinates(far, at, order=1, mode="nearest")
+        far = CELL_M * numerics.distance_to(mask)
+        return numerics.grid_values(far, self._row_column(xy), outside=None)
 
-    def home(self, labels: Array, x_m: float, y_m: float) -> int:
+    def home(self, labels: Indices, x_m: float, y_m: float) -> int:
         """Label of the free region nearest to a point, within 1 m (0: none)."""
-        angles = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+        angles = np.arange(24) * (2 * math.pi / 24)
         circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         for radius in np.arange(0.0, 1.01, 0.1).tolist():
             found = self.label_at(labels, radius * circle + (x_m, y_m))
@@ -116,8 +116,9 @@ def _in_the_way(solid: Solid) -> bool:
 
 def _grid(bounds_m: tuple[float, float, float, float]) -> tuple[Array, Array]:
     x0, y0, x1, y1 = bounds_m
-    xs = x0 + CELL_M * np.arange(math.ceil((x1 - x0) / CELL_M) + 1)
-    ys = y0 + CELL_M * np.arange(math.ceil((y1 - y0) / CELL_M) + 1)
+    columns, rows = math.ceil((x1 - x0) / CELL_M), math.ceil((y1 - y0) / CELL_M)
+    xs = x0 + numerics.even(0.0, CELL_M * columns, columns + 1)
+    ys = y0 + numerics.even(0.0, CELL_M * rows, rows + 1)
     return xs[None, :], ys[:, None]
 
 

@@ -28,6 +28,7 @@ from robot.planning.body import Body
 from robot.planning.checks import Checker
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
+from robot.planning.numerics import Mask
 from robot.planning.reach import Targets
 from robot.planning.requests import Stance
 from robot.planning.solids import Solid
@@ -182,7 +183,7 @@ def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally)
     q = arm.chain.relax(reached.q[ok])
     score = reach.margins(arm, q) - some.cost[ok]
     return [
-        _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, i), q[k])
+        _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, int(i)), q[k])
         for k, i in enumerate(ok)
     ]
 
@@ -258,7 +259,7 @@ class _Poses:
 
     targets: list[Targets]
     q: Array
-    met: np.ndarray
+    met: Mask
     steady: Array
 
 
@@ -268,7 +269,8 @@ def _all_poses(body: Body, job: Job, group: list[_Entry]) -> _Poses:
     candidates = _join([entry.candidate for entry in group])
     trunks = reach.trunks_of(body, side, candidates)
     main = reach.targets_of(candidates, job.options, job.references)
-    back_m = np.array([-job.options[option].back_m for option in candidates.option])
+    chosen: list[int] = candidates.option.tolist()
+    back_m = np.array([-job.options[option].back_m for option in chosen])
     targets = [main, main.moved(along_m=0.5 * back_m), main.moved(along_m=back_m)]
     targets += [main.moved(up_m=lift) for lift in job.lifts_m]
     probed = [0, 2, *range(3, len(targets))]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from robot.planning.numerics import Mask
 from robot.se3 import Array
 
 STEP_LIMIT_RAD = 0.4
@@ -23,13 +24,13 @@ STALL_STEPS, STALL_SHARE = 6, 0.7
 
 @dataclass(frozen=True, slots=True)
 class Solutions:
-    """Answers to n targets: joints (n, k) [rad], what is left of the error [m], [rad], shape (n,)."""
+    """Answers to n targets: joints (n, k) [rad]; what is left of the error [m], [rad], (n,)."""
 
     q: Array
     position_error_m: Array
     rotation_error_rad: Array
 
-    def ok(self, position_m: float = 1e-3, rotation_rad: float = 5e-3) -> np.ndarray:
+    def ok(self, position_m: float = 1e-3, rotation_rad: float = 5e-3) -> Mask:
         """Which targets were met, shape (n,), bool."""
         return (self.position_error_m < position_m) & (self.rotation_error_rad < rotation_rad)
 
@@ -107,7 +108,7 @@ class Chain:
         self._half_range = 0.5 * (self.upper - self.lower)
 
     def forward(self, q: Array) -> tuple[Array, Array]:
-        """Pose of the site in the body's frame: rotations (n, 3, 3), positions (n, 3) of q (n, k)."""
+        """Where the site is in the body's frame at q (n, k): rotations (n, 3, 3), points (n, 3)."""
         rotation, position, _, _ = self._sweep(q)
         return rotation, position
 
@@ -140,7 +141,8 @@ class Chain:
         is not approached any more is given up.
 
         Args:
-            rotations, positions: targets in the body's frame, shapes (n, 3, 3), (n, 3).
+            rotations: targets in the body's frame, shape (n, 3, 3).
+            positions: the same, shape (n, 3).
             q0: where to start, shape (n, k).
             iterations: at most so many.
         """
@@ -207,10 +209,9 @@ def _damped_step(transposed: Array, error: Array, pull: Array, gain: Array | Non
     squared = np.sum(error**2, axis=1)
     damping = 1e-4 + 0.02 * squared
     normal = jacobian @ transposed + damping[:, None, None] * np.eye(6)
-    if gain is None:
-        gain = np.minimum(0.05, np.sqrt(squared))[:, None]
-    wanted = error - (jacobian @ (gain * pull)[..., None])[..., 0]
-    change = (transposed @ np.linalg.solve(normal, wanted[..., None]))[..., 0] + gain * pull
+    follow = np.minimum(0.05, np.sqrt(squared))[:, None] if gain is None else gain
+    wanted = error - (jacobian @ (follow * pull)[..., None])[..., 0]
+    change = (transposed @ np.linalg.solve(normal, wanted[..., None]))[..., 0] + follow * pull
     largest = np.max(np.abs(change), axis=1, keepdims=True)
     return change * np.minimum(1.0, STEP_LIMIT_RAD / np.maximum(largest, 1e-9))
 

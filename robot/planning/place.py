@@ -15,7 +15,7 @@ from robot.planning.handling import Choice, Job, search
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.solids import solids_of
 from robot.planning.stances import LEANS
-from robot.se3 import SE3, Array
+from robot.se3 import Array
 
 LIFTS_M = (0.05, 0.03, 0.02)
 SPOT_STEP_M = 0.05

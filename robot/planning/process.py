@@ -59,14 +59,14 @@ class ProcessPlanner:
         """End the worker."""
         self.close()
 
-    def submit(self, request: PlanRequest, *, now_s: float) -> int:
+    def submit(self, request: PlanRequest, *, now_s: float) -> int:  # noqa: ARG002
         """Put a request in line."""
         self._last += 1
         self._waiting[self._last] = _Waiting(request)
         self._advance()
         return self._last
 
-    def poll(self, ticket: int, *, now_s: float) -> PlanResult | None:
+    def poll(self, ticket: int, *, now_s: float) -> PlanResult | None:  # noqa: ARG002
         """The answer once the worker has sent it, or a `planner_timeout`."""
         self._advance()
         if ticket in self._answers:

@@ -9,6 +9,7 @@ import numpy as np
 from robot.messages import Side
 from robot.planning.body import Arm, Body
 from robot.planning.grasps import HandOption
+from robot.planning.numerics import Indices, Mask
 from robot.planning.stances import LEANS, Candidates
 from robot.se3 import SE3, Array
 
@@ -30,7 +31,7 @@ class Targets:
         shift = self.R[:, :, 0] * np.reshape(along_m, (-1, 1))
         return Targets(self.R, self.p + shift + np.array([0.0, 0.0, up_m]))
 
-    def take(self, rows: np.ndarray) -> Targets:
+    def take(self, rows: Indices) -> Targets:
         """Some of them, or some several times."""
         return Targets(self.R[rows], self.p[rows])
 
@@ -62,7 +63,7 @@ class Trunks:
         off[:, 2] = self.stance[:, 2] + error[2]
         return Trunks(off, self.R_ST, self.p_ST)
 
-    def take(self, rows: np.ndarray) -> Trunks:
+    def take(self, rows: Indices) -> Trunks:
         """Some of them, or some several times."""
         return Trunks(self.stance[rows], self.R_ST[rows], self.p_ST[rows])
 
@@ -78,7 +79,7 @@ class Reached:
     """Chain values (n, k), whether the target was met (n,), error left [m] (n,)."""
 
     q: Array
-    ok: np.ndarray
+    ok: Mask
     short_m: Array
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from ompl import base, geometric, util
@@ -38,8 +39,10 @@ def connect(
     The same arguments give the same path. OMPL keeps its seed in a global: one call at a time.
 
     Args:
-        start, goals: valid states, shape (n,).
-        lower, upper: bounds of the space, shape (n,).
+        start: a valid state, shape (n,).
+        goals: valid states.
+        lower: bounds of the space, shape (n,).
+        upper: the same.
         valid: whether a state is free.
         resolution: distance between checked states, in the Euclidean norm of the space.
         seed: of the random numbers.
@@ -56,7 +59,7 @@ def connect(
     used = 0
     axes = range(size)
 
-    def check(state: base.State) -> bool:
+    def check(state: Any) -> bool:
         nonlocal used
         used += 1
         return valid([state[axis] for axis in axes])
@@ -81,12 +84,13 @@ def connect(
         simplifier.partialShortcutPath(path, 40, 20)
         simplifier.reduceVertices(path)
     simplifier.collapseCloseVertices(path)
-    corners = np.array([[state[axis] for axis in axes] for state in path.getStates()])
+    states: Any = path.getStates()
+    corners = np.array([[state[axis] for axis in axes] for state in states])
     return Found(corners, used)
 
 
-def _state(space: base.RealVectorStateSpace, values: Array) -> base.State:
-    state = space.allocState()
+def _state(space: base.RealVectorStateSpace, values: Array) -> Any:
+    state: Any = space.allocState()
     for axis, value in enumerate(values):
         state[axis] = float(value)
     return state

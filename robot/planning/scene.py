@@ -17,6 +17,7 @@ import numpy as np
 
 from robot.messages import Side
 from robot.model.description import RobotDescription
+from robot.planning.numerics import Indices, Mask
 from robot.planning.requests import Held
 from robot.planning.solids import Solid
 from robot.se3 import SE3, Array
@@ -64,7 +65,7 @@ class Scene:
     def _bind(self) -> None:
         model = self.model
         joints = [model.joint(motor.joint) for motor in self.robot.motors.values()]
-        self._addresses = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._addresses: Indices = np.array([int(joint.qposadr[0]) for joint in joints])
         self._couplings = [
             (
                 int(model.jnt_qposadr[model.eq_obj1id[e]]),
@@ -93,7 +94,7 @@ class Scene:
         qpos[self._addresses] = q_rad
         self._couple()
 
-    def set_motors(self, indices: Array, values: Array) -> None:
+    def set_motors(self, indices: Indices, values: Array | list[float]) -> None:
         """Move some motors, given by their indices."""
         self.data.qpos[self._addresses[indices]] = values
 
@@ -127,11 +128,11 @@ class Scene:
 
     # --- touching --------------------------------------------------------------------------
 
-    def arm_geoms(self, side: Side) -> np.ndarray:
+    def arm_geoms(self, side: Side) -> Mask:
         """Which geoms an arm moves, the held thing included, shape (geoms,), bool."""
         return self._arms[side]
 
-    def rest_geoms(self, side: Side) -> np.ndarray:
+    def rest_geoms(self, side: Side) -> Mask:
         """The robot's geoms that the arm of `side` does not move."""
         return ~(self._arms[side] | self._is_solid)
 
@@ -140,7 +141,7 @@ class Scene:
         first = self.robot.motors[self.robot.groups[f"{side}_arm"][0]].joint
         return int(self.model.joint(first).bodyid[0])
 
-    def _geoms_below(self, root: int) -> np.ndarray:
+    def _geoms_below(self, root: int) -> Mask:
         """Which geoms hang on a body and on what moves with it."""
         result = np.zeros(self.model.ngeom, dtype=bool)
         for geom in range(self.model.ngeom):
@@ -173,7 +174,7 @@ class Scene:
 
     def touches(
         self,
-        geoms: np.ndarray,
+        geoms: Mask,
         *,
         allowed: frozenset[str] = frozenset(),
         slack: dict[tuple[str, str], float] | None = None,
@@ -191,12 +192,12 @@ class Scene:
         if not self.data.ncon:
             return []
         found: list[Touch] = []
-        pairs, distances = self.data.contact.geom, self.data.contact.dist
-        for (a, b), distance in zip(pairs.tolist(), distances.tolist(), strict=True):
+        pairs: list[list[int]] = self.data.contact.geom.tolist()
+        distances: list[float] = self.data.contact.dist.tolist()
+        for pair, distance in zip(pairs, distances, strict=True):
+            a, b = reversed(pair) if self._is_solid[pair[0]] else pair
             if not (geoms[a] or geoms[b]):
                 continue
-            if self._is_solid[a]:
-                a, b = b, a
             first, second = self.names[a], self.names[b]
             if second in allowed or (solids_only and not self._is_solid[b]):
                 continue
@@ -275,7 +276,7 @@ def _compile(
             spec.add_exclude(bodyname1=robot.hands[side].body, bodyname2=finger)
     if thing is not None:
         body = spec.worldbody.add_body(name="thing", mocap=True)
-        body.pos, body.quat = list(thing.X_WG.p), list(thing.X_WG.quat_wxyz)
+        body.pos, body.quat = np.array(thing.X_WG.p), np.array(thing.X_WG.quat_wxyz)
         geom = body.add_geom(name="thing", contype=0, conaffinity=1)
         _shape(geom, thing.kind, thing.size_m, SE3())
     model = spec.compile()

@@ -14,6 +14,7 @@ import numpy as np
 from robot.messages import Side
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
+from robot.planning.numerics import Indices, Mask
 from robot.planning.requests import BodyPosture, Stance
 from robot.se3 import Array
 
@@ -86,10 +87,10 @@ class Candidates:
     stance: Array
     standoff_m: Array
     heading: Array
-    option: np.ndarray
-    reference: np.ndarray
-    lean: np.ndarray
-    left: np.ndarray
+    option: Indices
+    reference: Indices
+    lean: Indices
+    left: Mask
     cost: Array
 
     def __len__(self) -> int:
@@ -99,7 +100,7 @@ class Candidates:
         """The hand of a candidate."""
         return "left" if self.left[i] else "right"
 
-    def take(self, rows: np.ndarray) -> Candidates:
+    def take(self, rows: Indices | Mask) -> Candidates:
         """Some of them."""
         return Candidates(
             *(
@@ -160,7 +161,7 @@ def propose(
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
     standoffs = _Standoffs(floor, start, radius_m)
-    kept: list[np.ndarray] = []
+    kept: list[Indices] = []
     backs: list[Array] = []
     left = np.array([lean.quota for lean in LEANS])
     for first in range(0, total, CHUNK):
@@ -193,7 +194,7 @@ def propose(
     return found, total
 
 
-def _within(kinds: np.ndarray, left: np.ndarray) -> np.ndarray:
+def _within(kinds: Indices, left: Indices) -> Mask:
     """Which rows are among the first `left` of their kind, shape (n,), bool; counts `left` down."""
     result = np.zeros(len(kinds), dtype=bool)
     for kind in range(len(left)):
@@ -205,7 +206,7 @@ def _within(kinds: np.ndarray, left: np.ndarray) -> np.ndarray:
 
 def _local(
     options: list[HandOption], option: int, references: Array, reference: int, side: Side, lean: int
-) -> tuple[Array, Array, Array, np.ndarray]:
+) -> tuple[Array, Array, Array, Indices]:
     """Stances (n, 3), hand headings (n,), costs (n,), tags (n, 4) of one combination."""
     choice, posture = options[option], LEANS[lean]
     sign = 1.0 if side == "left" else -1.0
@@ -253,7 +254,7 @@ class _Standoffs:
         self._labels = floor.regions(radius_m)
         self._home = floor.home(self._labels, start[0], start[1])
 
-    def lengths(self, stance: Array) -> tuple[Array, np.ndarray]:
+    def lengths(self, stance: Array) -> tuple[Array, Mask]:
         """The first length that leads to such a place (0: none), and if it is tight, shape (n,)."""
         result = np.zeros(len(stance))
         tight = np.zeros(len(stance), dtype=bool)

@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
+from robot.planning import numerics
 from robot.se3 import Array
 
 STEP_RAD = 0.02
@@ -30,9 +30,10 @@ class Timed:
     times_s: Array
     positions_rad: Array
 
-    def spline(self) -> CubicSpline:
-        """The trajectory as it will be interpolated."""
-        return CubicSpline(self.times_s, self.positions_rad, bc_type="clamped")
+    def sampled(self, count: int, *, derivative: int = 0) -> Array:
+        """The spline (or its derivative) at `count` even times, shape (count, n)."""
+        at = numerics.even(0.0, float(self.times_s[-1]), count)
+        return numerics.spline(self.times_s, self.positions_rad, at, derivative=derivative)
 
 
 def rounded(corners: Array, cuts: Array) -> Array:
@@ -50,17 +51,17 @@ def rounded(corners: Array, cuts: Array) -> Array:
 
 def time_path(path: Array, *, velocity: Array, acceleration: Array) -> Timed:
     """Times for a dense path, shape (k, n), within limits of shape (n,) [rad/s], [rad/s2]."""
-    slower = 1.0
+    slower, excess = 1.0, 1.0
+    timed = _sampled(path, velocity, acceleration)
     for _ in range(6):
-        timed = _sampled(path, slower * velocity, slower**2 * acceleration)
-        spline = timed.spline()
-        at = np.linspace(0.0, timed.times_s[-1], 4 * len(timed.times_s))
-        speed = np.max(np.abs(spline(at, 1)) / velocity)
-        effort = np.max(np.abs(spline(at, 2)) / acceleration)
+        count = 4 * len(timed.times_s)
+        speed = np.max(np.abs(timed.sampled(count, derivative=1)) / velocity)
+        effort = np.max(np.abs(timed.sampled(count, derivative=2)) / acceleration)
         excess = max(float(speed), float(np.sqrt(effort)))
         if excess <= 1.0 + 1e-6:
             return timed
         slower = min(slower * 0.97, slower / excess)
+        timed = _sampled(path, slower * velocity, slower**2 * acceleration)
     stretched = excess * timed.times_s
     return Timed(stretched, timed.positions_rad)
 
@@ -103,13 +104,14 @@ def _smoothed(path: Array, length: Array, times: Array, rate: Array) -> Timed:
     fine = 0.01
     window = max(1, round(SMOOTHING_S / fine))
     total = times[-1] + fine * (window - 1)
-    clock = np.arange(-(window - 1), int(np.ceil(total / fine)) + 1) * fine
+    ticks = int(np.ceil(total / fine))
+    clock = numerics.even(-(window - 1) * fine, ticks * fine, ticks + window)
     progress = _progress(clock, times, length, rate)
     progress = np.convolve(progress, np.full(window, 1.0 / window), mode="valid")
-    clock = np.arange(len(progress)) * fine
+    clock = numerics.even(0.0, (len(progress) - 1) * fine, len(progress))
     end = int(np.argmax(progress >= length[-1] - 1e-9)) or len(progress) - 1
     count = max(3, int(np.ceil(clock[end] / SAMPLE_S)) + 1)
-    at = np.linspace(0.0, clock[end], count)
+    at = numerics.even(0.0, float(clock[end]), count)
     s = np.interp(at, clock, progress)
     s[0], s[-1] = 0.0, length[-1]
     positions = np.stack([np.interp(s, length, path[:, j]) for j in range(path.shape[1])], axis=1)
@@ -136,5 +138,5 @@ def _even(points: Array) -> Array:
     points = points[np.concatenate([[True], gaps > 1e-9])]
     length = np.concatenate([[0.0], np.cumsum(gaps[gaps > 1e-9])])
     count = max(5, int(np.ceil(length[-1] / STEP_RAD)) + 1)
-    at = np.linspace(0.0, length[-1], count)
+    at = numerics.even(0.0, float(length[-1]), count)
     return np.stack([np.interp(at, length, points[:, j]) for j in range(points.shape[1])], axis=1)

@@ -1,6 +1,7 @@
 """Base paths are free, end at the goal, repeat from the seed; failures name the cause."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -35,9 +36,9 @@ def test_a_path_is_free_and_ends_at_the_goal(solver: Solver, goal: Stance, seed:
     floor = Floor(solids_of(surroundings()), surroundings().map.bounds_m)
     stops = [START, *found.waypoints]
     radius = solver.body.description.body_radius_m
-    for a, b in zip(stops[:-2], stops[1:-1], strict=True):
+    for a, b in pairwise(stops[:-1]):
         assert floor.segment_clearance_m(a[:2], b[:2]) >= radius - 0.02
-    length = sum(math.dist(a[:2], b[:2]) for a, b in zip(stops, stops[1:], strict=False))
+    length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(stops))
     assert found.length_m == pytest.approx(length)
 
 
@@ -54,7 +55,7 @@ def test_one_walks_forward_on_long_ways(solver: Solver) -> None:
     found = path(solver, START, BEFORE_SHELF)
     assert isinstance(found, BasePath)
     stops = [START, *found.waypoints]
-    for a, b in zip(stops, stops[1:], strict=False):
+    for a, b in pairwise(stops):
         if math.dist(a[:2], b[:2]) > 0.1:
             heading = math.atan2(b[1] - a[1], b[0] - a[0])
             assert abs(wrap_angle(heading - b[2])) < 0.6

@@ -1,0 +1,62 @@
+# pyright: basic
+"""The numerical routines of planning that come without types (scipy), and shapes of arrays."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
+
+from robot.se3 import Array
+
+Mask: TypeAlias = NDArray[np.bool_]
+Indices: TypeAlias = NDArray[np.int64]
+_NEIGHBOURS = np.ones((3, 3))
+
+
+def even(first: float, last: float, count: int) -> Array:
+    """`count` numbers evenly from first to last, both included."""
+    return np.linspace(first, last, count)
+
+
+def grid_values(field: Array, row_column: tuple[Array, Array], *, outside: float | None) -> Array:
+    """A grid's values between its points, linearly; `outside` of it a constant (None: nearest)."""
+    mode, fill = ("nearest", 0.0) if outside is None else ("constant", outside)
+    return ndimage.map_coordinates(field, row_column, order=1, mode=mode, cval=fill)
+
+
+def regions(mask: Mask) -> Indices:
+    """Number of the connected region of every cell, 0 outside the mask."""
+    labels: Any = ndimage.label(mask, structure=_NEIGHBOURS)
+    return labels[0].astype(np.int64)
+
+
+def grown(mask: Mask, *, inside: Mask | None = None) -> Mask:
+    """The mask and its neighbour cells, those `inside` only."""
+    result: Any = ndimage.binary_dilation(mask, structure=_NEIGHBOURS, mask=inside)
+    return result
+
+
+def distance_to(mask: Mask) -> Array:
+    """Distance of every cell to the mask, in cells."""
+    result: Any = ndimage.distance_transform_edt(~mask)
+    return result
+
+
+def spline(times_s: Array, positions: Array, at_s: Array, *, derivative: int = 0) -> Array:
+    """A C2 cubic spline through positions (k, n), at rest at both ends, at other times (m, n)."""
+    return CubicSpline(times_s, positions, bc_type="clamped")(at_s, derivative)
+
+
+def turn_between(first: Array, last: Array) -> Array:
+    """Axis times angle that takes one rotation matrix to another, in the first's frame."""
+    return Rotation.from_matrix(first.T @ last).as_rotvec()
+
+
+def turned(first: Array, turn: Array) -> Array:
+    """A rotation matrix turned by axis times angle in its own frame."""
+    return first @ Rotation.from_rotvec(turn).as_matrix()
