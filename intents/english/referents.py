@@ -67,8 +67,8 @@ class Scope:
         elif isinstance(goal, Place | Bring | Give):
             self.group = ()
         for slot in ("object", "person", "place", "on", "in_", "to"):
-            value = cast("ObjectQuery | Person | str | None", getattr(goal, slot, None))
-            if value is None:
+            value = cast("ObjectQuery | Person | str | bool | None", getattr(goal, slot, None))
+            if value is None or isinstance(value, bool):
                 continue
             if isinstance(value, ObjectQuery | Person):
                 self.mention(value.at)

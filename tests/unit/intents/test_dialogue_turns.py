@@ -1,7 +1,7 @@
 """Several sentences, one after the other."""
 
 from intents.dialogue import Context
-from intents.goals import ObjectQuery, Pick, Place, to_json
+from intents.goals import GoTo, ObjectQuery, Pick, Place, to_json
 from intents.grounding import Entity
 from intents.outcomes import Goals, Outcome, Question, Refusal
 from intents.parser import hear
@@ -69,6 +69,14 @@ def test_it_is_what_was_spoken_of_before() -> None:
     last = converse("pick up the torch", "put it on the bench")[1]
     assert isinstance(last, Goals)
     assert last.goals == (Place(object=ObjectQuery(name="torch"), on="bench"),)
+
+
+def test_there_is_the_last_place_and_nothing_else() -> None:
+    reached = converse("go to the bench", "wave", "go there")[2]
+    assert isinstance(reached, Goals)
+    assert reached.goals == (GoTo(place="bench"),)
+    asked = converse("switch on the lamp", "go there")[1]
+    assert isinstance(asked, Question)
 
 
 def test_do_it_again_repeats_the_last_goals() -> None:
