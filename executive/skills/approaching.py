@@ -68,12 +68,21 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
 
 def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: str) -> Script[None]:
     """Straighten up, step back to the standoff, and bring the arm to `arm_rad`."""
-    side: Side = plan.side
+    yield from back_away(body, plan, what=what)
+    yield from bring_in(body, plan.side, arm_rad)
+
+
+def back_away(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
+    """Straighten up and step back to the standoff, the hand still out."""
     if plan.posture != BodyPosture():
         body.phase = "straightening up"
         yield from stand_still(body)
     body.phase = f"stepping back from the {what}"
     yield from step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
+
+
+def bring_in(body: Body, side: Side, arm_rad: Joints) -> Script[None]:
+    """Bring an arm near the body, upright if it holds something."""
     body.phase = f"bringing the {side} arm in"
     keep_upright = body.context.holdings.at(side) is not None
     yield from move_arm(body, side, arm_rad, keep_upright=keep_upright)

@@ -87,8 +87,20 @@ def _look_around(body: Body, object_id: str, begin_s: float) -> Script[SE3 | Non
             yield from turn_head(body, p_W)
             yield from body.wait(GLANCE_S)
             if fresh_track(body, object_id, begin_s) is not None:
-                return (yield from see(body, object_id))
+                return (yield from _make_sure(body, object_id))
     return None
+
+
+def _make_sure(body: Body, object_id: str) -> Script[SE3 | None]:
+    """Look at what was glimpsed; from far or half hidden, the glimpse has to do."""
+    track = body.track(object_id)
+    glimpse = track.X_WO if track is not None else None
+    try:
+        return (yield from see(body, object_id))
+    except GaveUp as end:
+        if end.failure.code != "object_not_seen":
+            raise
+        return glimpse
 
 
 def _look_at_place(body: Body, object_id: str, place: Place, begin_s: float) -> Script[SE3 | None]:
@@ -108,7 +120,7 @@ def _look_at_place(body: Body, object_id: str, place: Place, begin_s: float) -> 
             yield from turn_head(body, (x_m, y_m, z_m))
             yield from body.wait(GLANCE_S)
         if fresh_track(body, object_id, begin_s) is not None:
-            return (yield from see(body, object_id))
+            return (yield from _make_sure(body, object_id))
     return None
 
 

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 
-from executive.skills.approaching import approach, come_nearer, withdraw
+from executive.skills.approaching import approach, back_away, bring_in, come_nearer, withdraw
 from executive.skills.asking import ask, held_in, stance_of
 from executive.skills.context import SkillContext
 from executive.skills.gripping import check_grips, open_fingers, set_payload
 from executive.skills.holding import Held
-from executive.skills.looking import see
+from executive.skills.looking import look_at, see
 from executive.skills.parameters import PlaceParams
 from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME
 from executive.skills.support import surroundings, tilt
+from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place
 from robot.planning.requests import PlacePlan, PlaceRequest
 from robot.se3 import SE3
@@ -66,8 +67,11 @@ class PutDown(ScriptedSkill):
             raise end
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
-        yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
-        yield from self._verify(info, place, plan)
+        yield from back_away(body, plan, what=place.name)
+        missed = yield from self._verify(info, place, plan)
+        yield from bring_in(body, plan.side, posture_rad(body, plan.side, HOME))
+        if missed is not None:
+            raise GaveUp(missed)
 
     def _place(self) -> Place:
         """The place of the map, or for an exact pose the one under it, or a spot of its own."""
@@ -114,6 +118,7 @@ class PutDown(ScriptedSkill):
     def _lower(self, info: ObjectInfo, place: Place, plan: PlacePlan, held: Held) -> Script[None]:
         """Bring the object above its spot, then down until half its weight is off the hand."""
         body, side = self.body, plan.side
+        look_at(body, plan.X_WO.p)
         yield from self._reach_over(place, plan)
         yield from move_hand(body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S)
         check_grips(body)
@@ -162,25 +167,28 @@ class PutDown(ScriptedSkill):
         X_WG_back = body.X_WG(side) @ back
         yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=RETREAT_M_S)
 
-    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[None]:
-        """Look: the object must stand where it was put."""
+    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[Failure | None]:
+        """Look: the object must stand where it was put. Returns what is wrong."""
         self.body.phase = f"checking the {info.name}"
         try:
             X_WO = yield from see(self.body, info.id, p_W=plan.X_WO.p)
         except GaveUp as end:
-            raise give_up(
-                "place_missed", f"the {info.name} cannot be seen on the {place.name}"
-            ) from end
+            if end.failure.code != "object_not_seen":
+                raise
+            cause = f"the {info.name} cannot be seen on the {place.name}"
+            return failure("place_missed", cause, object=info.id)
         off_m = math.dist(X_WO.p, plan.X_WO.p)
         tilt_rad = tilt(X_WO)
-        if off_m > PLACED_WITHIN_M or tilt_rad > UPRIGHT_RAD:
-            raise give_up(
-                "place_missed",
-                f"the {info.name} is {off_m * 100:.1f} cm from where it was put"
-                + (", and has toppled" if tilt_rad > UPRIGHT_RAD else ""),
-                off_m=round(off_m, 4),
-                tilt_rad=round(tilt_rad, 3),
-            )
+        if off_m <= PLACED_WITHIN_M and tilt_rad <= UPRIGHT_RAD:
+            return None
+        toppled = ", and has toppled" if tilt_rad > UPRIGHT_RAD else ""
+        return failure(
+            "place_missed",
+            f"the {info.name} is {off_m * 100:.1f} cm from where it was put{toppled}",
+            object=info.id,
+            off_m=round(off_m, 4),
+            tilt_rad=round(tilt_rad, 3),
+        )
 
 
 def _is_over(place: Place, X_WO: SE3) -> bool:
