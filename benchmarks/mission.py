@@ -89,8 +89,10 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
     with runtimes.opened(kind, where, seed=seed, folder=folder) as (runtime, planner):
         ready_s = time.perf_counter() - begin_s
         witness = Witness(planner)
+        begin_cpu_s = time.process_time()
         summary = _carry_out(job, runtime, witness)
-        known = _report(summary, sentence, ready_s)
+        cpu_s = time.process_time() - begin_cpu_s
+        known = {**_report(summary, sentence, ready_s), "cpu_s": round(cpu_s, 2)}
         if live:
             body = runtime.link.body()
             standing = body is not None and body.mode == "stand"
@@ -200,15 +202,17 @@ def _cause(one: dict[str, Any]) -> str:
 
 
 def _speed(outcomes: Outcomes) -> str:
-    fast = [one for one in _of(outcomes, "fast").values() if one.get("mission_wall_s")]
+    fast = [one for one in _of(outcomes, "fast").values() if one.get("cpu_s")]
     if not fast:
         return ""
     simulated = sum(one["simulated_s"] for one in fast)
     wall = sum(one["mission_wall_s"] for one in fast)
+    cpu = sum(one["cpu_s"] for one in fast)
     each = sorted(one["simulated_s"] for one in fast)[len(fast) // 2]
     ready = sorted(one["ready_s"] for one in fast)[len(fast) // 2]
     return (
         f"A mission takes {each:.0f} simulated seconds (median). `fast` ran at "
-        f"**{simulated / wall:.1f} simulated seconds a wall second**, sensing and planning "
-        f"included, two missions at a time; a runtime is ready in {ready:.1f} s (median)."
+        f"**{simulated / wall:.1f} simulated seconds a wall second**, two missions at a time, "
+        f"sensing and planning included; {simulated / cpu:.1f} a second of CPU time. "
+        f"A runtime is ready in {ready:.1f} s (median)."
     )
