@@ -6,6 +6,7 @@ import math
 from functools import lru_cache
 
 import numpy as np
+
 from robot.planning import numerics
 from robot.planning.numerics import Indices, Mask
 from robot.planning.solids import Solid

@@ -211,7 +211,9 @@ def _closely(
             if best is not None and score < best[0] + LIFT_GAIN:
                 continue
             back, up = (poses.targets[n].take(np.array([i])) for n in (2, k))
-            touch, q_ready = _there_and_away(job, checker, back, up, q_back, poses.q[k, i])
+            touch, q_ready = _there_and_away(
+                checker, (back, q_back), (up, poses.q[k, i]), picking=job.kind == "pick"
+            )
             if q_ready is not None:
                 choice = Choice(
                     side=entry.side,
@@ -235,14 +237,12 @@ def _closely(
 
 
 def _there_and_away(
-    job: Job, checker: Checker, back: Targets, up: Targets, q_back: Array, q_up: Array
+    checker: Checker, back: tuple[Targets, Array], up: tuple[Targets, Array], *, picking: bool
 ) -> tuple[str | None, Array | None]:
     """What is touched with the object raised, leaving, or arriving; and the ready joints."""
-    picking = job.kind == "pick"
-    touch = checker.lifted(q_up) or checker.leaving(q_up if picking else q_back)
-    if touch is not None:
-        return touch, None
-    return checker.ready(back if picking else up, q_back if picking else q_up)
+    first, last = (back, up) if picking else (up, back)
+    touch = checker.lifted(up[1]) or checker.leaving(last[1])
+    return (touch, None) if touch is not None else checker.ready(*first)
 
 
 @dataclass(frozen=True, slots=True)

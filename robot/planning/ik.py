@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from robot.planning import numerics
 from robot.planning.numerics import Mask
 from robot.se3 import Array
 
@@ -200,7 +201,7 @@ class Chain:
         """Smallest singular value of the Jacobian in metres and radians / 2, shape (n,)."""
         _, at, axes, anchors = self._sweep(q)
         jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), 0.5 * axes], axis=2)
-        return np.linalg.svd(jacobian, compute_uv=False)[:, -1]
+        return numerics.smallest_singular_values(jacobian)
 
 
 def _damped_step(transposed: Array, error: Array, pull: Array, gain: Array | None = None) -> Array:
@@ -211,7 +212,8 @@ def _damped_step(transposed: Array, error: Array, pull: Array, gain: Array | Non
     normal = jacobian @ transposed + damping[:, None, None] * np.eye(6)
     follow = np.minimum(0.05, np.sqrt(squared))[:, None] if gain is None else gain
     wanted = error - (jacobian @ (follow * pull)[..., None])[..., 0]
-    change = (transposed @ np.linalg.solve(normal, wanted[..., None]))[..., 0] + follow * pull
+    solved = numerics.solve_all(normal, wanted)
+    change = (transposed @ solved[..., None])[..., 0] + follow * pull
     largest = np.max(np.abs(change), axis=1, keepdims=True)
     return change * np.minimum(1.0, STEP_LIMIT_RAD / np.maximum(largest, 1e-9))
 

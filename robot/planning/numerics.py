@@ -60,3 +60,15 @@ def turn_between(first: Array, last: Array) -> Array:
 def turned(first: Array, turn: Array) -> Array:
     """A rotation matrix turned by axis times angle in its own frame."""
     return first @ Rotation.from_rotvec(turn).as_matrix()
+
+
+def solve_all(matrices: Array, right: Array) -> Array:
+    """X of A x = b for many A (n, k, k) and b (n, k)."""
+    result: Any = np.linalg.solve(matrices, right[..., None])
+    return result[..., 0]
+
+
+def smallest_singular_values(matrices: Array) -> Array:
+    """Of many matrices (n, k, m), shape (n,)."""
+    result: Any = np.linalg.svd(matrices, compute_uv=False)
+    return result[:, -1]

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from robot.messages import Side
+from robot.planning import numerics
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
 from robot.planning.numerics import Indices, Mask
@@ -30,11 +32,11 @@ ARM_ROOM_M = 0.42
 TIGHT_COST = 0.25
 """Cost of a standoff that has only room for the body."""
 CHUNK = 6000
-REACH_M = 0.38
-"""Ahead of the feet; further out the trunk leans, or the arm is stretched [m]."""
+FAR_M, FAR_COST_PER_M = 0.32, 1.5
+"""Further ahead of the feet the arm is stretched, which costs so much a metre [m]."""
 ASIDE_M = (0.06, 0.13, 0.20, 0.27, 0.34)
-BEST_ASIDE_M = 0.20
-TURNS_RAD = (-0.4, 0.0, 0.4)
+BEST_ASIDE_M, ASIDE_COST_PER_M = 0.20, 0.8
+TURNS_RAD, TURN_COST_PER_RAD = (-0.4, 0.0, 0.4), 0.12
 SHARE_PER_M = 0.06
 """Cost of walking a metre."""
 JITTER = 0.12
@@ -146,15 +148,17 @@ def propose(
         reference_cost: cost of each reference, shape (m,).
         seed: of the spread.
     """
-    parts = [
-        _local(options, option, references, reference, side, lean)
-        for side in sides
-        for lean in range(len(LEANS))
-        for option in range(len(options))
-        for reference in range(len(references))
-    ]
-    stance, heading, cost = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    tags = np.concatenate([part[3] for part in parts])
+    stances: list[Array] = []
+    headings: list[Array] = []
+    costs: list[Array] = []
+    kinds: list[Indices] = []
+    for side, (i, lean), (j, option), (k, reference) in product(
+        sides, enumerate(LEANS), enumerate(options), enumerate(references)
+    ):
+        _around(option, reference, side, lean, into=(stances, headings, costs))
+        kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
+    stance, heading, cost = (np.concatenate(part) for part in (stances, headings, costs))
+    tags = np.concatenate(kinds)
     total = len(cost)
     walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
     cost = cost + reference_cost[tags[:, 1]] + SHARE_PER_M * walk
@@ -204,42 +208,42 @@ def _within(kinds: Indices, left: Indices) -> Mask:
     return result
 
 
-def _local(
-    options: list[HandOption], option: int, references: Array, reference: int, side: Side, lean: int
-) -> tuple[Array, Array, Array, Indices]:
-    """Stances (n, 3), hand headings (n,), costs (n,), tags (n, 4) of one combination."""
-    choice, posture = options[option], LEANS[lean]
+def _around(
+    option: HandOption,
+    reference: Array,
+    side: Side,
+    lean: Lean,
+    *,
+    into: tuple[list[Array], list[Array], list[Array]],
+) -> None:
+    """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
-    ahead, aside, turn = (
-        values.ravel() for values in np.meshgrid(posture.ahead_m, ASIDE_M, TURNS_RAD, indexing="ij")
-    )
-    natural = -sign * (0.75 - 3.0 * aside) * (0.5 if posture.pitch_rad else 1.0)
-    beta = natural + turn
-    if choice.headings is None:
-        yaws = np.arange(HEADINGS) * (2 * math.pi / HEADINGS)
-        yaw = np.repeat(yaws, len(beta))
-        heading = yaw + np.tile(beta, HEADINGS)
+    grid = np.array(list(product(lean.ahead_m, ASIDE_M, TURNS_RAD)))
+    natural = -sign * (0.75 - 3.0 * grid[:, 1]) * (0.5 if lean.pitch_rad else 1.0)
+    beta = natural + grid[:, 2]
+    if option.headings is None:
         repeats = HEADINGS
+        yaw = np.repeat(numerics.even(0.0, 2 * math.pi, HEADINGS + 1)[:-1], len(beta))
+        heading = yaw + np.tile(beta, repeats)
     else:
-        heading = np.repeat(np.array(choice.headings), len(beta))
-        repeats = len(choice.headings)
+        repeats = len(option.headings)
+        heading = np.repeat(np.array(option.headings), len(beta))
         yaw = heading - np.tile(beta, repeats)
-    ahead, aside, turn = (np.tile(values, repeats) for values in (ahead, aside, turn))
-    ch, sh = np.cos(heading), np.sin(heading)
-    px = references[reference, 0] + ch * choice.offset[0] - sh * choice.offset[1]
-    py = references[reference, 1] + sh * choice.offset[0] + ch * choice.offset[1]
-    c, s = np.cos(yaw), np.sin(yaw)
+    ahead, aside, turn = np.tile(grid, (repeats, 1)).T
+    ch, sh, c, s = np.cos(heading), np.sin(heading), np.cos(yaw), np.sin(yaw)
+    px = reference[0] + ch * option.offset[0] - sh * option.offset[1]
+    py = reference[1] + sh * option.offset[0] + ch * option.offset[1]
     y = sign * aside
-    stance = np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1)
-    cost = (
-        choice.cost
-        + posture.cost
-        + 1.5 * np.maximum(0.0, ahead - REACH_M + 0.06) * (posture.pitch_rad == 0.0)
-        + 0.8 * np.abs(aside - BEST_ASIDE_M)
-        + 0.12 * np.abs(turn)
+    far = np.maximum(0.0, ahead - FAR_M) if lean.pitch_rad == 0.0 else 0.0
+    into[0].append(np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1))
+    into[1].append(heading)
+    into[2].append(
+        option.cost
+        + lean.cost
+        + FAR_COST_PER_M * far
+        + ASIDE_COST_PER_M * np.abs(aside - BEST_ASIDE_M)
+        + TURN_COST_PER_RAD * np.abs(turn)
     )
-    tags = np.tile([option, reference, lean, int(side == "left")], (len(cost), 1))
-    return stance, heading, cost, tags
 
 
 class _Standoffs:
