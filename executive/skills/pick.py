@@ -57,9 +57,10 @@ class Pick(ScriptedSkill):
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""
         body = self.body
         info = body.object_info(self.parameters.object_id)
-        if self._check_hands(info):
-            return
+        held_already = self._check_hands(info)
         yield from stow_arms(body)
+        if held_already:
+            return
         yield from find(body, info.id)
         plan = yield from self._plan(info)
         body.progress = 0.1

@@ -14,7 +14,7 @@ from executive.skills.parameters import PlaceParams
 from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import HOME
+from executive.skills.stowing import HOME, stow_arms
 from executive.skills.support import surroundings, tilt
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place
@@ -56,6 +56,7 @@ class PutDown(ScriptedSkill):
             raise give_up("not_holding", f"no hand holds the {info.name}", object=info.id)
         check_grips(body)
         place = self._place()
+        yield from stow_arms(body)
         plan = yield from self._plan(place, held)
         body.progress = 0.1
         yield from approach(body, plan, what=place.name)

@@ -231,6 +231,16 @@ def test_what_is_held_already_need_not_be_picked(stage):
     assert len(stage.puppet.sent) == sent
 
 
+def test_a_pick_stopped_with_the_object_in_hand_goes_on_from_there(stage):
+    stage.run(CUP, until_phase="straightening")
+    stage.stop()
+    assert stage.puppet.X_WS.p[0] > 1.4
+    assert stage.run(CUP).status == "succeeded"
+    held = stage.context.holdings.find("cup")
+    indices = stage.puppet.description.indices("right_arm")
+    assert [stage.puppet.q_rad[i] for i in indices] == pytest.approx(held.carry_rad)
+
+
 def test_an_unknown_object_moves_nothing(stage):
     report = stage.run(PickParams(object_id="unicorn"))
     assert report.failure.code == "unknown_object"
