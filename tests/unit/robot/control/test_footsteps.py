@@ -145,7 +145,7 @@ def test_two_steps_of_a_steady_twist_advance_as_asked(planner, twist):
     moved = math.dist((before.x, before.y), (after.x, after.y))
     assert math.isclose(turned, twist.turn_rad_s * pair_s, abs_tol=1e-6)
     asked = math.hypot(twist.forward_m_s, twist.left_m_s) * pair_s
-    assert moved == pytest.approx(asked, rel=0.15, abs=0.01)
+    assert moved == pytest.approx(asked, rel=0.15, abs=0.02)  # feet that turn apart
 
 
 @given(stances, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), headings)
