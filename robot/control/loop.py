@@ -11,6 +11,7 @@ import math
 import mujoco
 import numpy as np
 
+from robot.control import screening
 from robot.control.arm import Arm
 from robot.control.hand import HandControl
 from robot.control.head import Head
@@ -140,7 +141,10 @@ class ControlLoop:
         """Take one command; `state().activities` answers with its id."""
         if not self._started:
             return
-        if isinstance(command, Damp):
+        refusal = screening.problem(command)
+        if refusal:
+            self._refuse(command, refusal)
+        elif isinstance(command, Damp):
             self.mode = "damping"
             self._damp_activity = Activity(id=command.id, status="done")
         elif isinstance(command, Payload):
@@ -156,6 +160,23 @@ class ControlLoop:
             self.arms[command.side].reach(command, X_NG, self.hands[command.side].load_n)
         else:
             self._move(command)
+
+    def _refuse(self, command: BodyCommand, why: str) -> None:
+        """Answer a command that cannot be meant; what the body does goes on."""
+        failed = Activity(id=command.id, status="failed", detail=why)
+        channel = screening.channel(command)
+        if channel == "head":
+            self.head.activity = failed
+        elif channel == "legs":
+            self.legs.activity = failed
+        elif channel.endswith("_arm"):
+            self.arms["left" if channel == "left_arm" else "right"].activity = failed
+        else:
+            self.hands["left" if channel == "left_hand" else "right"].activity = failed
+
+    def trip(self, why: str) -> None:
+        """Damp from the next tick on, until a Stand arms the motors again."""
+        self.limits.tripped = why
 
     def _move(self, command: Stand | OneLeg | Walk | WalkTo) -> None:
         """A command to the legs: refused while down."""
@@ -185,7 +206,7 @@ class ControlLoop:
 
     def _carry(self, side: Side, mass_kg: float) -> None:
         """Put a payload at the grasp point of a hand into the model."""
-        self._payload[side] = max(0.0, mass_kg)
+        self._payload[side] = mass_kg
         model = self.body.model
         model.body_mass[:] = self._nominal_mass
         model.body_ipos[:] = self._nominal_ipos

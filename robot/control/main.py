@@ -30,7 +30,7 @@ def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: 
             continue
         stamp_s = state.stamp_s
         if (pause_s := lateness.tick(clock.now_s())) > PAUSE_S:
-            loop.limits.tripped = f"the controller stood still for {pause_s:.2f} s"
+            loop.trip(f"the controller stood still for {pause_s:.2f} s")
         for command in commands.take():
             loop.handle(command)
         motors.write(loop.tick(state))

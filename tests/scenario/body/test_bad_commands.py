@@ -8,8 +8,6 @@ from benchmarks.rig import Rig
 from robot.messages import Grip, Look, MoveArm, MoveHand, OneLeg, Payload, Stand, Walk, WalkTo
 from robot.se3 import SE3
 
-pytestmark = pytest.mark.xfail(strict=False, reason="the controller does not check them yet")
-
 NAN = math.nan
 BAD = [
     ("legs", Stand, {"height_m": NAN}),

@@ -1,0 +1,41 @@
+"""Commands that cannot be meant are refused before they touch anything."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, cast
+
+import msgspec
+
+from robot.messages import BodyCommand, Channel, Grip, Look, MoveArm, MoveHand, Payload
+
+MAX_PAYLOAD_KG = 3.0
+
+
+def problem(command: BodyCommand) -> str:
+    """Why a command is refused, empty if it is not."""
+    if not _finite(msgspec.to_builtins(command)):
+        return "a number in the command is not finite"
+    if isinstance(command, Payload) and not 0.0 <= command.mass_kg <= MAX_PAYLOAD_KG:
+        return f"a hand carries 0 to {MAX_PAYLOAD_KG:g} kg"
+    return ""
+
+
+def channel(command: BodyCommand) -> Channel:
+    """The channel whose activity answers a command."""
+    if isinstance(command, Grip | Payload):
+        return "left_hand" if command.side == "left" else "right_hand"
+    if isinstance(command, MoveArm | MoveHand):
+        return "left_arm" if command.side == "left" else "right_arm"
+    return "head" if isinstance(command, Look) else "legs"
+
+
+def _finite(value: Any) -> bool:
+    if isinstance(value, float):
+        return math.isfinite(value)
+    if isinstance(value, dict):
+        return all(_finite(one) for one in cast("dict[Any, Any]", value).values())
+    if isinstance(value, list | tuple):
+        return all(_finite(one) for one in cast("Iterable[Any]", value))
+    return True
