@@ -19,9 +19,9 @@ from robot.errors import RobotError
 MIN_FREE_MB = 200
 EGL_PACKAGES = "sudo apt install libegl1 libgl1-mesa-dri libopengl0"
 LIBRARIES = {
-    "mujoco": "mujoco", "mink": "mink", "daqp": "daqp", "ompl": "ompl", "ruckig": "ruckig",
+    "mujoco": "mujoco", "daqp": "daqp", "ompl": "ompl",
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
-    "scipy": "scipy", "typer": "typer", "rich": "rich", "prompt_toolkit": "prompt-toolkit",
+    "scipy": "scipy", "typer": "typer", "rich": "rich",
     "ruamel.yaml": "ruamel.yaml", "rapidfuzz": "rapidfuzz",
 }  # fmt: skip
 """Module to distribution."""
