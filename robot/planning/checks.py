@@ -23,11 +23,13 @@ if TYPE_CHECKING:
 STAND_CLEARANCE_M = 0.03
 APPROACH_CLEARANCE_M = 0.012
 TOUCH_CLEARANCE_M = 0.004
+LEAN_CLEARANCE_M = 0.02
 SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
 RAISE_M = (0.10, 0.06, 0.03, 0.0)
 PULL_M = (0.0, 0.06, 0.12, 0.18)
 STEP_M = 0.05
 REACH_UPRIGHT_M = 0.36
+END = "the end of its reach"
 
 
 class Checker:
@@ -99,22 +101,28 @@ class Checker:
         The hand is raised and pulled back by what is free; the trunk is upright, and leans only
         at the stance.
         """
-        scene, finger = self._before()
         upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
         x, y, yaw = self.candidate.stance_of(0)
         forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
         ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
-        pulls = [max(0.0, ahead - REACH_UPRIGHT_M) + pull for pull in PULL_M]
-        grid = [(raised, pull) for pull in pulls for raised in RAISE_M]
-        p = np.stack([target.p[0] + [0, 0, raised] - pull * forward for raised, pull in grid])
-        row = np.zeros(len(grid), dtype=int)
-        targets = Targets(target.R[row], p)
-        q0 = np.tile(q_near, (len(grid), 1))
-        reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
-        touch: str | None = "the end of its reach"
+        row = np.zeros(len(RAISE_M), dtype=int)
+        touch: str | None = END
+        for pull in PULL_M:
+            back = (max(0.0, ahead - REACH_UPRIGHT_M) + pull) * forward
+            p = np.stack([target.p[0] + [0, 0, raised] - back for raised in RAISE_M])
+            targets, q0 = Targets(target.R[row], p), np.tile(q_near, (len(p), 1))
+            reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
+            touch, q_ready = self._raised(reached.q[reached.ok])
+            if q_ready is not None:
+                return None, q_ready
+        return touch, None
+
+    def _raised(self, raised: Array) -> tuple[str | None, Array | None]:
+        """The first of some joints, shape (n, k), with room on the way in; else with less room."""
+        scene, finger = self._before()
+        touch: str | None = END
         for clearance in SWEEP_CLEARANCE_M:
-            for i in np.flatnonzero(reached.ok).tolist():
-                q = reached.q[i]
+            for q in raised:
                 touch = self._sweep(scene, q, finger, clearance)
                 touch = touch or self._leaning(scene, q, finger)
                 if touch is None:
@@ -193,7 +201,7 @@ class Checker:
             return None
         for share in (0.35, 0.7, 1.0):
             touch = self._touch(
-                scene, q, finger, share=share, clearance_m=TOUCH_CLEARANCE_M, rest=True
+                scene, q, finger, share=share, clearance_m=LEAN_CLEARANCE_M, rest=True
             )
             if touch is not None:
                 return touch

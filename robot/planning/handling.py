@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -25,7 +25,7 @@ from robot.messages import Shape, Side
 from robot.model.body import SIDES
 from robot.planning import reach
 from robot.planning.body import Body
-from robot.planning.checks import Checker
+from robot.planning.checks import END, Checker
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
 from robot.planning.numerics import Mask
@@ -41,13 +41,12 @@ DEPTH = 8
 WOBBLE_COST = 1.0
 GOOD = 0.25
 """A score that ends the search."""
-ENOUGH = 4
-"""So many that pass and bear every wobble end the search, too; or four times as many that pass."""
+PATIENCE = 4
+"""So many groups are looked at, at most, from the first that has a good candidate."""
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
 LIFT_GAIN = 0.05
 """A lower lift must score better by this."""
-END = "the end of its reach"
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +75,15 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A candidate that passed: row 0 of every array is it."""
+    """A candidate that passed: row 0 of every array is it.
+
+    Attributes:
+        q_main, q_back, q_up: joints of the arm at those poses.
+        q_ready: with the hand raised, for stepping in.
+        margin: 0 to 1, of reach and joint limits at all poses.
+        steadiness: share of small errors of the stance under which all are still reached.
+        score: margin and steadiness less all costs.
+    """
 
     side: Side
     candidate: Candidates
@@ -90,15 +97,22 @@ class Choice:
     q_ready: Array
     margin: float
     steadiness: float
+    score: float
 
 
 @dataclass(slots=True)
 class Tally:
-    """Why candidates failed."""
+    """The best so far, and why other candidates failed."""
 
+    best: Choice | None = None
     short_m: float = np.inf
     reached: int = 0
     touched: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def score(self) -> float:
+        """Of the best so far."""
+        return -np.inf if self.best is None else self.best.score
 
 
 def search(
@@ -116,28 +130,27 @@ def search(
         seed=seed,
     )
     tally = Tally()
-    best: tuple[float, Choice] | None = None
-    passed = steady = 0
     for first in range(0, len(candidates), BATCH):
         rows = np.arange(first, min(first + BATCH, len(candidates)))
-        for score, choice in _passing(body, job, candidates.take(rows), tally):
-            if best is None or score > best[0]:
-                best = (score, choice)
-            passed += 1
-            steady += choice.steadiness == 1.0
-            if best[0] >= GOOD or steady >= ENOUGH or passed >= 4 * ENOUGH:
-                return best[1]
-        if best is not None and steady:
-            return best[1]
-    if best is not None:
-        return best[1]
-    return _explain(job, floor, len(candidates), total, tally)
+        patience = PATIENCE
+        for choice in _passing(body, job, candidates.take(rows), tally):
+            if choice is not None and choice.score > tally.score:
+                tally.best = choice
+            best = tally.best
+            if best is not None and best.steadiness == 1.0:
+                patience -= 1
+                if best.score >= GOOD or not patience:
+                    return best
+        if tally.best is not None and tally.best.steadiness == 1.0:
+            return tally.best
+    return tally.best or _explain(job, floor, len(candidates), total, tally)
 
 
-def _passing(
-    body: Body, job: Job, batch: Candidates, tally: Tally
-) -> Iterator[tuple[float, Choice]]:
-    """Score and choice of those in a batch that pass everything, likeliest first (lazily)."""
+def _passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[Choice | None]:
+    """Those of a batch that pass everything and are better than the best so far, likeliest first.
+
+    Lazily; None for each group of candidates in which there is none.
+    """
     ranked: list[_Entry] = []
     for side in SIDES:
         some = batch.take(np.flatnonzero(batch.left == (side == "left")))
@@ -157,7 +170,7 @@ def _passing(
             for side in SIDES:
                 group = [entry for entry in waiting if entry.side == side]
                 if group:
-                    yield from _closely(body, job, checker, group, tally)
+                    yield _closely(body, job, checker, group, tally=tally)
             waiting = []
 
 
@@ -173,14 +186,19 @@ class _Entry:
 
 
 def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally) -> list[_Entry]:
-    """Those of one hand whose main pose is reached."""
+    """Those of one hand whose main pose and back are reached."""
     arm = body.arms[side]
     main = reach.targets_of(some, job.options, job.references)
-    reached = reach.first_reach(body, arm, reach.trunks_of(body, side, some), main)
+    trunks = reach.trunks_of(body, side, some)
+    reached = reach.first_reach(body, arm, trunks, main)
     tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
     ok = np.flatnonzero(reached.ok)
     tally.reached += len(ok)
     q = arm.chain.relax(reached.q[ok])
+    back = _backs(job, some, main).take(ok)
+    there = reach.reach(arm, trunks.take(ok), back, q, iterations=12).ok
+    tally.touched[END] += int(np.sum(~there))
+    ok, q = ok[there], q[there]
     score = reach.margins(arm, q) - some.cost[ok]
     return [
         _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, int(i)), q[k])
@@ -188,12 +206,18 @@ def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally)
     ]
 
 
+def _backs(job: Job, candidates: Candidates, main: Targets) -> Targets:
+    """Where the hand comes from, or goes to, without the object."""
+    chosen: list[int] = candidates.option.tolist()
+    return main.moved(along_m=np.array([-job.options[option].back_m for option in chosen]))
+
+
 def _closely(
-    body: Body, job: Job, checker: Checker, group: list[_Entry], tally: Tally
-) -> Iterator[tuple[float, Choice]]:
-    """Those of a group (of one hand) that also pass at all other poses, each with its best lift."""
-    arm = body.arms[group[0].side]
+    body: Body, job: Job, checker: Checker, group: list[_Entry], *, tally: Tally
+) -> Choice | None:
+    """The best of a group (of one hand) that passes at all poses and beats the best so far."""
     poses = _all_poses(body, job, group)
+    best: Choice | None = None
     for i, entry in enumerate(group):
         q_main, q_middle, q_back = (poses.q[k, i] for k in range(3))
         turned = float(np.max(np.abs(q_back - q_main)))
@@ -202,47 +226,57 @@ def _closely(
             continue
         checker.prepare(entry.candidate, entry.side, entry.main)
         touch = checker.on_line(q_middle, q_back)
-        best: tuple[float, Choice] | None = None
-        lifts = [k for k in range(3, len(poses.targets)) if poses.met[k, i]]
-        for k in lifts if touch is None else ():
-            steady = float(poses.steady[k, i])
-            margin = float(np.min(reach.margins(arm, poses.q[[0, 2, k], i])))
-            score = margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady)
-            if best is not None and score < best[0] + LIFT_GAIN:
+        for k in range(3, len(poses.targets)) if touch is None else ():
+            if not poses.met[k, i]:
                 continue
-            back, up = (poses.targets[n].take(np.array([i])) for n in (2, k))
-            touch, q_ready = _there_and_away(
-                checker, (back, q_back), (up, poses.q[k, i]), picking=job.kind == "pick"
-            )
+            draft = _draft(body, job, entry, poses, (i, k))
+            worst = max(tally.score, best.score if best else -np.inf)
+            if draft.score <= worst + (
+                LIFT_GAIN if best and best.candidate is draft.candidate else 0
+            ):
+                continue
+            touch, q_ready = _there_and_away(checker, draft, picking=job.kind == "pick")
             if q_ready is not None:
-                choice = Choice(
-                    side=entry.side,
-                    candidate=entry.candidate,
-                    option=job.options[int(entry.candidate.option[0])],
-                    main=entry.main,
-                    back=back,
-                    up=up,
-                    q_main=q_main,
-                    q_back=q_back,
-                    q_up=poses.q[k, i],
-                    q_ready=q_ready,
-                    margin=margin * steady,
-                    steadiness=steady,
-                )
-                best = (score, choice)
-        if best is None:
-            tally.touched[touch or END] += 1
-        else:
-            yield best
+                best = replace(draft, q_ready=q_ready)
+        if touch is not None:
+            tally.touched[touch] += 1
+    return best
+
+
+def _draft(body: Body, job: Job, entry: _Entry, poses: _Poses, at: tuple[int, int]) -> Choice:
+    """The choice of a candidate (its index in the group, the lift's in the poses) if it passes."""
+    i, k = at
+    steady = float(poses.steady[k, i])
+    margin = float(np.min(reach.margins(body.arms[entry.side], poses.q[[0, 2, k], i])))
+    return Choice(
+        side=entry.side,
+        candidate=entry.candidate,
+        option=job.options[int(entry.candidate.option[0])],
+        main=entry.main,
+        back=_row(poses.targets[2], i),
+        up=_row(poses.targets[k], i),
+        q_main=poses.q[0, i],
+        q_back=poses.q[2, i],
+        q_up=poses.q[k, i],
+        q_ready=poses.q[k, i],
+        margin=margin * steady,
+        steadiness=steady,
+        score=margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady),
+    )
 
 
 def _there_and_away(
-    checker: Checker, back: tuple[Targets, Array], up: tuple[Targets, Array], *, picking: bool
+    checker: Checker, draft: Choice, *, picking: bool
 ) -> tuple[str | None, Array | None]:
     """What is touched with the object raised, leaving, or arriving; and the ready joints."""
-    first, last = (back, up) if picking else (up, back)
-    touch = checker.lifted(up[1]) or checker.leaving(last[1])
-    return (touch, None) if touch is not None else checker.ready(*first)
+    touch = checker.lifted(draft.q_up)
+    if touch is None:
+        touch = checker.leaving(draft.q_up if picking else draft.q_back)
+    if touch is not None:
+        return touch, None
+    if picking:
+        return checker.ready(draft.back, draft.q_back)
+    return checker.ready(draft.up, draft.q_up)
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,9 +303,8 @@ def _all_poses(body: Body, job: Job, group: list[_Entry]) -> _Poses:
     candidates = _join([entry.candidate for entry in group])
     trunks = reach.trunks_of(body, side, candidates)
     main = reach.targets_of(candidates, job.options, job.references)
-    chosen: list[int] = candidates.option.tolist()
-    back_m = np.array([-job.options[option].back_m for option in chosen])
-    targets = [main, main.moved(along_m=0.5 * back_m), main.moved(along_m=back_m)]
+    back = _backs(job, candidates, main)
+    targets = [main, Targets(main.R, 0.5 * (main.p + back.p)), back]
     targets += [main.moved(up_m=lift) for lift in job.lifts_m]
     probed = [0, 2, *range(3, len(targets))]
     off = [trunks.wobbled(error) for error in reach.WOBBLE]
