@@ -19,7 +19,7 @@ from robot.se3 import Array
 STEP_LIMIT_RAD = 0.4
 """Largest change of a joint in one iteration [rad]."""
 RELAX_GAIN = 0.25
-STALL_STEPS, STALL_SHARE = 6, 0.7
+STALL_STEPS, STALL_SHARE = 4, 0.6
 """A target is given up when so many iterations leave more than this share of the error."""
 
 
