@@ -63,8 +63,9 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
         if blocker is None:
             yield from step_to(body, goal)
             return
-        body.phase = f"stopping for {blocker.name}"
+        words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
+        body.phase = words
     assert blocker is not None
     raise give_up(
         "path_blocked",

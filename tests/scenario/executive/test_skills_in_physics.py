@@ -18,6 +18,8 @@ from executive.skills.support import tilt
 from robot.bringup.fast import FastRuntime
 from robot.model.description import load
 from robot.planning.inline import InlinePlanner
+from robot.se3 import SE3
+from sim import faults
 
 JUNO = load("juno")
 TICK_S = 0.05
@@ -28,14 +30,16 @@ def planner():
     return InlinePlanner(JUNO)
 
 
-def carry_out(runtime, context, parameters, *, limit_s=180.0):
-    """Run one skill to its end; the report."""
+def carry_out(runtime, context, parameters, *, limit_s=180.0, each_tick=None):
+    """Run one skill to its end; the report. `each_tick` is called with the phase."""
     skill = make(parameters, context)
     skill.start(runtime.clock.now_s())
     end_s = runtime.clock.now_s() + limit_s
     while runtime.clock.now_s() < end_s:
         runtime.advance(TICK_S)
         report = skill.step(runtime.clock.now_s())
+        if each_tick is not None:
+            each_tick(report.phase)
         if report.status != "running":
             return report
     raise AssertionError(f"still {report.phase!r} after {limit_s} s")
@@ -92,3 +96,42 @@ def test_a_cup_is_picked_from_the_table_and_put_on_the_shelf(planner):
         assert tilt(cup) < 0.1
         assert runtime.link.body().mode == "stand"
         assert context.holdings.all() == ()
+
+
+@pytest.mark.slow
+def test_somebody_in_the_way_is_walked_around(planner):
+    with FastRuntime("kitchen", seed=4) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO)
+        phases = []
+
+        def step_in(phase):
+            phases.append(phase)
+            if len(phases) == 60:
+                anna = faults.Move(target="anna", X_WO=SE3.from_xy_yaw(0.6, -1.5, math.pi))
+                faults.apply(runtime.plant, anna)
+
+        goal = NavigateParams(pose=FloorPose(x_m=2.3, y_m=-1.5, yaw_rad=0.0))
+        report = carry_out(runtime, context, goal, each_tick=step_in)
+        assert report.status == "succeeded", report
+        assert "stopping for something in the way" in phases
+        assert math.dist(stance(runtime).p[:2], (2.3, -1.5)) < 0.03
+
+
+@pytest.mark.slow
+def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
+    with FastRuntime("kitchen", seed=4) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO)
+        pulled = []
+
+        def pull(phase):
+            if "stepping back" in phase and not pulled:
+                pulled.append(phase)
+                down = faults.Push(impulse_n_s=(0.0, 0.0, -6.0), target="red_cup")
+                faults.apply(runtime.plant, down)
+
+        report = carry_out(runtime, context, PickParams(object_id="red_cup"), each_tick=pull)
+        assert report.failure.code == "object_dropped"
+        assert context.holdings.all() == ()
+        assert runtime.link.body().mode == "stand"
