@@ -44,9 +44,7 @@ MESSAGES = [
     (topics.DEPTH, DepthImage(stamp_s=1.0, width=2, height=1, fovy_rad=1.0, depth_m=b"12345678")),
     (
         topics.LIDAR,
-        LidarScan(
-            stamp_s=1.0, angle_min_rad=-3.14, angle_step_rad=0.1, ranges_m=(1.0, math.inf)
-        ),
+        LidarScan(stamp_s=1.0, angle_min_rad=-3.14, angle_step_rad=0.1, ranges_m=(1.0, math.inf)),
     ),
     (
         topics.WORLD_STATE,

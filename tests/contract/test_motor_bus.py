@@ -42,9 +42,7 @@ def shared(tmp_path: Path) -> Device:
         plant.step(2)
         server.publish(plant.read())
 
-    driver = SharedMotors(
-        tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock
-    )
+    driver = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
     return Device(driver, plant, period)
 
 
