@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import time
 from collections import Counter, defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -47,6 +48,7 @@ from robot.se3 import SE3
 STANCE_ERROR_M, STANCE_ERROR_RAD = 0.015, 0.026
 OBJECT_ERROR_M = 0.005
 EDGE_M = 0.03
+APART_M = 0.14
 LINE_STEPS = 6
 app = typer.Typer(add_completion=False)
 
@@ -115,7 +117,7 @@ class Robot:
         arm = self.body.arms[side]
         X_WT = SE3.from_xy_yaw(*self.stance) @ self._standing().X_ST[side]
         q = np.array([self.arms[side]])
-        rotation, position = arm.chain.forward(q)
+        _, position = arm.chain.forward(q)
         goal = X_WT.inverse() @ X_WG
         for share in np.linspace(0.0, 1.0, LINE_STEPS + 1)[1:].tolist():
             at = (1 - share) * position + share * np.array(goal.p)
@@ -132,10 +134,10 @@ def move(
     study: Study,
     name: str,
     robot: Robot,
+    *,
     side: Side,
     goal: SE3 | Joints,
     around: Surroundings,
-    *,
     held: Held | None = None,
     near: Joints | None = None,
 ) -> None:
@@ -173,23 +175,30 @@ def pick(study: Study, robot: Robot, thing: ObjectPose, others: tuple[ObjectPose
     side = plan.side
     robot.stance = study.off(plan.standoff)
     robot.openings[side] = 0.1
-    move(study, "ready", robot, side, plan.ready_rad, around)
+    move(study, "ready", robot, side=side, goal=plan.ready_rad, around=around)
     robot.stance, robot.posture = study.off(plan.stance), plan.posture
     jitter = study.rng.uniform(-OBJECT_ERROR_M, OBJECT_ERROR_M, 2).tolist()
     seen = SE3((thing.X_WO.p[0] + jitter[0], thing.X_WO.p[1] + jitter[1], thing.X_WO.p[2]))
     X_OW = seen @ SE3(quat_wxyz=thing.X_WO.quat_wxyz) @ thing.X_WO.inverse()
-    move(study, "pre-grasp", robot, side, X_OW @ plan.X_WG_pre, around, near=plan.pre_rad)
+    X_WG_pre = X_OW @ plan.X_WG_pre
+    move(study, "pre-grasp", robot, side=side, goal=X_WG_pre, around=around, near=plan.pre_rad)
     robot.line(side, X_OW @ plan.X_WG_grasp)
     robot.openings[side] = plan.opening_m
     robot.line(side, X_OW @ plan.X_WG_lift)
     robot.stance, robot.posture = study.off(plan.standoff), UPRIGHT
     held = Held(id=thing.id, shape=thing.shape, X_GO=plan.X_OG.inverse())
-    move(study, "carry", robot, side, plan.carry_rad, without, held=held)
+    move(study, "carry", robot, side=side, goal=plan.carry_rad, around=without, held=held)
     return plan
 
 
 def place(
-    study: Study, robot: Robot, on: Place, held: Held, side: Side, others: tuple[ObjectPose, ...]
+    study: Study,
+    robot: Robot,
+    on: Place,
+    *,
+    held: Held,
+    side: Side,
+    others: tuple[ObjectPose, ...] = (),
 ) -> None:
     """A whole place; the robot ends at the standoff with its arm in the posture it stands in."""
     around = Surroundings(map=study.map, objects=others)
@@ -203,9 +212,10 @@ def place(
         "path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around, seed=seed)
     )
     robot.stance = study.off(plan.standoff)
-    move(study, "ready", robot, side, plan.ready_rad, around, held=held)
+    move(study, "ready", robot, side=side, goal=plan.ready_rad, around=around, held=held)
     robot.stance, robot.posture = study.off(plan.stance), plan.posture
-    move(study, "pre-place", robot, side, plan.X_WG_pre, around, held=held, near=plan.pre_rad)
+    X_WG_pre, near = plan.X_WG_pre, plan.pre_rad
+    move(study, "pre-place", robot, side=side, goal=X_WG_pre, around=around, held=held, near=near)
     robot.line(side, plan.X_WG_release)
     robot.openings[side] = 0.1
     robot.line(side, plan.X_WG_retreat)
@@ -216,13 +226,13 @@ def place(
         study,
         "home",
         robot,
-        side,
-        tuple(home.tolist()),
-        Surroundings(map=study.map, objects=(*others, put)),
+        side=side,
+        goal=tuple(home.tolist()),
+        around=Surroundings(map=study.map, objects=(*others, put)),
     )
 
 
-def attempt(study: Study, name: str, chain) -> bool:  # noqa: ANN001
+def attempt(study: Study, name: str, chain: Callable[[], object]) -> bool:
     """Run a chain; keep whether it held, or where it broke."""
     study.tried[name] += 1
     try:
@@ -244,6 +254,16 @@ def somewhere(study: Study, info: ObjectInfo, on: Place) -> ObjectPose:
     return ObjectPose(id=info.id, shape=info.shape, X_WO=X_WO)
 
 
+def beside(study: Study, thing: ObjectPose, on: Place) -> ObjectPose:
+    """Another object on the same place, `APART_M` from the thing at least (middle to middle)."""
+    others = [info for info in study.map.objects if info.id != thing.id]
+    info = others[int(study.rng.integers(len(others)))]
+    while True:
+        other = somewhere(study, info, on)
+        if math.dist(other.X_WO.p[:2], thing.X_WO.p[:2]) >= APART_M:
+            return other
+
+
 def start_stance(map: WorldMap) -> Stance:
     """Where the robot begins."""
     return (map.start_X_WS.p[0], map.start_X_WS.p[1], map.start_X_WS.yaw_rad)
@@ -256,6 +276,8 @@ def main(
     picks: Annotated[int, typer.Option(help="random poses of each object on the table")] = 100,
     places: Annotated[int, typer.Option(help="runs on each surface")] = 20,
     on: Annotated[str, typer.Option(help="where objects are picked from")] = "table",
+    clutter: Annotated[int, typer.Option(help="other things on the surface")] = 1,
+    object_id: Annotated[str, typer.Option(help="only this object")] = "",
     seed: Annotated[int, typer.Option()] = 0,
 ) -> None:
     """Study how many picks and places have a whole chain of plans."""
@@ -264,14 +286,19 @@ def main(
     surfaces = [place for place in study.map.places if not place.floor]
     source = next(place for place in surfaces if place.id == on)
     for info in study.map.objects:
+        if object_id not in ("", info.id):
+            continue
         held_by: list[PickPlan] = []
         for _ in range(picks):
             robot = Robot(solver.body, start_stance(study.map))
             thing = somewhere(study, info, source)
+            others = tuple(beside(study, thing, source) for _ in range(clutter))
             attempt(
                 study,
                 f"pick {info.id} from {on}",
-                lambda robot=robot, thing=thing: held_by.append(pick(study, robot, thing, ())),
+                lambda robot=robot, thing=thing, others=others, kept=held_by: kept.append(
+                    pick(study, robot, thing, others)
+                ),
             )
         for target in surfaces if held_by else ():
             for k in range(places):
@@ -283,7 +310,7 @@ def main(
                     study,
                     f"place {info.id} on {target.id}",
                     lambda robot=robot, target=target, held=held, plan=plan: place(
-                        study, robot, target, held, plan.side, ()
+                        study, robot, target, held=held, side=plan.side
                     ),
                 )
     _report(study)

@@ -18,6 +18,8 @@ from robot.planning.timing import Timed, rounded, time_path
 from robot.se3 import SE3, Array
 
 CLEARANCE_M = 0.012
+SPLINE_CLEARANCE_M = 0.008
+"""The spline may stray from the path by the difference [m]."""
 GOAL_CLEARANCE_M = 0.003
 OVERLAP_M = 0.003
 """Start poses may overlap by this much: the world is not known better."""
@@ -296,7 +298,10 @@ def _timed(
     timed = Timed(timed.times_s, positions)
     dense = timed.sampled(3 * len(timed.times_s))
     dense = np.clip(dense, corridor.arm.lower, corridor.arm.upper)
-    return timed if corridor.all_free(dense) else None
+    corridor.scene.set_clearance(SPLINE_CLEARANCE_M)
+    free = corridor.all_free(dense)
+    corridor.scene.set_clearance(CLEARANCE_M)
+    return timed if free else None
 
 
 def _limits(body: Body, arm: Arm, speed: float) -> tuple[Array, Array]:
