@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from robot.messages import Side
 from robot.planning import reach
 from robot.planning.body import UPRIGHT, Body
 from robot.planning.grasps import HandOption
+from robot.planning.jobs import Job
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.scene import Scene
 from robot.planning.solids import solid
 from robot.planning.stances import LEANS, Candidates
 from robot.se3 import SE3, Array
-
-if TYPE_CHECKING:
-    from robot.planning.handling import Job
 
 STAND_CLEARANCE_M = 0.03
 APPROACH_CLEARANCE_M = 0.012

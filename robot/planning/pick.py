@@ -10,7 +10,8 @@ from robot.planning import reach
 from robot.planning.body import UPRIGHT, Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import pick_options
-from robot.planning.handling import Choice, Job, search
+from robot.planning.handling import search
+from robot.planning.jobs import Choice, Job
 from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
 from robot.planning.solids import Solid, solids_of

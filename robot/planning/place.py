@@ -11,7 +11,8 @@ from robot.messages import Place, Shape
 from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import held_option
-from robot.planning.handling import Choice, Job, search
+from robot.planning.handling import search
+from robot.planning.jobs import Choice, Job
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.solids import solids_of
 from robot.planning.stances import LEANS

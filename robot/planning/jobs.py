@@ -1,0 +1,82 @@
+"""What the search behind picking and placing is given, keeps, and finds."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from robot.messages import Shape, Side
+from robot.planning.grasps import HandOption
+from robot.planning.reach import Targets
+from robot.planning.solids import Solid
+from robot.planning.stances import Candidates
+from robot.se3 import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """What is wanted.
+
+    Attributes:
+        kind: see `handling`.
+        object_id, shape: what is handled.
+        options, references, reference_cost: see `stances.propose`.
+        others: all solids without the object.
+        lifts_m: heights of *up* over *main*, liked best first.
+        what: for messages, such as "the red cup".
+    """
+
+    kind: Literal["pick", "place"]
+    object_id: str
+    shape: Shape
+    options: list[HandOption]
+    references: Array
+    reference_cost: Array
+    others: tuple[Solid, ...]
+    lifts_m: tuple[float, ...]
+    what: str
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A candidate that passed: row 0 of every array is it.
+
+    Attributes:
+        q_main, q_back, q_up: joints of the arm at those poses.
+        q_ready: with the hand raised, for stepping in.
+        margin: 0 to 1, of reach and joint limits at all poses.
+        steadiness: share of small errors of the stance under which all are still reached.
+        score: margin and steadiness less all costs.
+    """
+
+    side: Side
+    candidate: Candidates
+    option: HandOption
+    main: Targets
+    back: Targets
+    up: Targets
+    q_main: Array
+    q_back: Array
+    q_up: Array
+    q_ready: Array
+    margin: float
+    steadiness: float
+    score: float
+
+
+@dataclass(slots=True)
+class Tally:
+    """The best so far, and why other candidates failed."""
+
+    best: Choice | None = None
+    short_m: float = np.inf
+    reached: int = 0
+    touched: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def score(self) -> float:
+        """Of the best so far."""
+        return -np.inf if self.best is None else self.best.score

@@ -1,0 +1,221 @@
+"""Candidates for picking and placing put to the test: reach, collisions, and every pose between."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from robot.messages import Side
+from robot.model.body import SIDES
+from robot.planning import reach
+from robot.planning.body import Body
+from robot.planning.checks import END, Checker
+from robot.planning.jobs import Choice, Job, Tally
+from robot.planning.numerics import Mask
+from robot.planning.reach import Targets
+from robot.planning.stances import Candidates
+from robot.se3 import Array
+
+DEPTH = 8
+"""How many candidates of a batch are looked at closely at a time."""
+WOBBLE_COST = 1.0
+MAX_TURN_RAD = 1.2
+"""Most a joint turns on the straight line to the object."""
+LIFT_GAIN = 0.05
+"""A lower lift must score better by this."""
+
+
+def passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[Choice | None]:
+    """Those of a batch that pass everything and are better than the best so far, likeliest first.
+
+    Lazily; None for each group of candidates in which there is none.
+    """
+    ranked: list[_Entry] = []
+    for side in SIDES:
+        some = batch.take(np.flatnonzero(batch.left == (side == "left")))
+        if len(some):
+            ranked += _reachable(body, job, side, some, tally)
+    ranked.sort(key=lambda entry: -entry.score)
+    checker = Checker(body, job)
+    waiting: list[_Entry] = []
+    for k, entry in enumerate(ranked):
+        checker.prepare(entry.candidate, entry.side, entry.main)
+        touch = checker.at_main(entry.q_main)
+        if touch is None:
+            waiting.append(entry)
+        else:
+            tally.touched[touch] += 1
+        if len(waiting) == DEPTH or k == len(ranked) - 1:
+            for side in SIDES:
+                group = [entry for entry in waiting if entry.side == side]
+                if group:
+                    yield _closely(body, job, checker, group, tally=tally)
+            waiting = []
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A candidate whose main pose is reached."""
+
+    score: float
+    side: Side
+    candidate: Candidates
+    main: Targets
+    q_main: Array
+
+
+def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally) -> list[_Entry]:
+    """Those of one hand whose main pose and back are reached."""
+    arm = body.arms[side]
+    main = reach.targets_of(some, job.options, job.references)
+    trunks = reach.trunks_of(body, side, some)
+    reached = reach.first_reach(body, arm, trunks, main)
+    tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
+    ok = np.flatnonzero(reached.ok)
+    tally.reached += len(ok)
+    q = arm.chain.relax(reached.q[ok])
+    back = _backs(job, some, main).take(ok)
+    there = reach.reach(arm, trunks.take(ok), back, q, iterations=12).ok
+    tally.touched[END] += int(np.sum(~there))
+    ok, q = ok[there], q[there]
+    score = reach.margins(arm, q) - some.cost[ok]
+    return [
+        _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, int(i)), q[k])
+        for k, i in enumerate(ok)
+    ]
+
+
+def _backs(job: Job, candidates: Candidates, main: Targets) -> Targets:
+    """Where the hand comes from, or goes to, without the object."""
+    chosen: list[int] = candidates.option.tolist()
+    return main.moved(along_m=np.array([-job.options[option].back_m for option in chosen]))
+
+
+def _closely(
+    body: Body, job: Job, checker: Checker, group: list[_Entry], *, tally: Tally
+) -> Choice | None:
+    """The best of a group (of one hand) that passes at all poses and beats the best so far."""
+    poses = _all_poses(body, job, group)
+    best: Choice | None = None
+    for i, entry in enumerate(group):
+        q_main, q_middle, q_back = (poses.q[k, i] for k in range(3))
+        turned = float(np.max(np.abs(q_back - q_main)))
+        if not (poses.met[1, i] and poses.met[2, i]) or turned > MAX_TURN_RAD:
+            tally.touched[END] += 1
+            continue
+        checker.prepare(entry.candidate, entry.side, entry.main)
+        touch = checker.on_line(q_middle, q_back)
+        for k in range(3, len(poses.targets)) if touch is None else ():
+            if not poses.met[k, i]:
+                continue
+            draft = _draft(body, job, entry, poses, (i, k))
+            worst = max(tally.score, best.score if best else -np.inf)
+            if draft.score <= worst + (
+                LIFT_GAIN if best and best.candidate is draft.candidate else 0
+            ):
+                continue
+            touch, q_ready = _there_and_away(checker, draft, picking=job.kind == "pick")
+            if q_ready is not None:
+                best = replace(draft, q_ready=q_ready)
+        if touch is not None:
+            tally.touched[touch] += 1
+    return best
+
+
+def _draft(body: Body, job: Job, entry: _Entry, poses: _Poses, at: tuple[int, int]) -> Choice:
+    """The choice of a candidate (its index in the group, the lift's in the poses) if it passes."""
+    i, k = at
+    steady = float(poses.steady[k, i])
+    margin = float(np.min(reach.margins(body.arms[entry.side], poses.q[[0, 2, k], i])))
+    return Choice(
+        side=entry.side,
+        candidate=entry.candidate,
+        option=job.options[int(entry.candidate.option[0])],
+        main=entry.main,
+        back=_row(poses.targets[2], i),
+        up=_row(poses.targets[k], i),
+        q_main=poses.q[0, i],
+        q_back=poses.q[2, i],
+        q_up=poses.q[k, i],
+        q_ready=poses.q[k, i],
+        margin=margin * steady,
+        steadiness=steady,
+        score=margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady),
+    )
+
+
+def _there_and_away(
+    checker: Checker, draft: Choice, *, picking: bool
+) -> tuple[str | None, Array | None]:
+    """What is touched with the object raised, leaving, or arriving; and the ready joints."""
+    touch = checker.lifted(draft.q_up)
+    if touch is None:
+        touch = checker.leaving(draft.q_up if picking else draft.q_back)
+    if touch is not None:
+        return touch, None
+    if picking:
+        return checker.ready(draft.back, draft.q_back)
+    return checker.ready(draft.up, draft.q_up)
+
+
+@dataclass(frozen=True, slots=True)
+class _Poses:
+    """Of a group of n: main, middle, back, then the lifts.
+
+    Attributes:
+        targets: a pose of the hand for each of the group.
+        q: joints, shape (poses, n, k).
+        met: whether it is reached, shape (poses, n).
+        steady: share of small errors of the stance under which main, back and this pose are all
+            reached, shape (poses, n).
+    """
+
+    targets: list[Targets]
+    q: Array
+    met: Mask
+    steady: Array
+
+
+def _all_poses(body: Body, job: Job, group: list[_Entry]) -> _Poses:
+    """Joints for every pose of a group (of one hand), in one batch."""
+    side = group[0].side
+    candidates = _join([entry.candidate for entry in group])
+    trunks = reach.trunks_of(body, side, candidates)
+    main = reach.targets_of(candidates, job.options, job.references)
+    back = _backs(job, candidates, main)
+    targets = [main, Targets(main.R, 0.5 * (main.p + back.p)), back]
+    targets += [main.moved(up_m=lift) for lift in job.lifts_m]
+    probed = [0, 2, *range(3, len(targets))]
+    off = [trunks.wobbled(error) for error in reach.WOBBLE]
+    everything = targets + [targets[k] for k in probed] * len(off)
+    hanging = [trunks] * len(targets) + [one for one in off for _ in probed]
+    n, q_main = len(group), np.stack([entry.q_main for entry in group])
+    reached = reach.reach(
+        body.arms[side],
+        reach.joined(hanging),
+        Targets(
+            np.concatenate([each.R for each in everything]),
+            np.concatenate([each.p for each in everything]),
+        ),
+        np.tile(q_main, (len(everything), 1)),
+        iterations=18,
+    )
+    count = len(targets)
+    q = reached.q.reshape(len(everything), n, -1)[:count]
+    ok = reached.ok.reshape(len(everything), n)
+    probes = ok[count:].reshape(len(off), len(probed), n)
+    steady = np.zeros((count, n))
+    for row, k in enumerate(probed):
+        steady[k] = (probes[:, 0] & probes[:, 1] & probes[:, row]).mean(axis=0)
+    return _Poses(targets, q, ok[:count], steady)
+
+
+def _row(targets: Targets, i: int) -> Targets:
+    return Targets(targets.R[i : i + 1], targets.p[i : i + 1])
+
+
+def _join(parts: list[Candidates]) -> Candidates:
+    names = Candidates.__dataclass_fields__
+    return Candidates(**{n: np.concatenate([getattr(p, n) for p in parts]) for n in names})
