@@ -15,7 +15,7 @@ MAX_PAYLOAD_KG = 3.0
 
 def problem(command: BodyCommand) -> str:
     """Why a command is refused, empty if it is not."""
-    if not _finite(msgspec.to_builtins(command)):
+    if not _finite(msgspec.to_builtins(command, enc_hook=float)):
         return "a number in the command is not finite"
     if isinstance(command, Payload) and not 0.0 <= command.mass_kg <= MAX_PAYLOAD_KG:
         return f"a hand carries 0 to {MAX_PAYLOAD_KG:g} kg"
