@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 class Machine(msgspec.Struct, frozen=True, kw_only=True):
-    """Enough to judge a figure."""
+    """Enough to judge a figure; `load` is the load average of a minute, other work included."""
 
     cpu: str
     cores: int
@@ -23,12 +23,13 @@ class Machine(msgspec.Struct, frozen=True, kw_only=True):
     mujoco: str
     commit: str
     date: str
+    load: float = 0.0
 
     def __str__(self) -> str:
         """One line for the tables."""
         return (
             f"{self.cpu}, {self.cores} cores, Python {self.python}, MuJoCo {self.mujoco}; "
-            f"commit {self.commit}, {self.date}"
+            f"commit {self.commit}, {self.date}, load average {self.load:.1f} at the end"
         )
 
 
@@ -41,6 +42,7 @@ def describe() -> Machine:
         mujoco=metadata.version("mujoco"),
         commit=_commit(),
         date=f"{datetime.datetime.now(datetime.UTC):%Y-%m-%d}",
+        load=round(os.getloadavg()[0], 2),
     )
 
 

@@ -150,7 +150,7 @@ def _judge(runtime: Any, summary: Summary, X_WO: SE3 | None, object_id: str) -> 
 
 def render(outcomes: Outcomes) -> str:
     """Outcomes of fast and live missions, and what went wrong."""
-    parts = [_table(outcomes), _codes(outcomes), _speed(outcomes)]
+    parts = [_table(outcomes), _codes(outcomes), _speed(outcomes), _late(outcomes)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -216,3 +216,13 @@ def _speed(outcomes: Outcomes) -> str:
         f"sensing and planning included; {simulated / cpu:.1f} a second of CPU time. "
         f"A runtime is ready in {ready:.1f} s (median)."
     )
+
+
+def _late(outcomes: Outcomes) -> str:
+    """How well the 500 Hz loops kept their time in the live missions."""
+    lines = [
+        f"- {key}: {line}"
+        for key, one in _of(outcomes, "live").items()
+        for line in one.get("late", ())
+    ]
+    return "Lateness of the 500 Hz loops:\n\n" + "\n".join(lines) if lines else ""
