@@ -172,7 +172,10 @@ def _cost(outcomes: Outcomes) -> str:
         if f"{clock}_p50_ms" in tick:
             values = [f"{tick[f'{clock}_{p}_ms']:.2f} ms" for p in ("p50", "p99", "p999")]
             rows.append([f"whole-body tick, {clock} time", *values])
-    text = "### Cost\n\n" + table(["walking at 0.3 m/s", "p50", "p99", "p99.9"], rows)
+    when = (
+        f"Measured at commit {tick['commit']}, load average {tick['load']:.1f}.\n\n" if tick else ""
+    )
+    text = "### Cost\n\n" + when + table(["walking at 0.3 m/s", "p50", "p99", "p99.9"], rows)
     if "factor" in fast:
         text += (
             f"\n\nThe `fast` runtime in the kitchen, walking, sensing and perception included, "

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import machine
 from benchmarks.rig import Rig, planar_error
 from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
@@ -231,7 +232,9 @@ def tick_time(*, duration_s: float, seed: int = 0) -> Outcome:
         for name, values in (("wall", wall), ("cpu", cpu))
         for p in (50, 99, 99.9)
     }
-    return {"ok": rig.upright, "ticks": len(wall), **percentiles}
+    here = machine.describe()
+    known = {"commit": here.commit, "load": here.load}
+    return {"ok": rig.upright, "ticks": len(wall), **percentiles, **known}
 
 
 def speed(*, duration_s: float, seed: int = 0) -> Outcome:
