@@ -65,7 +65,8 @@ class Limits:
         worst = float(share.max())
         if not math.isfinite(worst):
             return self._refuse(command)
-        self._in_a_row = 0
+        if command is not self._last_good:  # a repeated command says nothing of newer ones
+            self._in_a_row = 0
         if worst > 1.0:
             self._clamp(command, state)
         self._last_good = command

@@ -51,6 +51,7 @@ BUS_PERIOD_S = 0.002
 FALLEN_TILT_RAD = 0.9
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
+UNSOLVED_TO_DAMP = 20
 
 
 class ControlLoop:
@@ -70,6 +71,7 @@ class ControlLoop:
         self.mode: Mode = "damping"
         self._ticks_per_solve = 1.0 / (solve_rate_hz * BUS_PERIOD_S)
         self._ticks_to_solve = 0.0
+        self._unsolved = 0
         self._started = False
         self._failure: Failure | None = None
         self._nominal_mass: Array = np.array(self.body.model.body_mass)
@@ -285,6 +287,9 @@ class ControlLoop:
         q_des[self.head.motors] = self.head.q
         task, self._reference = self.legs.update(dt_s, dynamics, self.estimator.load, rest_acc)
         solution = self.whole.solve(dynamics, task)
+        self._unsolved = 0 if solution.ok else self._unsolved + 1
+        if self._unsolved >= UNSOLVED_TO_DAMP:
+            self.trip(f"the whole-body programme had no solution {self._unsolved} times in a row")
         if not solution.ok:
             self._command.stamp_s = state.stamp_s
             return self._command
