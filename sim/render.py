@@ -44,12 +44,6 @@ def overview(world: World) -> View:
     return View(at=at, distance_m=1.12 * size, heading_deg=118.0, down_deg=30.0)
 
 
-def close_up(plant: Plant, *, heading_deg: float = 125.0, distance_m: float = 2.4) -> View:
-    """The robot, wherever it is."""
-    x, y, _ = plant.oracle.X_WB().p
-    return View(at=(x, y, 0.72), distance_m=distance_m, heading_deg=heading_deg, down_deg=16.0)
-
-
 class Renderer:
     """Draws one model. A context manager: the GL context lives inside the `with`."""
 

@@ -34,14 +34,6 @@ def compile_scene(
     return spec.compile()
 
 
-def scene_without_robot(world: World) -> mujoco.MjModel:
-    """The world alone."""
-    spec = mujoco.MjSpec()
-    _set_physics(spec)
-    furnish(spec, world)
-    return spec.compile()
-
-
 def furnish(spec: mujoco.MjSpec, world: World) -> None:
     """Add floor, walls, furniture, people, objects and light to a scene."""
     paint = Paint(spec)

@@ -24,7 +24,6 @@ def _meanings(table: dict[T, str]) -> dict[Phrase, T]:
 
 
 DETERMINERS = words("the a an my your our his her their its this that these those some any another")
-POSSESSIVES = words("my your our his her their its")
 ALL = words("all every each both")
 
 COLORS = {
@@ -94,7 +93,6 @@ CONTAINERS = words(
 )
 """Nouns that measure out something else: "a bottle of water", "a coke can"."""
 PLACE_NOUNS = words("place spot location position area room")
-PERSON_PRONOUNS = words("him her he she")
 PRONOUNS = words("it them they he she him her this that these those")
 BODY_NOUNS = words(
     "leg legs foot feet arm arms hand hands head knee knees body gripper grippers finger fingers "

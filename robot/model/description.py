@@ -10,7 +10,6 @@ import msgspec
 from robot import config
 from robot.errors import ConfigError, Problem
 from robot.messages import Side
-from robot.se3 import Vector3
 
 
 class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -132,7 +131,6 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     postures: dict[str, dict[str, float]]
     shoulder_height_m: float
     body_radius_m: float
-    eye_offset_m: Vector3
     folder: str = ""
 
     @property
