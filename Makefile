@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench lock clean env env-dev
+.PHONY: help demo test check format bench bench-intents lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -31,6 +31,9 @@ format: env-dev ## let ruff format and repair what it can
 
 bench: env-dev ## measure; figures go to docs/benchmarks.md
 	@$(BIN)/python -m benchmarks $(ARGS)
+
+bench-intents: env-dev ## measure what is understood (ARGS="--sets FOLDER" for sets of your own)
+	@$(BIN)/python -m benchmarks.intents $(ARGS)
 
 lock: ## resolve pyproject.toml into hashed lock files (ARGS=--upgrade for newer pins)
 	@scripts/lock $(or $(PYTHON),python3) $(ARGS)
