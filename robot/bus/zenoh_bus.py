@@ -97,7 +97,11 @@ class ZenohBus:
             raise BusError(f"the bus did not open at {socket}: {error}") from error
 
     def publish(self, topic: Topic[M], message: M) -> None:
-        """Send to everyone who has subscribed; under congestion it is dropped, never waited for."""
+        """Send to everyone who has subscribed.
+
+        Under congestion a stream's message is dropped, since a newer one follows; an event, which
+        comes once (a command), waits for room in the socket.
+        """
         writer = self._writers.get(topic.name) or self._declare(topic)
         writer.put(self._encoder.encode(message))
 
@@ -137,7 +141,11 @@ class ZenohBus:
         urgent = topic.rate_hz is None or topic.rate_hz > 20.0
         writer = self._opened().declare_publisher(
             topic.name,
-            congestion_control=zenoh.CongestionControl.DROP,
+            congestion_control=(
+                zenoh.CongestionControl.BLOCK
+                if topic.rate_hz is None
+                else zenoh.CongestionControl.DROP
+            ),
             priority=zenoh.Priority.INTERACTIVE_HIGH if urgent else zenoh.Priority.DATA,
             express=urgent,
         )
