@@ -6,14 +6,14 @@ Two files stand side by side in a run folder:
   gives the same bytes;
 - ``wall.jsonl`` holds, for each event's number, the wall-clock time at which it was written.
 
-Every event is handed to the operating system before `write` returns. A disk that is full never
-stops the robot: lines wait in a ring in memory, the oldest are dropped and counted, and they are
-written as soon as there is room again.
+Every event is handed to the operating system before `write` returns, or, in the background, within
+milliseconds: a `kill -9` loses at most the last tick. A disk that is full or stalled never stops
+the robot: lines wait in memory, the oldest are dropped and counted, and they are written as soon as
+that is possible again (`executive.lines`).
 """
 
 from __future__ import annotations
 
-import os
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
@@ -22,7 +22,12 @@ from typing import Any, Self
 
 import msgspec
 
+from executive.lines import BackgroundFile, LineFile, Lines, is_open
+from robot.errors import ConfigError
+
+FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
 RING_LINES = 20_000
+STALLED_S = 0.5
 
 Listener = Callable[["Event"], None]
 
@@ -36,63 +41,6 @@ class Event(msgspec.Struct, frozen=True):
     data: dict[str, Any] = {}
 
 
-class LineFile:
-    """A file that lines are appended to, which never raises and never loses half a line."""
-
-    def __init__(self, path: Path | None, *, capacity: int = RING_LINES) -> None:
-        """Append to `path` (None: keep lines in memory only), holding back at most `capacity`."""
-        self._waiting: deque[bytes] = deque()
-        self._capacity = capacity
-        self._begun = False
-        self._file: int | None = None
-        self.dropped = 0
-        self.problem = ""
-        if path is None:
-            return
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC
-            self._file = os.open(path, flags, 0o644)
-        except OSError as error:
-            self.problem = f"{path}: {error.strerror}"
-
-    @property
-    def waiting(self) -> int:
-        """How many lines are in memory only."""
-        return len(self._waiting)
-
-    def append(self, line: bytes) -> None:
-        """Write a line, and whatever waited for room before it."""
-        self._waiting.append(line + b"\n")
-        if len(self._waiting) > self._capacity:
-            del self._waiting[1 if self._begun else 0]
-            self.dropped += 1
-        self._flush()
-
-    def _flush(self) -> None:
-        if self._file is None:
-            return
-        try:
-            while self._waiting:
-                written = os.write(self._file, self._waiting[0])
-                if written < len(self._waiting[0]):
-                    self._waiting[0] = self._waiting[0][written:]
-                    self._begun = True
-                else:
-                    self._waiting.popleft()
-                    self._begun = False
-            self.problem = ""
-        except OSError as error:
-            self.problem = error.strerror or str(error)
-
-    def close(self) -> None:
-        """Close the file; safe to call twice."""
-        if self._file is not None:
-            self._flush()
-            os.close(self._file)
-            self._file = None
-
-
 class Journal:
     """The journal of one run: a context manager that closes its files."""
 
@@ -102,13 +50,29 @@ class Journal:
         *,
         wall_s: Callable[[], float] | None = None,
         capacity: int = RING_LINES,
+        background: bool = False,
+        first: int = 0,
     ) -> None:
-        """Keep a journal in `folder` (None: in memory only); `wall_s` reads the time of day."""
-        self._lines = LineFile(folder and folder / "journal.jsonl", capacity=capacity)
-        self._wall = LineFile(folder and folder / "wall.jsonl" if wall_s else None, capacity=1000)
+        """Keep a journal.
+
+        Args:
+            folder: of the run; None keeps it in memory only.
+            wall_s: reads the time of day.
+            capacity: how many lines may wait for a disk that is full or stalled.
+            background: write in a thread, so that a stalled disk cannot stop the caller.
+            first: number of the first event, when a journal is gone on with.
+        """
+        kind = BackgroundFile if background else LineFile
+        self._lines: Lines | None = None
+        self._wall: Lines | None = None
+        if folder is not None:
+            self._lines = kind(folder / FILE, capacity=capacity)
+        if folder is not None and wall_s is not None:
+            self._wall = kind(folder / WALL_FILE, capacity=capacity)
         self._wall_s = wall_s
-        self._count = 0
-        self._warned = False
+        self._count = first
+        self._behind_since_s: float | None = None
+        self._problem = ""
         self._listeners: list[Listener] = []
         self.recent: deque[Event] = deque(maxlen=1000)
 
@@ -119,26 +83,47 @@ class Journal:
     @property
     def problem(self) -> str:
         """Why lines wait in memory instead of being on the disk; empty when all is well."""
-        return self._lines.problem
+        return self._problem
+
+    @property
+    def dropped(self) -> int:
+        """How many lines were lost because they could not be written."""
+        return self._lines.dropped if self._lines else 0
 
     def write(self, now_s: float, event: str, **data: Any) -> None:
         """Add an event. `data` must be deterministic: no wall-clock times, no memory addresses."""
         entry = Event(self._count, round(now_s, 4), event, data)
         self._count += 1
         self.recent.append(entry)
-        flat = {"n": entry.n, "t_s": entry.t_s, "event": event, **data}
-        self._lines.append(msgspec.json.encode(flat, enc_hook=str, order="deterministic"))
-        if self._wall_s is not None:
+        problem = ""
+        if self._lines is not None:
+            waited = self._lines.waiting
+            self._lines.append(encode(entry))
+            problem = self._lines.problem or self._stalled(min(waited, self._lines.waiting), now_s)
+        if self._wall is not None and self._wall_s is not None:
             wall = {"n": entry.n, "wall_s": round(self._wall_s(), 3)}
             self._wall.append(msgspec.json.encode(wall))
         for listener in self._listeners:
             listener(entry)
-        if self._lines.problem and not self._warned:
-            self._warned = True
-            self._tell(now_s, f"the journal cannot be written: {self._lines.problem}")
-        elif self._warned and not self._lines.problem:
-            self._warned = False
-            self._tell(now_s, f"the journal is written again, {self._lines.dropped} lines lost")
+        self._judge(now_s, problem)
+
+    def _stalled(self, waiting: int, now_s: float) -> str:
+        """What is wrong when lines of a while ago still wait, though nothing failed."""
+        if not waiting:
+            self._behind_since_s = None
+        elif self._behind_since_s is None:
+            self._behind_since_s = now_s
+        elif now_s - self._behind_since_s > STALLED_S:
+            return f"the disk has taken nothing for {now_s - self._behind_since_s:.1f} s"
+        return ""
+
+    def _judge(self, now_s: float, problem: str) -> None:
+        """Warn when the disk stops taking lines, and when it takes them again."""
+        before, self._problem = self._problem, problem
+        if problem and not before:
+            self._tell(now_s, f"the journal cannot be written: {problem}")
+        elif before and not problem:
+            self._tell(now_s, f"the journal is written again, {self.dropped} lines lost")
 
     def _tell(self, now_s: float, text: str) -> None:
         """Warn people, without a line: a full disk must not change the journal's content."""
@@ -148,8 +133,9 @@ class Journal:
 
     def close(self) -> None:
         """Close the files; safe to call twice."""
-        self._lines.close()
-        self._wall.close()
+        for lines in (self._lines, self._wall):
+            if lines is not None:
+                lines.close()
 
     def __enter__(self) -> Self:
         """Return the journal itself."""
@@ -163,3 +149,41 @@ class Journal:
     ) -> None:
         """Close the files."""
         self.close()
+
+
+def encode(event: Event) -> bytes:
+    """An event as its line in the file, without the line's end; always the same bytes."""
+    flat = {"n": event.n, "t_s": event.t_s, "event": event.event, **event.data}
+    return msgspec.json.encode(flat, enc_hook=str, order="deterministic")
+
+
+def decode(line: bytes) -> Event | None:
+    """The event of a line; None if it is none, such as a line that was cut."""
+    try:
+        flat = msgspec.json.decode(line, type=dict[str, Any])
+        return Event(int(flat.pop("n")), float(flat.pop("t_s")), str(flat.pop("event")), flat)
+    except (msgspec.DecodeError, UnicodeDecodeError, KeyError, TypeError, ValueError):
+        return None
+
+
+def read(path: Path) -> list[Event]:
+    """Every event of a journal that is finished, still written, or was cut off.
+
+    Args:
+        path: a run's folder, or the file itself.
+
+    Raises:
+        ConfigError: if there is no journal.
+    """
+    file = path / FILE if path.is_dir() else path
+    try:
+        lines = file.read_bytes().split(b"\n")
+    except OSError as error:
+        raise ConfigError(f"{path} holds no journal: {error.strerror}") from error
+    found = (decode(line) for line in lines if line)
+    return [event for event in found if event is not None]
+
+
+def is_written(folder: Path) -> bool:
+    """Whether a run is under way: a process has its journal open."""
+    return is_open(folder / FILE)

@@ -6,7 +6,8 @@ import os
 
 import pytest
 
-from executive.journal import Journal, LineFile
+from executive.journal import Journal
+from executive.lines import LineFile
 
 
 def play(folder, wall):
