@@ -5,14 +5,28 @@ Ambiguous and Unknown are values, with a question or the nearest names.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
 
 import msgspec
 from msgspec.structs import replace
 from rapidfuzz import fuzz, process
 
+from intents import relations
 from intents.english.lexer import singular
 from intents.english.trouble import listing
-from intents.goals import Bring, Give, Goal, LookAt, ObjectQuery, Pick, Place, Superlative
+from intents.goals import (
+    Bring,
+    Give,
+    Goal,
+    How,
+    LookAt,
+    ObjectQuery,
+    Pick,
+    Place,
+    Relation,
+    Superlative,
+)  # fmt: skip
+from intents.relations import Viewpoint
 
 
 class Entity(msgspec.Struct, frozen=True, kw_only=True):
@@ -105,6 +119,7 @@ def ground(
     query: ObjectQuery,
     entities: Iterable[Entity],
     *,
+    view: Viewpoint | None = None,
     ranks: dict[Superlative, _Measure] | None = None,
 ) -> Grounding:
     """Which entity a description means.
@@ -112,15 +127,18 @@ def ground(
     Args:
         query: The description; a count asks for several.
         entities: What is known to be there.
-        ranks: How to measure superlatives that depend on where the robot stands (leftmost,
-            nearest); the largest measure wins.
+        view: Where the robot stands, for what depends on it: leftmost, nearest, behind the
+            bottle. Without it these tell nothing apart.
+        ranks: Other ways to measure superlatives; the largest measure wins.
     """
     known = list(entities)
     fitting = [e for e in known if _fits(e, query)]
+    if query.relation and fitting:
+        fitting = _related(fitting, query.relation, known, view)
     if not fitting:
         return Unknown(describe(query), _nearest(query, known))
     if query.superlative:
-        fitting = _most(fitting, query.superlative, ranks or {})
+        fitting = _most(fitting, query.superlative, _views(view) | (ranks or {}))
     if query.size and len(fitting) > 1:
         fitting = _sized(fitting, query.size)
     if query.count == "all" or (query.count and len(fitting) >= query.count):
@@ -142,6 +160,48 @@ def _fits(entity: Entity, query: ObjectQuery) -> bool:
         and near
         and (not query.held or entity.held or query.name is not None)
     )
+
+
+def _related(
+    entities: list[Entity], relation: Relation, known: list[Entity], view: Viewpoint | None
+) -> list[Entity]:
+    """Those that stand so to the other thing; those of which it is not known may do so, too."""
+    of = replace(relation.of, held=False)
+    others = [e for e in known if _fits(e, of)]
+    if relation.of.relation:
+        others = _related(others, relation.of.relation, known, view)
+    return [e for e in entities if _stands_so(e, relation, others, view)]
+
+
+def _stands_so(
+    entity: Entity, relation: Relation, others: list[Entity], view: Viewpoint | None
+) -> bool:
+    if relation.how in ("on", "in", "near") and _alike(entity.at, relation.of.name or ""):
+        return True
+    body = _body(entity)
+    placed = [b for o in others if o.id != entity.id and (b := _body(o))]
+    if body is None or not placed:
+        return [o.id for o in others] != [entity.id]
+    if relation.how == "between":
+        pairs = combinations(placed, 2)
+        return len(placed) < 2 or any(relations.between(body, pair) for pair in pairs)
+    return any(relations.holds(relation.how, body, other, view) is not False for other in placed)
+
+
+def _body(entity: Entity) -> relations.Body | None:
+    if entity.p_WO is None:
+        return None
+    return relations.Body(entity.p_WO, entity.size_m or (0.0, 0.0, 0.0))
+
+
+def _views(view: Viewpoint | None) -> dict[Superlative, _Measure]:
+    """The superlatives that depend on where the robot stands."""
+
+    def measured(superlative: Superlative, seen_from: Viewpoint) -> _Measure:
+        return lambda e: relations.rank(superlative, e.p_WO, seen_from) if e.p_WO else None
+
+    names: tuple[Superlative, ...] = ("leftmost", "rightmost", "nearest", "farthest")
+    return {name: measured(name, view) for name in names} if view else {}
 
 
 def _alike(one: str, other: str) -> bool:
@@ -195,6 +255,14 @@ def _labels(entities: Sequence[Entity]) -> list[str]:
     return [f"the {describe_entity(e)} ({e.id})" for e in entities]
 
 
+HOW_WORDS: dict[How, str] = {
+    "on": "on", "under": "under", "above": "above", "in": "in", "behind": "behind",
+    "in_front": "in front of", "left": "left of", "right": "right of", "near": "next to",
+    "between": "between",
+}  # fmt: skip
+"""How a relation is said."""
+
+
 def narrowed(query: ObjectQuery, entity: Entity) -> ObjectQuery:
     """The description with what tells this entity from others."""
     return replace(
@@ -211,6 +279,8 @@ def describe(query: ObjectQuery) -> str:
     noun = query.name or query.category or "object"
     words = [query.superlative, query.size, query.color, noun]
     place = f" at the {query.at}" if query.at else ""
+    if query.relation:
+        place += f" {HOW_WORDS[query.relation.how]} the {describe(query.relation.of)}"
     return " ".join(w for w in words if w) + place
 
 
@@ -221,7 +291,9 @@ def describe_entity(entity: Entity) -> str:
 
 def _nearest(query: ObjectQuery, entities: Sequence[Entity]) -> tuple[str, ...]:
     """Things of the same name elsewhere or of other colour, else the nearest names."""
-    loose = replace(query, color=None, at=None, size=None, superlative=None, held=False)
+    loose = replace(
+        query, color=None, at=None, size=None, superlative=None, relation=None, held=False
+    )
     same = [e for e in entities if _fits(e, loose)] if query.name or query.category else []
     if same:
         return tuple(dict.fromkeys(
