@@ -1,40 +1,60 @@
-"""The executive: goals in, ticks at 20 Hz, an outcome out. The same in `fast` and in `live`."""
+"""The executive: jobs in, ticks at 20 Hz, an outcome out. The same in `fast` and in `live`.
+
+Every public method but `tick` and `abandon` may be called from any thread, at any time: what is
+asked for is put down as a request and carried out when the next tick begins, so the tree has one
+thread, and a run has one order of events. `on_request` is called after each of them; `loop.run`
+sets it to what wakes a sleeping runtime, so that a request acts at once.
+"""
 
 from __future__ import annotations
 
+import threading
+from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Literal
 
 import msgspec
 
 from executive.behaviours.sense import Sense
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import GOAL, RECOVERIES, SAID, STOP, Blackboard
+from executive.blackboard import ABORT, PAUSE, PAUSED, SAID, STOP, Blackboard
 from executive.health import HealthMonitor
+from executive.jobs import BODY, OVER, UNLIMITED, Job, Limits
 from executive.journal import Journal
 from executive.skills import catalogue
 from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
-from executive.skills.skill import Skill
+from executive.skills.skill import Resource, Skill
+from executive.trees.jobs import Work
 from executive.trees.root import BuildTask, Tree
-from robot.errors import Failure, failure
+from robot.errors import Failure, RobotError, failure
 
 RATE_HZ = 20.0
+KEPT_JOBS = 1000
+"""Jobs that are over stay in `jobs`; the oldest are forgotten."""
+
+State = Literal["idle", "working", "pausing", "paused", "stopping"]
 
 
 class Outcome(msgspec.Struct, frozen=True, kw_only=True):
-    """How a task ended: with a failure, or well. `took_s` is the runtime's time."""
+    """How a job ended: with a failure, or well. `took_s` is the runtime's time."""
 
     failure: Failure | None
     took_s: float
     recoveries: int
 
 
+class JobError(RobotError):
+    """A request names a job that is not there."""
+
+
 MakeSkill = Callable[[SkillParams, SkillContext], Skill]
+Request = Callable[[], None]
 
 
 class Executive:
-    """One robot's executive: one tree, one task at a time."""
+    """One robot's executive: one tree, and the jobs in it."""
 
     def __init__(
         self,
@@ -44,7 +64,7 @@ class Executive:
         rates_hz: Mapping[str, float],
         make: MakeSkill = catalogue.make,
     ) -> None:
-        """Build the tree; nothing moves before a task is begun.
+        """Build the tree; nothing moves before a job is submitted.
 
         Args:
             context: what every skill is given; its `say` is called with every spoken text too.
@@ -54,6 +74,8 @@ class Executive:
         """
         self.board = Blackboard()
         self.journal = journal
+        self.on_request: Callable[[], None] = lambda: None
+        self.outcome: Outcome | None = None
         self._operator = self.board.claim("operator")
         self._voice = self.board.claim("voice")
         self._say_on = context.say
@@ -67,42 +89,219 @@ class Executive:
         )
         sense = Sense(self.stage, context.link, monitor, holdings=context.holdings)
         self.tree = Tree(self.stage, sense)
-        self._begun_s: float | None = None
-        self.outcome: Outcome | None = None
+        self._lock = threading.Lock()
+        self._requests: deque[Request] = deque()
+        self._waiting: dict[int, Job] = {}  # submitted, and not taken up by a tick yet
+        self._over: deque[Job] = deque(maxlen=KEPT_JOBS)
+        self._count = 0
+        self._stop_until = 0
 
-    def begin(self, build: BuildTask, *, text: str) -> None:
-        """Start a task, in place of one that is under way; `text` is what was asked for."""
-        self.outcome = None
-        self._begun_s = None
-        self._operator.set(STOP, "")
-        self.stage.task.set(GOAL, text)
-        self.tree.begin(build(self.stage))
+    # --- what people ask for, from any thread ---
 
-    def tick(self, now_s: float) -> None:
-        """Tick the tree; `outcome` is set when the task is over and the body at rest."""
-        self.tree.tick(now_s)
-        if self._begun_s is None:
-            self._begun_s = now_s
-        verdict = self.tree.verdict()
-        if verdict is not None:
-            self._finish(verdict if isinstance(verdict, Failure) else None, now_s)
+    def submit(
+        self,
+        build: BuildTask,
+        *,
+        text: str,
+        urgent: bool = False,
+        resources: frozenset[Resource] = BODY,
+        limits: Limits = UNLIMITED,
+    ) -> int:
+        """Put a job into the queue; returns its number.
+
+        Args:
+            build: makes its part of the tree; called at once, in this thread.
+            text: what was asked for, in words.
+            urgent: it interrupts the jobs that it conflicts with; they come back after it.
+            resources: the parts of the body that it may use; jobs that share none run side by side.
+            limits: what it may take.
+        """
+        node = build(self.stage)
+        with self._lock:
+            self._count += 1
+            job = Job(
+                number=self._count, text=text, urgent=urgent, resources=resources, limits=limits
+            )
+            self._waiting[job.number] = job
+            self.outcome = None
+            self._requests.append(lambda: self._add(Work(job, node)))
+        self.on_request()
+        return job.number
+
+    def pause(self, why: str = "paused on request") -> None:
+        """Bring the robot to a stand and keep it there; `state` says when it stands."""
+        self._post(lambda: self._pause(why))
+
+    def resume(self) -> None:
+        """Go on after a pause, each job with the step it was in."""
+        self._post(self._resume)
 
     def stop(self, why: str) -> None:
-        """Bring the robot to a stand and end the task with `cancelled`; takes several ticks."""
-        self._operator.set(STOP, why)
+        """Bring the robot to a stand and end all jobs with `cancelled`; takes several ticks.
+
+        What is submitted after this is not ended; it begins when the robot stands.
+        """
+        with self._lock:
+            last = self._count
+        self._post(lambda: self._stop(why, last))
+
+    def cancel(self, number: int, why: str = "cancelled on request") -> None:
+        """End one job with `cancelled`; it is over when its part of the body is at rest.
+
+        Raises:
+            JobError: if there is no such job, or it is over.
+        """
+        self._must_be(number)
+        self._post(lambda: self._cancel(number, why))
+
+    def drop(self, number: int) -> None:
+        """Take a waiting job out of the queue (one that has begun by then is cancelled).
+
+        Raises:
+            JobError: if there is no such job, or it is over.
+        """
+        self.cancel(number, "taken out of the queue")
+
+    def move(self, number: int, place: int) -> None:
+        """Put a waiting job at a place of the queue, counted from 0.
+
+        Raises:
+            JobError: if no such job waits.
+        """
+        self._must_be(number, waiting=True)
+        self._post(lambda: self._move(number, place))
+
+    # --- how things stand, from any thread ---
+
+    @property
+    def jobs(self) -> tuple[Job, ...]:
+        """All jobs: those that are over, then those under way, then those that wait, in order."""
+        with self._lock:
+            live = [work.job for work in self.tree.jobs.works]
+            known = {job.number for job in live}
+            new = [job for job in self._waiting.values() if job.number not in known]
+            return (*self._over, *live, *new)
+
+    @property
+    def state(self) -> State:
+        """What the executive is about."""
+        board = self.board
+        if board.read(STOP):
+            return "stopping"
+        if board.read(PAUSE):
+            return "paused" if board.read(PAUSED) else "pausing"
+        if self._requests or self._waiting or self.tree.jobs.works:
+            return "working"
+        return "idle" if self.stage.quiet else "stopping"
+
+    # --- the loop's side ---
+
+    def tick(self, now_s: float) -> None:
+        """Carry out what was asked for, tick the tree; `outcome` is set when nothing is left."""
+        self.tree.at(now_s)
+        self._carry_out()
+        self.tree.tick()
+        with self._lock:
+            self._settle(now_s)
 
     def abandon(self, reason: Failure | None, now_s: float) -> None:
-        """End the task at once, without bringing anything to rest (None: as a person wants it)."""
+        """End all jobs at once, without bringing anything to rest (None: as a person wants it)."""
         reason = reason or failure("cancelled", "stopped at once on request; the motors damp")
-        self._finish(reason, now_s)
+        self._carry_out()
+        with self._lock:
+            self._note(self.tree.jobs.abandon(reason), now_s)
 
-    def _finish(self, reason: Failure | None, now_s: float) -> None:
-        took_s = round(now_s - (self._begun_s or 0.0), 4)
-        recoveries = self.board.read(RECOVERIES)
-        self.outcome = Outcome(failure=reason, took_s=took_s, recoveries=recoveries)
-        self.tree.clear()
-        ended = failure_data(reason) if reason else {"code": "done"}
-        self.journal.write(now_s, "outcome", **ended, took_s=took_s, recoveries=recoveries)
+    def _carry_out(self) -> None:
+        while self._requests:
+            self._requests.popleft()()
+
+    def _settle(self, now_s: float) -> None:
+        """Give their final states to the jobs that have come to their end."""
+        board, jobs = self.board, self.tree.jobs
+        aborted, asked = board.read(ABORT), board.read(STOP)
+        if aborted is not None:
+            for work in jobs.works:
+                if not asked or work.job.number <= self._stop_until:
+                    jobs.end(work, aborted)
+        self._note(jobs.settle(), now_s)
+        stopped = all(work.job.number > self._stop_until for work in jobs.works)
+        if asked and aborted is not None and stopped and self.stage.quiet:
+            self._operator.set(STOP, "")
+
+    def _note(self, ended: list[Job], now_s: float) -> None:
+        """Remember what has ended; when nothing is left, that is the outcome."""
+        self._over += ended
+        if not ended or self.tree.jobs.works or self._waiting:
+            return
+        last = ended[-1]
+        reason, took_s = last.failure, last.took_s or 0.0
+        self.outcome = Outcome(failure=reason, took_s=took_s, recoveries=last.recoveries)
+        how = failure_data(reason) if reason else {"code": "done"}
+        self.journal.write(now_s, "outcome", **how, took_s=took_s, recoveries=last.recoveries)
+
+    # --- requests, carried out as a tick begins ---
+
+    def _post(self, request: Request) -> None:
+        with self._lock:
+            self._requests.append(request)
+        self.on_request()
+
+    def _must_be(self, number: int, *, waiting: bool = False) -> None:
+        """Check that a job is there.
+
+        Raises:
+            JobError: if it is not.
+        """
+        there = [job for job in self.jobs if job.state not in OVER]
+        if waiting:
+            there = [job for job in there if job.state == "waiting"]
+        if all(job.number != number for job in there):
+            known = ", ".join(str(job.number) for job in there) or "none"
+            kind = "waiting job" if waiting else "job"
+            raise JobError(f"there is no {kind} {number}; there is: {known}")
+
+    def _add(self, work: Work) -> None:
+        jobs = self.tree.jobs
+        if not jobs.works:
+            self.tree.hold.reset()
+        with self._lock:
+            del self._waiting[work.job.number]
+            jobs.add(work)
+
+    def _pause(self, why: str) -> None:
+        if self.board.read(PAUSE) or self.board.read(STOP):
+            return
+        self.stage.record("pause", why=why)
+        self.tree.jobs.pausing = True
+        self._operator.set(PAUSE, why)
+
+    def _resume(self) -> None:
+        if self.board.read(PAUSE):
+            self.stage.record("resume")
+            self._go_on()
+
+    def _go_on(self) -> None:
+        self.tree.jobs.pausing = False
+        self._operator.set(PAUSE, "")
+
+    def _stop(self, why: str, last: int) -> None:
+        self.stage.record("stop", why=why)
+        self._go_on()
+        self._stop_until = last
+        self._operator.set(STOP, why)
+
+    def _cancel(self, number: int, why: str) -> None:
+        work = self.tree.jobs.find(number)
+        if work is not None:
+            self.stage.record("cancel", job=number, why=why)
+            self.tree.jobs.end(work, failure("cancelled", why))
+
+    def _move(self, number: int, place: int) -> None:
+        work = self.tree.jobs.find(number)
+        if work is not None and work.job.state == "waiting":
+            self.tree.jobs.move(work, place)
+
+    # --- what skills are given ---
 
     def _make_skill(self, params: SkillParams, attempt: int) -> Skill:
         """A skill; a retry plans with another seed."""

@@ -57,6 +57,12 @@ HEALTH = Key[Health](
 STOP = Key[str](
     "stop", str, writer="operator", meaning="why a person wants it to stop, or empty", initial=""
 )
+PAUSE = Key[str](
+    "pause", str, writer="operator", meaning="why a person wants it to pause, or empty", initial=""
+)
+PAUSED = Key[bool](
+    "paused", bool, writer="guard", meaning="whether the robot stands, paused", initial=False
+)
 GOAL = Key[str]("goal", str, writer="task", meaning="what was asked for, in words", initial="")
 ABORT = Key[Failure | None](
     "abort", Failure | None, writer="guard", meaning="why the task was ended from above",
@@ -75,7 +81,8 @@ HELD = Key[dict[Side, str]](
 SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robot", initial="")
 
 KEYS: tuple[Key[Any], ...] = (
-    NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, ABORT, GOAL, FAILURE, RECOVERIES, PHASE, SAID,
+    NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE, RECOVERIES,
+    PHASE, SAID,
 )  # fmt: skip
 """The whole table."""
 

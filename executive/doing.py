@@ -69,7 +69,7 @@ def do(
         progress = stack.enter_context(show(executive))
         _write_header(job, journal, start_s)
         task = job.understood.task
-        executive.begin(lambda stage: build(task, stage), text=job.understood.text)
+        executive.submit(lambda stage: build(task, stage), text=job.understood.text)
         loop.run(runtime, executive, interrupts=interrupts, on_tick=progress.update)
         assert executive.outcome is not None
         past_s = runtime.clock.now_s() - start_s

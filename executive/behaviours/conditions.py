@@ -7,7 +7,7 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.blackboard import HEALTH, STOP, Blackboard
+from executive.blackboard import HEALTH, PAUSE, STOP, Blackboard
 from executive.ladder import Level
 
 Predicate = Callable[[Blackboard], bool]
@@ -35,3 +35,8 @@ def must_end(board: Blackboard) -> bool:
 def must_hold(board: Blackboard) -> bool:
     """Something is missing without which the robot had better stand still."""
     return board.read(HEALTH).level >= Level.HOLD
+
+
+def must_pause(board: Blackboard) -> bool:
+    """A person wants the robot to stand for a while."""
+    return bool(board.read(PAUSE))

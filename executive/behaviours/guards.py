@@ -1,4 +1,4 @@
-"""Leaves that end a task from above: after an emergency, or when waiting has not helped."""
+"""Leaves that keep the robot still from above: an emergency, a sense that is silent, a pause."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import ABORT, HEALTH, STOP, Writer
+from executive.blackboard import ABORT, HEALTH, PAUSED, STOP, Writer
 from robot.errors import Failure, failure
 
 HOLD_LIMIT_S = 20.0
@@ -14,26 +14,32 @@ HOLD_LIMIT_S = 20.0
 
 
 class EndTask(Behaviour):
-    """Ends the task because a person or the robot's health wants it; RUNNING until it is gone."""
+    """Ends all jobs because a person or the robot's health wants it; RUNNING while it does."""
 
     def __init__(self, stage: Stage, guard: Writer) -> None:
         """Write as `guard`."""
-        super().__init__("end the task")
+        super().__init__("end the jobs")
         self._stage = stage
         self._guard = guard
+        self._asked = ""
 
     def update(self) -> Status:
-        """Say why, once."""
+        """Say why, once; a stop that is over gives way to what else is wrong."""
         board = self._stage.board
-        if board.read(ABORT) is None:
-            asked = board.read(STOP)
+        asked = board.read(STOP)
+        if board.read(ABORT) is None or asked != self._asked:
+            self._asked = asked
             reason = failure("cancelled", asked) if asked else board.read(HEALTH).failure
             end_task(self._stage, self._guard, reason)
         return Status.RUNNING
 
+    def terminate(self, new_status: Status) -> None:  # noqa: ARG002
+        """What comes next is not ended."""
+        self._guard.set(ABORT, None)
+
 
 class Hold(Behaviour):
-    """Stands while something is missing; ends the task when that lasts too long."""
+    """Stands while something is missing; ends the jobs when that lasts too long."""
 
     def __init__(self, stage: Stage, guard: Writer, *, limit_s: float = HOLD_LIMIT_S) -> None:
         """Write as `guard`; `limit_s` bounds all holds until `reset`."""
@@ -65,9 +71,36 @@ class Hold(Behaviour):
             end_task(self._stage, self._guard, worst)
         return Status.RUNNING
 
+    def terminate(self, new_status: Status) -> None:  # noqa: ARG002
+        """What comes next is not ended."""
+        self._guard.set(ABORT, None)
+
+
+class Rest(Behaviour):
+    """Says that the robot stands, paused; RUNNING until it is told to go on."""
+
+    def __init__(self, stage: Stage, guard: Writer) -> None:
+        """Write as `guard`."""
+        super().__init__("paused")
+        self._stage = stage
+        self._guard = guard
+
+    def initialise(self) -> None:
+        """The body is at rest from here on."""
+        self._guard.set(PAUSED, True)  # noqa: FBT003
+        self._stage.record("paused")
+
+    def update(self) -> Status:
+        """Stay."""
+        return Status.RUNNING
+
+    def terminate(self, new_status: Status) -> None:  # noqa: ARG002
+        """It moves again."""
+        self._guard.set(PAUSED, False)  # noqa: FBT003
+
 
 def end_task(stage: Stage, guard: Writer, reason: Failure | None) -> None:
-    """Put on the board why the task ends."""
+    """Put on the board why the jobs end."""
     reason = reason or failure("internal", "the task was ended without a reason")
     guard.set(ABORT, reason)
     stage.record("abort", **failure_data(reason))

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 
-from executive.blackboard import FAILURE, NOW, PHASE, Blackboard
+import msgspec
+
+from executive.behaviours.scope import Scope
+from executive.blackboard import FAILURE, NOW, PHASE, RECOVERIES, Blackboard
 from executive.journal import Journal
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill, SkillReport
@@ -15,6 +19,15 @@ STOP_TIMEOUT_S = 10.0
 
 MakeSkill = Callable[[SkillParams, int], Skill]
 """Makes the skill for parameters; the number is the attempt, from 0: a retry plans anew."""
+
+
+class Stopping(msgspec.Struct, frozen=True, eq=False):
+    """A skill on its way to rest: of which step and job, since when."""
+
+    step: str
+    skill: Skill
+    since_s: float
+    scope: Scope
 
 
 class Stage:
@@ -31,9 +44,10 @@ class Stage:
         self.journal = journal
         self.make_skill = make_skill
         self.task = board.claim("task")
+        self.scope = self.own = Scope()
         self._phases = board.claim("skills")
         self._taken: dict[Resource, Skill] = {}
-        self._stopping: list[tuple[str, Skill, float]] = []
+        self._stopping: list[Stopping] = []
 
     @property
     def now_s(self) -> float:
@@ -44,6 +58,19 @@ class Stage:
     def quiet(self) -> bool:
         """Whether no skill is at work, not even on coming to rest."""
         return not self._taken and not self._stopping
+
+    def at_rest(self, scope: Scope) -> bool:
+        """Whether a job has no skill at work, not even on coming to rest."""
+        return not scope.at_work and all(entry.scope is not scope for entry in self._stopping)
+
+    @contextmanager
+    def turn(self, scope: Scope) -> Generator[None]:
+        """Whatever leaves do inside the block, they do for this job."""
+        before, self.scope = self.scope, scope
+        try:
+            yield
+        finally:
+            self.scope = before
 
     def record(self, event: str, **data: object) -> None:
         """Write an event to the journal, stamped with this tick's time."""
@@ -66,32 +93,41 @@ class Stage:
         """Say what the newest skill does."""
         self._phases.set(PHASE, text)
 
-    def fail(self, reason: Failure, *, step: str) -> None:
-        """Put a step's failure on the board and into the journal."""
+    def fail(self, reason: Failure, *, step: str, step_id: str = "") -> None:
+        """Make it the failure of the job whose turn it is; on the board and in the journal too."""
+        self.scope.failure = reason
         self.task.set(FAILURE, reason)
-        self.record("failure", step=step, **failure_data(reason))
+        self.record("failure", step=step, id=step_id, **failure_data(reason))
 
-    def leave(self, name: str, skill: Skill) -> None:
+    def count_recovery(self) -> int:
+        """Count a recovery of the job whose turn it is; returns how many it has begun by now."""
+        self.scope.recoveries += 1
+        self.task.set(RECOVERIES, self.scope.recoveries)
+        return self.scope.recoveries
+
+    def leave(self, name: str, skill: Skill, scope: Scope) -> None:
         """Stop a skill whose leaf is not ticked any more; `wind_down` sees it through."""
         self.record("stopping", step=name)
-        self._stopping.append((name, skill, self.now_s))
-        self._step_to_rest(name, skill, self.now_s)
+        entry = Stopping(name, skill, self.now_s, scope)
+        self._stopping.append(entry)
+        self._step_to_rest(entry)
 
     def wind_down(self) -> bool:
         """Go on with every skill that is coming to rest; True when none is left."""
-        for name, skill, since_s in list(self._stopping):
-            self._step_to_rest(name, skill, since_s)
+        for entry in list(self._stopping):
+            self._step_to_rest(entry)
         return not self._stopping
 
-    def _step_to_rest(self, name: str, skill: Skill, since_s: float) -> None:
-        report = stop_safely(skill, self.now_s)
-        late = self.now_s - since_s > STOP_TIMEOUT_S
+    def _step_to_rest(self, entry: Stopping) -> None:
+        report = stop_safely(entry.skill, self.now_s)
+        took_s = self.now_s - entry.since_s
+        late = took_s > STOP_TIMEOUT_S
         if report.status == "running" and not late:
             self.phase(report.phase)
             return
-        self._stopping = [entry for entry in self._stopping if entry[1] is not skill]
-        self.release(skill)
-        self.record("stopped", step=name, took_s=round(self.now_s - since_s, 3), in_time=not late)
+        self._stopping = [other for other in self._stopping if other is not entry]
+        self.release(entry.skill)
+        self.record("stopped", step=entry.step, took_s=round(took_s, 3), in_time=not late)
 
 
 def stop_safely(skill: Skill, now_s: float) -> SkillReport:

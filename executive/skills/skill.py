@@ -6,10 +6,11 @@ A skill talks to the body through `robot.link.BodyLink`, to planners through
 
 from __future__ import annotations
 
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 import msgspec
 
+from executive.skills.parameters import SkillParams
 from robot.errors import Failure
 
 Resource = Literal["legs", "left_arm", "right_arm", "head", "voice"]
@@ -46,4 +47,13 @@ class Skill(Protocol):
 
     def stop(self, now_s: float) -> SkillReport:
         """Bring the body to rest; call until the report is no longer running. May be repeated."""
+        ...
+
+
+@runtime_checkable
+class Resumable(Protocol):
+    """A skill that, interrupted, knows what is left of it; the others are begun again."""
+
+    def remaining(self) -> SkillParams | None:
+        """What a new skill has to do to go on where this one is now; None: all of it is done."""
         ...

@@ -27,7 +27,6 @@ from py_trees.common import Status
 
 from executive.behaviours.run_skill import Bound, RunSkill
 from executive.behaviours.stage import Stage
-from executive.blackboard import FAILURE, RECOVERIES
 from executive.skills.parameters import (
     BalanceParams,
     NavigateParams,
@@ -172,7 +171,7 @@ class Recover(Behaviour):
 
     def update(self) -> Status:
         """Look the failure up."""
-        reason = self._stage.board.read(FAILURE)
+        reason = self._stage.scope.failure
         code = reason.code if reason else "internal"
         rule = RULES[code]
         refused = self._refusal(code, rule)
@@ -182,8 +181,7 @@ class Recover(Behaviour):
                 self._stage.record("no recovery", step=self._errand.name, code=code, why=refused)
             return Status.FAILURE
         self._used[code] += 1
-        total = self._stage.board.read(RECOVERIES) + 1
-        self._stage.task.set(RECOVERIES, total)
+        self._stage.count_recovery()
         name, steps = REMEDIES[rule.remedy]
         count = f"{self._used[code]} of {rule.times}"
         self.feedback_message = f"{name} ({count})"
@@ -199,7 +197,7 @@ class Recover(Behaviour):
             return f"tried {rule.times} times"
         if self._used.total() >= PER_STEP:
             return f"{PER_STEP} recoveries in this step are enough"
-        if self._stage.board.read(RECOVERIES) >= PER_TASK:
+        if self._stage.scope.recoveries >= PER_TASK:
             return f"{PER_TASK} recoveries in this task are enough"
         return ""
 

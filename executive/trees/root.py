@@ -1,9 +1,9 @@
-"""The whole tree: sense || come to rest || (emergency > recovery > task > idle).
+"""The whole tree: sense || come to rest || (emergency > recovery > pause > jobs > idle).
 
 Every tick senses first, then sees interrupted skills through, then does the first thing in the
-order of urgency that applies. Recoveries of single steps live inside the task
+order of urgency that applies. Recoveries of single steps live inside the jobs
 (`executive.trees.recovery`); the recovery up here is the one of the robot as a whole: stand and
-wait until its senses are back. A task that is interrupted by it goes on at the step where it was.
+wait until its senses are back. Jobs that are interrupted go on at the step where they were.
 """
 
 from __future__ import annotations
@@ -12,19 +12,18 @@ from collections.abc import Callable
 
 from py_trees.behaviour import Behaviour
 from py_trees.behaviours import Running
-from py_trees.common import OneShotPolicy, ParallelPolicy, Status
+from py_trees.common import ParallelPolicy
 from py_trees.composites import Parallel, Selector
 from py_trees.composites import Sequence as InOrder
-from py_trees.decorators import FailureIsSuccess, OneShot
+from py_trees.decorators import FailureIsSuccess
 
-from executive.behaviours.conditions import Check, must_end, must_hold
-from executive.behaviours.guards import EndTask, Hold
+from executive.behaviours.conditions import Check, Predicate, must_end, must_hold, must_pause
+from executive.behaviours.guards import EndTask, Hold, Rest
 from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.sense import Sense, WindDown
 from executive.behaviours.stage import Stage
-from executive.blackboard import ABORT, FAILURE, RECOVERIES
 from executive.skills.parameters import StopParams
-from robot.errors import Failure, failure
+from executive.trees.jobs import Jobs
 
 REST_LIMIT_S = 15.0
 
@@ -33,77 +32,53 @@ BuildTask = Callable[[Stage], Behaviour]
 
 
 class Tree:
-    """The root, with room for one task."""
+    """The root, with room for jobs."""
 
     def __init__(self, stage: Stage, sense: Sense) -> None:
-        """Build the tree without a task."""
+        """Build the tree without a job."""
         self._stage = stage
         self._sense = sense
-        self._guard = stage.board.claim("guard")
-        self._hold = Hold(stage, self._guard)
-        board = stage.board
-        rest = RunSkill("come to a stand", StopParams(), stage=stage, limit_s=REST_LIMIT_S)
-        self._emergency = InOrder(
-            "emergency",
-            memory=True,
-            children=[
-                Check("has to end?", must_end, board=board),
-                FailureIsSuccess("as far as it goes", rest),
-                EndTask(stage, self._guard),
-            ],
-        )
+        guard = stage.board.claim("guard")
+        self.hold = Hold(stage, guard)
+        self.jobs = Jobs(stage)
         recovery = InOrder(
             "recovery",
             memory=False,
-            children=[Check("has to wait?", must_hold, board=board), self._hold],
+            children=[Check("has to wait?", must_hold, board=stage.board), self.hold],
         )
-        choices = [self._emergency, recovery, Running("idle")]
-        self._act = Selector("act", memory=False, children=choices)
+        choices = [
+            self._stand_and("emergency", "has to end?", must_end, EndTask(stage, guard)),
+            recovery,
+            self._stand_and("pause", "is to pause?", must_pause, Rest(stage, guard)),
+            self.jobs,
+            Running("idle"),
+        ]
+        act = Selector("act", memory=False, children=choices)
         self.root = Parallel(
             "robot",
             policy=ParallelPolicy.SuccessOnAll(synchronise=False),
-            children=[sense, WindDown(stage), self._act],
+            children=[sense, WindDown(stage), act],
         )
-        self.task: Behaviour | None = None
-        self.shown: Behaviour | None = None
-        """The newest task, also when it is over: for people to look at."""
 
-    def begin(self, task: Behaviour) -> None:
-        """Put a task into the tree; one that is there is ended first."""
-        self.clear()
-        if self._emergency.status is Status.RUNNING:
-            self._emergency.stop(Status.INVALID)
-        self._hold.reset()
-        self._guard.set(ABORT, None)
-        self._stage.task.set(FAILURE, None)
-        self._stage.task.set(RECOVERIES, 0)
-        task = OneShot(task.name, task, policy=OneShotPolicy.ON_COMPLETION)
-        self.task = self.shown = task
-        self._act.insert_child(task, len(self._act.children) - 1)
+    def _stand_and(
+        self, name: str, question: str, predicate: Predicate, last: Behaviour
+    ) -> Behaviour:
+        """While the answer is yes: come to a stand once, then stay in the last leaf."""
+        stand = RunSkill("come to a stand", StopParams(), stage=self._stage, limit_s=REST_LIMIT_S)
+        steps = [FailureIsSuccess("as far as it goes", stand), last]
+        check = Check(question, predicate, board=self._stage.board)
+        then = InOrder("stand", memory=True, children=steps)
+        return InOrder(name, memory=False, children=[check, then])
 
-    def clear(self) -> None:
-        """Take the task out; what it was doing comes to rest in the next ticks."""
-        if self.task is not None:
-            if self.task.status is Status.RUNNING:
-                self.task.stop(Status.INVALID)
-            self._act.remove_child(self.task)
-            self.task = None
+    @property
+    def shown(self) -> Behaviour | None:
+        """The newest job's part, also when it is over: for people to look at."""
+        return self.jobs.children[-1] if self.jobs.children else None
 
-    def tick(self, now_s: float) -> None:
-        """Tick every node once."""
+    def at(self, now_s: float) -> None:
+        """Set the time of the tick that comes."""
         self._sense.at(now_s)
-        self.root.tick_once()
 
-    def verdict(self) -> Failure | bool | None:
-        """How the task ended: True, or a failure; None while it goes on or the body still moves."""
-        if self.task is None or not self._stage.quiet:
-            return None
-        board = self._stage.board
-        aborted = board.read(ABORT)
-        if aborted is not None:
-            return aborted
-        if self.task.status is Status.SUCCESS:
-            return True
-        if self.task.status is Status.FAILURE:
-            return board.read(FAILURE) or failure("internal", "the task failed without a reason")
-        return None
+    def tick(self) -> None:
+        """Tick every node once."""
+        self.root.tick_once()

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from executive.behaviours.sense import Sense
-from executive.behaviours.stage import Stage
-from executive.blackboard import Blackboard
-from executive.health import HealthMonitor
+from executive.app import Executive
 from executive.journal import Journal
-from executive.skills.holding import Holdings
+from executive.skills.context import SkillContext
 from executive.skills.parameters import NavigateParams, PickParams, PlaceParams, WaitParams
 from executive.skills.parameters import Step as StepParams
 from executive.trees.recovery import Errand
-from executive.trees.root import Tree
 from executive.trees.tasks import Series, build
+from robot.model.description import load
 from tests.fakes.scripted_skills import SilentLink, Troupe
+
+JUNO = load("juno")
 
 TICK_S = 0.05
 WALK = Errand(name="walk", params=NavigateParams(by=StepParams(forward_m=1.0)))
@@ -28,37 +27,49 @@ PUT = Errand(
 WAIT = Errand(name="wait", params=WaitParams(duration_s=1.0))
 
 
+class Planner:
+    """Nobody asks it anything."""
+
+
 class Rig:
-    """A tree on a link without sensors, played tick by tick."""
+    """An executive on a link without sensors, with fake skills, played tick by tick."""
 
     def __init__(self, scripts=None, *, rates_hz=None, journal=None):
         self.troupe = Troupe(scripts)
         self.link = SilentLink()
-        self.board = Blackboard()
         self.journal = journal or Journal()
-        self.operator = self.board.claim("operator")
-        self.stage = Stage(self.board, self.journal, self.troupe.make)
-        monitor = HealthMonitor(rates_hz or {}, start_s=0.0)
-        self.tree = Tree(self.stage, Sense(self.stage, self.link, monitor, holdings=Holdings()))
+        context = SkillContext(link=self.link, planner=Planner(), description=JUNO)  # type: ignore
+        self.executive = Executive(
+            context,
+            self.journal,
+            rates_hz=rates_hz or {},
+            make=lambda params, given: self.troupe.make(params, given.seed),
+        )
+        self.board = self.executive.board
+        self.stage = self.executive.stage
+        self.tree = self.executive.tree
         self.now_s = 0.0
 
-    def begin(self, *errands: Errand):
+    def submit(self, *errands: Errand, **how) -> int:
         task = Series(name="task", parts=tuple(errands))
-        self.tree.begin(build(task, self.stage))
+        return self.executive.submit(lambda stage: build(task, stage), text="task", **how)
+
+    def begin(self, *errands: Errand):
+        self.submit(*errands)
         return self
 
     def tick(self, count: int = 1):
         for _ in range(count):
-            self.tree.tick(self.now_s)
+            self.executive.tick(self.now_s)
             self.now_s = round(self.now_s + TICK_S, 4)
         return self
 
     def run(self, limit: int = 2000):
+        """Tick to the outcome: True, or the failure."""
         for _ in range(limit):
             self.tick()
-            verdict = self.tree.verdict()
-            if verdict is not None:
-                return verdict
+            if self.executive.outcome is not None:
+                return self.executive.outcome.failure or True
         raise AssertionError("the tree does not end")
 
     def events(self, *kinds: str) -> list[str]:

@@ -22,7 +22,7 @@ def test_the_page_of_failures_is_current():
 def test_a_tree_is_shown_without_the_nodes_that_mean_nothing():
     rig = Rig({PickParams: [Script(steps=3)]})
     node = build(Series(name="task", parts=(PICK, WAIT)), rig.stage)
-    rig.tree.begin(node)
+    rig.executive.submit(lambda _: node, text="task")
     rig.tick(2)
     assert text(node, marks=ASCII_MARKS) == "> task\n  > pick: working\n    wait"
 
@@ -30,7 +30,7 @@ def test_a_tree_is_shown_without_the_nodes_that_mean_nothing():
 def test_a_recovery_shows_what_was_tried():
     rig = Rig({PickParams: [Script(code="grasp_missed"), Script(steps=5)]})
     node = build(Series(name="task", parts=(PICK, WAIT)), rig.stage)
-    rig.tree.begin(node)
+    rig.executive.submit(lambda _: node, text="task")
     rig.tick(4)
     shown = [(line.depth, line.name, line.state) for line in lines(node)]
     assert shown == [

@@ -5,7 +5,6 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.blackboard import STOP
 from executive.request import Refused, Understood, request
 from executive.skills.parameters import (
     BalanceParams,
@@ -43,11 +42,12 @@ def test_every_task_ends_with_a_verdict_and_a_body_at_rest(lives, errands, stop_
     rig = Rig(lives).begin(*errands)
     for tick in range(3000):
         if tick == stop_at:
-            rig.operator.set(STOP, "stopped on request")
+            rig.executive.stop("stopped on request")
         rig.tick()
-        if rig.tree.verdict() is not None:
+        if rig.executive.outcome is not None:
             break
-    verdict = rig.tree.verdict()
+    assert rig.executive.outcome is not None
+    verdict = rig.executive.outcome.failure or True
     assert verdict is True or (isinstance(verdict, Failure) and verdict.code in CATALOGUE)
     assert rig.stage.quiet
     begun = [skill for skill in rig.troupe.made if skill.calls]

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from executive.behaviours.stage import STOP_TIMEOUT_S
-from executive.blackboard import ABORT, FAILURE, HEALTH, RECOVERIES, STOP
+from executive.blackboard import ABORT, FAILURE, HEALTH, RECOVERIES
 from executive.journal import Journal
 from executive.skills.parameters import (
     NavigateParams,
@@ -123,6 +123,7 @@ def test_a_step_that_takes_too_long_is_stopped():
 def test_the_next_step_waits_until_an_interrupted_one_has_given_the_legs_back():
     rig = Rig({NavigateParams: [Script(steps=10**9, stop_steps=30)]})
     rig.begin(WALK).tick(5)
+    rig.executive.cancel(1)
     rig.begin(WAIT)  # a wait that needs the legs too, in this fake
     rig.tick(10)
     assert rig.troupe.names() == ["navigate", "wait"]
@@ -134,9 +135,9 @@ def test_the_next_step_waits_until_an_interrupted_one_has_given_the_legs_back():
 def test_stop_brings_the_body_to_rest_before_the_task_is_over():
     rig = Rig({NavigateParams: [Script(steps=10**9, stop_steps=20)], StopParams: [Script(steps=4)]})
     rig.begin(WALK, PICK).tick(10)
-    rig.operator.set(STOP, "stopped on request")
+    rig.executive.stop("stopped on request")
     rig.tick(10)
-    assert rig.tree.verdict() is None
+    assert rig.executive.outcome is None
     verdict = rig.run()
     assert verdict.code == "cancelled"
     assert verdict.cause == "stopped on request"
@@ -150,7 +151,7 @@ def test_stop_brings_the_body_to_rest_before_the_task_is_over():
 def test_a_skill_that_never_stops_is_given_up():
     rig = Rig({NavigateParams: [Script(steps=10**9, stop_steps=10**9)]})
     rig.begin(WALK).tick(3)
-    rig.operator.set(STOP, "stopped on request")
+    rig.executive.stop("stopped on request")
     assert rig.run(int(STOP_TIMEOUT_S / TICK_S) + 50).code == "cancelled"
 
 
@@ -194,9 +195,8 @@ def test_a_lost_controller_ends_the_task():
 def test_a_new_task_after_a_stop_begins_afresh():
     rig = Rig({NavigateParams: [Script(steps=10**9)]})
     rig.begin(WALK).tick(3)
-    rig.operator.set(STOP, "stopped on request")
+    rig.executive.stop("stopped on request")
     rig.run()
-    rig.operator.set(STOP, "")
     assert rig.begin(WAIT).run() is True
     assert rig.board.read(ABORT) is None
     assert rig.board.read(FAILURE) is None
@@ -212,7 +212,7 @@ def test_a_branch_is_chosen_once_and_a_failing_branch_does_not_try_the_other(ans
 
     rig = Rig({PickParams: [Script(steps=2, code="hands_full")]})
     part = Branch(name="if", question=question, then=WAIT, otherwise=PICK)
-    rig.tree.begin(build(part, rig.stage))
+    rig.executive.submit(lambda stage: build(part, stage), text="if")
     verdict = rig.run()
     assert rig.troupe.names() == done
     assert (verdict is True) == answer
