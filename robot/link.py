@@ -7,7 +7,15 @@ from typing import Protocol
 from robot.bus import topics
 from robot.bus.bus import Bus
 from robot.clock import Clock
-from robot.messages import BodyCommand, BodyState, DepthImage, LidarScan, WorldMap, WorldState
+from robot.messages import (
+    BodyCommand,
+    BodyState,
+    DepthImage,
+    LidarScan,
+    PowerState,
+    WorldMap,
+    WorldState,
+)
 
 
 class BodyLink(Protocol):
@@ -45,6 +53,10 @@ class BodyLink(Protocol):
         """The newest depth image."""
         ...
 
+    def power(self) -> PowerState | None:
+        """The newest state of the battery, None without one."""
+        ...
+
 
 class BusLink:
     """A `BodyLink` over a bus; command ids grow from 1."""
@@ -58,6 +70,7 @@ class BusLink:
         self._map = bus.subscribe(topics.ORACLE_MAP)
         self._lidar = bus.subscribe(topics.LIDAR)
         self._depth = bus.subscribe(topics.DEPTH)
+        self._power = bus.subscribe(topics.POWER)
 
     def send(self, command: BodyCommand) -> None:
         """Send one command. Raises BusError if the bus is closed."""
@@ -91,3 +104,7 @@ class BusLink:
     def depth(self) -> DepthImage | None:
         """The newest depth image."""
         return self._depth.latest
+
+    def power(self) -> PowerState | None:
+        """The newest state of the battery, None without one."""
+        return self._power.latest

@@ -218,6 +218,14 @@ class LidarScan(Message, frozen=True, kw_only=True):
     source: Source = "emulated"
 
 
+class PowerState(Message, frozen=True, kw_only=True):
+    """The battery: charge as a part of the whole (0 to 1), and what is drawn [W]."""
+
+    charge: float
+    power_w: float
+    source: Source
+
+
 class PoseFix(Message, frozen=True, kw_only=True):
     """Where the base is in the world, absolutely, at the stamp."""
 

@@ -62,6 +62,7 @@ class Oracle:
             for person in world.people
         }
         self._error: dict[str, Array] = {}
+        self._off, self._off_until_s = SE3(), -math.inf
         self._seen_s: dict[str, float] = {}
 
     def X_WB(self) -> SE3:
@@ -77,9 +78,14 @@ class Oracle:
         """The true pose of every object."""
         return {id: target.pose(self._data) for id, target in self._objects.items()}
 
+    def mislead(self, X_off: SE3, *, until_s: float) -> None:
+        """Let fixes be off by a motion of the world's frame until then."""
+        self._off, self._off_until_s = X_off, until_s
+
     def fix(self, stamp_s: float) -> PoseFix:
         """Where the base is, with noise."""
-        X_WB = self.X_WB()
+        misled = stamp_s < self._off_until_s
+        X_WB = _about(self.X_WB(), self._off) if misled else self.X_WB()
         noise = self._rng.standard_normal(6)
         x, y, z = (float(v) for v in noise[:3] * FIX_NOISE_M)
         roll, pitch, yaw = (float(v) for v in noise[3:] * FIX_NOISE_RAD)
@@ -154,6 +160,13 @@ class _Target:
             i = self._mocap
             return _pose(np.concatenate([data.mocap_pos[i], data.mocap_quat[i]]))
         return _pose(data.qpos[self._q : self._q + 7])
+
+
+def _about(X_WB: SE3, X_off: SE3) -> SE3:
+    """A pose shifted in the world and turned about itself, both by `X_off`."""
+    x, y, z = X_WB.p
+    turned = SE3.from_xy_yaw(0.0, 0.0, X_off.yaw_rad) @ SE3((0.0, 0.0, 0.0), X_WB.quat_wxyz)
+    return SE3((x + X_off.p[0], y + X_off.p[1], z), turned.quat_wxyz)
 
 
 def _pose(values: Array) -> SE3:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import heapq
+import itertools
 import math
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
 
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.errors import ConfigError, DriverError
-from robot.messages import Message
+from robot.messages import Message, Place
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
+from sim import atlas
 from sim.atlas import start_pose
+from sim.battery import Battery
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
@@ -23,6 +28,7 @@ from sim.sensing import Sensing
 
 NEVER = 1 << 62
 PHYSICS_MS = 1
+PAST_TIPPING_RAD = 0.15
 
 
 class Plant:
@@ -37,6 +43,7 @@ class Plant:
         robot: the robot's description.
         model, data: the simulation; only `sim`, tests and views touch them.
         motors: the motors' firmware.
+        battery: an emulated one, if the robot describes one.
         sensing: sensors and oracle.
     """
 
@@ -77,15 +84,19 @@ class Plant:
         self._body = BodySensors(
             self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None
         )
+        self.battery = Battery(robot.battery) if robot.battery else None
         self.sensing = Sensing(
-            self.model, self.data, self.world, robot=robot, rng=seeds[2], pose_error_m=pose_error_m
-        )
+            self.model, self.data, self.world, robot=robot, rng=seeds[2],
+            pose_error_m=pose_error_m, battery=self.battery,
+        )  # fmt: skip
         self._physics_ms = physics_ms
         self._now_ms = 0
         self._watchdog_ms = NEVER
         self._heat_ms = self._ms(HEAT_PERIOD_S)
         self._pulls: list[tuple[int, int, Array]] = []  # until when [ms], body, force
         self._pull_ms = NEVER
+        self._later: list[tuple[int, int, Callable[[], None]]] = []  # a heap: when [ms], number
+        self._numbers = itertools.count()
         self._base = int(self.model.body(robot.base_body).id)
         self.stand(start_pose(world), posture=posture)
 
@@ -141,7 +152,8 @@ class Plant:
             raise ValueError(f"{count} ms are no multiple of {self._physics_ms} ms")
         end = self._now_ms + count
         while self._now_ms < end:
-            pause = min(end, self._watchdog_ms, self._heat_ms, self._pull_ms)
+            later_ms = self._later[0][0] if self._later else NEVER
+            pause = min(end, self._watchdog_ms, self._heat_ms, self._pull_ms, later_ms)
             if pause > self._now_ms:
                 steps = (pause - self._now_ms) // self._physics_ms
                 mujoco.mj_step(self.model, self.data, steps)
@@ -163,6 +175,36 @@ class Plant:
         until = self._now_ms + self._ms(duration_s)
         self._pulls.append((until, int(self.model.body(body).id), np.array(force_n)))
         self._apply_pulls()
+
+    def tip(self, body: str, towards_rad: float) -> None:
+        """Lean an object over its rim, just so far that it falls."""
+        index = int(self.model.body(body).id)
+        radius_m, height_m = _extent(self.model, int(self.model.body_geomadr[index]))
+        X_WO = self.where(body)
+        lean_rad = math.atan2(2.0 * radius_m, height_m) + PAST_TIPPING_RAD
+        X_WFoot = SE3.from_xy_yaw(*X_WO.p[:2], towards_rad, z_m=X_WO.p[2] - height_m / 2)
+        X_WR = X_WFoot @ SE3.from_rpy(0.0, lean_rad, 0.0, (radius_m, 0.0, 0.0))
+        turn = SE3.from_xy_yaw(0.0, 0.0, X_WO.yaw_rad - towards_rad)
+        self.put(body, X_WR @ SE3((-radius_m, 0.0, height_m / 2)) @ turn)
+
+    def after(self, duration_s: float, action: Callable[[], None]) -> None:
+        """Do something to the world later."""
+        due_ms = self._now_ms + self._ms(duration_s)
+        heapq.heappush(self._later, (due_ms, next(self._numbers), action))
+
+    def where(self, body: str) -> SE3:
+        """Where a body truly is."""
+        index = int(self.model.body(body).id)
+        mocap = int(self.model.body_mocapid[index])
+        if mocap >= 0:
+            p, quat = self.data.mocap_pos[mocap], self.data.mocap_quat[mocap]
+        else:
+            p, quat = self.data.xpos[index], self.data.xquat[index]
+        return SE3(tuple(p.tolist()), tuple(quat.tolist()))
+
+    def places(self) -> dict[str, Place]:
+        """Every place of the world by its id."""
+        return atlas.places(self.world)
 
     def put(self, body: str, X_WO: SE3) -> None:
         """Put a body that is free, or a person, somewhere else, at rest.
@@ -189,9 +231,20 @@ class Plant:
             self._watchdog_ms = NEVER
         if self._now_ms >= self._heat_ms:
             self.motors.heat(HEAT_PERIOD_S)
+            self._draw(HEAT_PERIOD_S)
             self._heat_ms += self._ms(HEAT_PERIOD_S)
         if self._now_ms >= self._pull_ms:
             self._apply_pulls()
+        while self._later and self._now_ms >= self._later[0][0]:
+            heapq.heappop(self._later)[2]()
+
+    def _draw(self, duration_s: float) -> None:
+        """Let the battery give what the motors take."""
+        if self.battery is not None:
+            torque_nm = self.data.actuator_force
+            speed_rad_s = self.data.qvel[self.motors.qd_index]
+            load = torque_nm / self.motors.limit_nm
+            self.battery.draw(torque_nm, speed_rad_s, load, duration_s=duration_s)
 
     def _ms(self, duration_s: float) -> int:
         """A duration in milliseconds, in whole steps of the physics, at least one."""
@@ -226,6 +279,14 @@ def _stance(robot: RobotDescription, data: mujoco.MjData) -> SE3:
     lowest = min(float(sole.xpos[2]) for sole in soles)
     yaw = math.atan2(forward[1], forward[0])
     return SE3.from_xy_yaw(float(centre[0]), float(centre[1]), yaw, z_m=lowest)
+
+
+def _extent(model: mujoco.MjModel, geom: int) -> tuple[float, float]:
+    """Half the width, and the height [m] of an object's first geom."""
+    x, y, z = (float(value) for value in model.geom_size[geom])
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_CYLINDER:
+        return x, 2.0 * y
+    return math.hypot(x, y), 2.0 * z
 
 
 def _ignore(_text: str) -> None:

@@ -13,6 +13,7 @@ from robot.bus import topics
 from robot.messages import Message
 from robot.model.description import RobotDescription
 from sim.atlas import world_map
+from sim.battery import Battery
 from sim.oracle import Oracle
 from sim.rays import Rays
 from sim.schema import World
@@ -20,6 +21,7 @@ from sim.sensors import DepthCamera, PlanarLidar
 
 ORACLE_HZ = 10.0
 MAP_HZ = 1.0
+POWER_HZ = 1.0
 
 
 class _Source:
@@ -49,6 +51,7 @@ class Sensing:
         robot: RobotDescription,
         rng: np.random.Generator,
         pose_error_m: float,
+        battery: Battery | None,
     ) -> None:
         """Build every sensor; each draws its noise from its own child of `rng`."""
         seeds = rng.spawn(3)
@@ -71,6 +74,8 @@ class Sensing:
                 lambda stamp_s: msgspec.structs.replace(prior, stamp_s=stamp_s),
             ),
         ]  # fmt: skip
+        if battery is not None:
+            self._sources.append(_Source(topics.POWER.name, POWER_HZ, battery.report))
 
     def topics(self) -> list[str]:
         """Every topic that the plant sends."""

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import signal
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import msgspec
 
@@ -16,7 +19,7 @@ from robot.bus import topics
 from robot.bus.run import Run
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, WallClock
-from robot.errors import Failure, failure
+from robot.errors import ConfigError, Failure, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
@@ -24,6 +27,7 @@ from robot.model import description
 START_S = 20.0
 POLL_S = 0.005
 RUN_FILE = "run.json"
+PARSE, FAULT = "sim.faults:parse", "sim.live:FAULT"
 MAX_LAG_S = 0.25
 
 
@@ -139,6 +143,22 @@ class LiveRuntime:
         while self.failure() is None and (now_s := self._wall.now_s()) < self._due_s:
             self._wall.sleep_until(min(self._due_s, now_s + duration_s))
         self._read_timing()
+
+    def inject(self, fault: Mapping[str, Any]) -> None:
+        """Make a fault (`sim.faults`, as plain data) happen now, in simulation only.
+
+        Names that the plant does not know are refused by the plant, later and silently here.
+
+        Raises:
+            ConfigError: if there is no such fault, or there is no simulation.
+        """
+        if all(process.name != "plant" for process in self._processes):
+            raise ConfigError("faults are injected in simulation only")
+        parsed = entry.attribute(PARSE)(fault)
+        if fault["fault"] == "kill":
+            os.kill(self.supervisor.pid(parsed.process), signal.SIGKILL)
+        else:
+            self._bus.publish(entry.attribute(FAULT), parsed)
 
     def close(self) -> None:
         """Controller first (it damps the motors), then the rest; write `timing.json`."""

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from types import TracebackType
 from typing import Any, Protocol, Self
 
+from robot.bringup import entry
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.drivers.simulated import SimulatedMotors
-from robot.errors import DriverError, Failure, failure
+from robot.errors import ConfigError, DriverError, Failure, failure
 from robot.link import BusLink
 from robot.messages import BodyCommand, BodyState, Message
 
 CONTROL_PERIOD_MS = 2
 STATE_PERIOD_MS = 20
+PARSE, APPLY = "sim.faults:parse", "sim.faults:apply"
 
 
 class Plant(Protocol):
@@ -89,6 +91,7 @@ class Lockstep:
         self._plant = plant
         self._time_ms = 0
         self._failure: Failure | None = None
+        self._lost = self._headless = False
 
     def __enter__(self) -> Self:
         """Open the motors."""
@@ -116,21 +119,38 @@ class Lockstep:
         """
         periods = round(duration_s * 1000.0 / CONTROL_PERIOD_MS)
         end_ms = self._time_ms + periods * CONTROL_PERIOD_MS
-        if self._failure is None:
+        if not self._lost:
             try:
                 self._run_until(end_ms)
             except DriverError as error:
+                self._lost = True
                 self._failure = failure("plant_lost", str(error), time_s=self._time_ms / 1000.0)
         self._time_ms = end_ms
         self.clock.set(end_ms / 1000.0)
+
+    def inject(self, fault: Mapping[str, Any]) -> None:
+        """Make a fault (`sim.faults`, as plain data) happen now.
+
+        Raises:
+            ConfigError: if there is no such fault, or it names what is not there.
+        """
+        parsed = entry.attribute(PARSE)(fault)
+        if fault["fault"] != "kill":
+            entry.attribute(APPLY)(self._plant, parsed)
+        elif parsed.process == "controller":
+            self._headless = True
+            self._failure = failure("controller_lost", "the controller was killed")
+        else:
+            raise ConfigError(f"the {parsed.process} is no process of its own in a fast run")
 
     def _run_until(self, end_ms: int) -> None:
         commands, motors, controller = self._commands, self._motors, self._controller
         step = self._plant.step
         while self._time_ms < end_ms:
-            for command in commands.take():
-                controller.handle(command)
-            motors.write(controller.tick(motors.read()))
+            if not self._headless:
+                for command in commands.take():
+                    controller.handle(command)
+                motors.write(controller.tick(motors.read()))
             if self._time_ms % STATE_PERIOD_MS == 0:
                 self._report()
             step(CONTROL_PERIOD_MS)
@@ -140,7 +160,8 @@ class Lockstep:
         """Publish what is due at this instant."""
         now_s = self._time_ms / 1000.0
         self.clock.set(now_s)
-        self._bus.publish(topics.BODY_STATE, self._controller.state())
+        if not self._headless:
+            self._bus.publish(topics.BODY_STATE, self._controller.state())
         sensed = list(self._plant.sense(now_s))
         for name, message in sensed:
             self._bus.publish(topics.named(name), message)

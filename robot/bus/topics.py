@@ -17,6 +17,7 @@ from robot.messages import (
     LidarScan,
     LoopTiming,
     PoseFix,
+    PowerState,
     Sightings,
     WorldMap,
     WorldState,
@@ -49,6 +50,7 @@ LIDAR: Topic[LidarScan] = Topic("sensors/lidar", LidarScan, 10.0, "plant")
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
+POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "plant")
 WORLD_STATE: Topic[WorldState] = Topic("world/state", WorldState, 10.0, "perception")
 CONTROLLER_TIMING: Topic[LoopTiming] = Topic("controller/timing", LoopTiming, 1.0, "controller")
 PLANT_TIMING: Topic[LoopTiming] = Topic("plant/timing", LoopTiming, 1.0, "plant")
@@ -61,6 +63,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,
+    POWER,
     WORLD_STATE,
     CONTROLLER_TIMING,
     PLANT_TIMING,

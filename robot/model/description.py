@@ -88,6 +88,20 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     rate_hz: float
 
 
+class Battery(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What the robot lives on: capacity, and what draws on it (`sim.battery` emulates it).
+
+    `idle_w` is drawn always, `efficiency` is that of the motors' mechanical work, `stall_w`
+    the heat of one motor that holds its torque limit at rest.
+    """
+
+    capacity_wh: float
+    idle_w: float
+    efficiency: float
+    stall_w: float
+    source: str
+
+
 class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Every sensor besides the motors' own encoders."""
 
@@ -131,6 +145,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     postures: dict[str, dict[str, float]]
     shoulder_height_m: float
     body_radius_m: float
+    battery: Battery | None = None
     folder: str = ""
 
     @property

@@ -106,3 +106,6 @@ class SilentLink:
 
     def depth(self):
         return self.messages["depth"]
+
+    def power(self):
+        return self.messages["power"]

@@ -102,3 +102,63 @@ def test_objects_rest_where_the_world_puts_them(plant, kitchen):
         assert tilt < math.radians(0.5), item.id
     speed = np.abs(plant.data.qvel[-6 * len(kitchen.objects) :]).max()
     assert speed < 0.01
+
+
+def test_plain_data_names_a_fault_and_mistakes_get_the_nearest_name():
+    assert faults.parse({"fault": "shove", "strength_n_s": 10}) == faults.Shove(strength_n_s=10.0)
+    for data, message in (
+        ({"fault": "shov"}, "did you mean 'shove'"),
+        ({"fault": "shove", "strength": 3}, "did you mean 'strength_n_s'"),
+        ({"fault": "shove", "strength_n_s": "much"}, "strength_n_s"),
+        ({"fault": "move", "target": "box"}, "exactly one"),
+        ({}, "unknown fault"),
+    ):
+        with pytest.raises(ConfigError, match=message):
+            faults.parse(data)
+
+
+@pytest.mark.parametrize("towards_deg", [0.0, 90.0, -135.0])
+@pytest.mark.parametrize("target", ["red_cup", "bottle", "box"])
+def test_what_is_knocked_over_lies_on_its_side(plant, target, towards_deg):
+    plant.step(300)
+    faults.apply(plant, faults.KnockOver(target=target, towards_deg=towards_deg))
+    plant.step(700)
+    assert abs(plant.oracle.X_WO(target).rotation()[2, 2]) < 0.3
+
+
+def test_a_person_in_the_way_goes_away_again(plant):
+    before = plant.oracle.X_WO("anna").p
+    faults.apply(plant, faults.StandInWay(target="anna", ahead_m=0.8, duration_s=0.5))
+    plant.step(100)
+    X_BO = plant.oracle.X_WB().flat().inverse() @ plant.oracle.X_WO("anna")
+    assert X_BO.p[:2] == pytest.approx((0.8, 0.0), abs=0.02)
+    plant.step(500)
+    assert plant.oracle.X_WO("anna").p == before
+
+
+def test_an_occupied_place_holds_the_other_object(plant):
+    plant.step(100)
+    faults.apply(plant, faults.Occupy(place="shelf_middle", target="box", at_m=(0.05, 0.1)))
+    plant.step(500)
+    X_PO = plant.places()["shelf_middle"].X_WP.inverse() @ plant.oracle.X_WO("box")
+    assert X_PO.p == pytest.approx((0.05, 0.1, 0.05), abs=0.005)
+
+
+def test_fixes_mislead_for_a_while(plant):
+    faults.apply(plant, faults.Mislead(by_m=(0.5, 0.0), by_deg=10.0, duration_s=1.0))
+    true = plant.oracle.X_WB()
+    false = plant.oracle.fix(0.5).X_WB
+    assert false.p[0] - true.p[0] == pytest.approx(0.5, abs=0.02)
+    assert false.yaw_rad - true.yaw_rad == pytest.approx(math.radians(10.0), abs=0.02)
+    assert plant.oracle.fix(1.1).X_WB.p[0] == pytest.approx(true.p[0], abs=0.02)
+
+
+def test_a_hot_motor_and_an_empty_battery(plant, robot):
+    faults.apply(plant, faults.Heat(motor="left_knee", temperature_c=90.0))
+    assert plant.motors.temperature_c[robot.motor_names.index("left_knee")] == 90.0
+    faults.apply(plant, faults.Discharge(charge=0.1))
+    before = plant.battery.charge
+    plant.step(1000)
+    assert 0.0 < before - plant.battery.charge < 0.001
+    with pytest.raises(ValueError, match="0 to 1"):
+        faults.Discharge(charge=1.5)

@@ -130,7 +130,7 @@ def test_everything_comes_at_its_rate(standing):
     counts = {kind.__name__: count for kind, count in kinds.items()}
     assert counts == {
         DepthImage.__name__: 10, LidarScan.__name__: 10, PoseFix.__name__: 10,
-        Sightings.__name__: 10, "WorldMap": 1,
+        Sightings.__name__: 10, "WorldMap": 1, "PowerState": 1,
     }  # fmt: skip
 
 
