@@ -10,6 +10,7 @@ import msgspec
 
 from executive import loop, runs
 from executive.app import Executive, Outcome
+from executive.dumps.record import Recorder
 from executive.journal import Journal
 from executive.knowledge import full_name
 from executive.progress import Progress
@@ -66,11 +67,17 @@ def do(
     with ExitStack() as stack:
         journal = stack.enter_context(Journal(job.folder, wall_s=time_of_day))
         executive = _executive(job, runtime, planner, journal)
+        recorder = Recorder(executive)
         progress = stack.enter_context(show(executive))
         _write_header(job, journal, start_s)
         task = job.understood.task
         executive.submit(lambda stage: build(task, stage), text=job.understood.text)
-        loop.run(runtime, executive, interrupts=interrupts, on_tick=progress.update)
+
+        def on_tick() -> None:
+            recorder.update()
+            progress.update()
+
+        loop.run(runtime, executive, interrupts=interrupts, on_tick=on_tick)
         assert executive.outcome is not None
         past_s = runtime.clock.now_s() - start_s
         summary = _summary(job, runtime, executive.outcome, past_s, wall.now_s() - begun_s)
