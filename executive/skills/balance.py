@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from executive.skills.context import SkillContext
 from executive.skills.parameters import BalanceParams
 from executive.skills.script import Script, give_up
@@ -28,6 +30,7 @@ class Balance(ScriptedSkill):
         """Which posture, for how long."""
         super().__init__(context)
         self.parameters = parameters
+        self._held_s = 0.0
 
     def script(self) -> Script[None]:
         """Take it, hold it, stand."""
@@ -48,6 +51,11 @@ class Balance(ScriptedSkill):
             body.phase = "standing up"
             yield from stand_still(body)
 
+    def remaining(self) -> BalanceParams:
+        """The same posture, for the time that is left."""
+        left_s = max(0.0, self.parameters.duration_s - self._held_s)
+        return replace(self.parameters, duration_s=left_s)
+
     def _lean(self) -> Script[None]:
         side = self.parameters.side or "forward"
         if side in ("left", "right"):
@@ -59,8 +67,10 @@ class Balance(ScriptedSkill):
     def _hold(self) -> Script[None]:
         """Stay for the time asked for; says when it is being pushed."""
         body, span_s = self.body, self.parameters.duration_s
-        end_s = body.now_s + span_s
+        begin_s = body.now_s
+        end_s = begin_s + span_s
         while body.now_s < end_s:
+            self._held_s = body.now_s - begin_s
             vx, vy, _ = body.state.v_NB
             pushed = vx * vx + vy * vy > PUSHED_M_S**2
             body.phase = "holding against a push" if pushed else f"holding ({self.parameters.mode})"
@@ -84,6 +94,7 @@ class Balance(ScriptedSkill):
             if on_it and not on_other:
                 lifted_s += body.now_s - before_s
             before_s = body.now_s
+            self._held_s = lifted_s
             body.progress = min(1.0, lifted_s / max(span_s, 0.1))
             activity = body.activity("legs", command.id)
             if activity is not None and activity.status != "running":

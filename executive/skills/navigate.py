@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+from msgspec.structs import replace
+
 from executive.skills.asking import pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.context import SkillContext
-from executive.skills.parameters import NavigateParams, Step
+from executive.skills.parameters import FloorPose, NavigateParams, Step
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stepping import step_to
@@ -21,7 +23,7 @@ from executive.skills.visiting import (
 )
 from executive.skills.walking import follow, plan_path, stand_still, turn_by, walk_to
 from robot.planning.requests import BasePath, Stance
-from robot.se3 import SE3
+from robot.se3 import SE3, wrap_angle
 
 FREEING_M = 0.4
 DETOUR = 1.25
@@ -37,6 +39,8 @@ class Navigate(ScriptedSkill):
         """Where to."""
         super().__init__(context)
         self.parameters = parameters
+        self._turned_rad = 0.0
+        self._goal: Stance | None = None
 
     def script(self) -> Script[None]:
         """Tuck the arms in, then walk."""
@@ -44,7 +48,7 @@ class Navigate(ScriptedSkill):
         yield from stow_arms(body)
         if wanted.by is not None:
             body.phase = "walking"
-            yield from walk_by(body, wanted.by)
+            yield from self._walk_by(wanted.by)
         elif wanted.pose is not None:
             x_m, y_m, yaw_rad = wanted.pose.x_m, wanted.pose.y_m, wanted.pose.yaw_rad
             if yaw_rad is None:
@@ -58,6 +62,43 @@ class Navigate(ScriptedSkill):
         elif wanted.person_id is not None:
             yield from self._to_person(wanted.person_id)
 
+    def remaining(self) -> NavigateParams:
+        """The same goal; of a step what is left of the turn, then the stance that it leads to."""
+        by = self.parameters.by
+        if by is None:
+            return self.parameters
+        if self._goal is None:
+            return NavigateParams(by=replace(by, turn_rad=by.turn_rad - self._turned_rad))
+        x_m, y_m, yaw_rad = self._goal
+        return NavigateParams(pose=FloorPose(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad))
+
+    def _walk_by(self, step: Step) -> Script[None]:
+        """Turn, then walk, relative to here: straight if nothing is in the way, else around it."""
+        body = self.body
+        X_WS = body.X_WS
+        X_WS_turned = SE3.from_xy_yaw(X_WS.p[0], X_WS.p[1], X_WS.yaw_rad + step.turn_rad)
+        if abs(step.turn_rad) > 1e-6:
+            yield from self._turn_by(step.turn_rad)
+        goal = self._goal = stance_of(X_WS_turned @ SE3((step.forward_m, step.left_m, 0.0)))
+        if abs(step.turn_rad) > 1e-6:
+            yield from step_to(body, stance_of(X_WS_turned))
+        straight_m = math.hypot(step.forward_m, step.left_m)
+        if straight_m < 1e-6:
+            return
+        if (yield from _is_free(body, goal, straight_m)):
+            yield from _walk_straight(body, goal)
+        else:
+            yield from walk_to(body, goal)
+
+    def _turn_by(self, angle_rad: float) -> Script[None]:
+        """Turn on the spot, counting how far."""
+        before_rad = self.body.X_WS.yaw_rad
+        for _ in turn_by(self.body, angle_rad):
+            yield
+            yaw_rad = self.body.X_WS.yaw_rad
+            self._turned_rad += wrap_angle(yaw_rad - before_rad)
+            before_rad = yaw_rad
+
     def _to_person(self, person_id: str) -> Script[None]:
         body = self.body
         person = next((person for person in body.map.people if person.id == person_id), None)
@@ -67,23 +108,6 @@ class Navigate(ScriptedSkill):
         distance_m = AT_PERSON_M + person.radius_m
         stances = stances_around(person.X_WO.p, body.X_WS, distance_m=distance_m)
         yield from walk_to_any(body, stances, name=person.name)
-
-
-def walk_by(body: Body, step: Step) -> Script[None]:
-    """Turn, then walk, relative to here: straight if nothing is in the way, else around it."""
-    X_WS = body.X_WS
-    X_WS_turned = SE3.from_xy_yaw(X_WS.p[0], X_WS.p[1], X_WS.yaw_rad + step.turn_rad)
-    if abs(step.turn_rad) > 1e-6:
-        yield from turn_by(body, step.turn_rad)
-        yield from step_to(body, stance_of(X_WS_turned))
-    straight_m = math.hypot(step.forward_m, step.left_m)
-    if straight_m < 1e-6:
-        return
-    goal = stance_of(X_WS_turned @ SE3((step.forward_m, step.left_m, 0.0)))
-    if (yield from _is_free(body, goal, straight_m)):
-        yield from _walk_straight(body, goal)
-    else:
-        yield from walk_to(body, goal)
 
 
 def _is_free(body: Body, goal: Stance, straight_m: float) -> Script[bool]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+
+import msgspec
 
 from executive.skills.approaching import approach, back_away, bring_in, come_nearer, withdraw
 from executive.skills.asking import ask, held_in, stance_of
@@ -17,7 +20,7 @@ from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME, stow_arms
 from executive.skills.support import surroundings, tilt
 from robot.errors import Failure, failure
-from robot.messages import ObjectInfo, Place
+from robot.messages import ObjectInfo, Place, Side
 from robot.planning.requests import PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
@@ -37,6 +40,14 @@ UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
 
 
+class Release(msgspec.Struct, frozen=True, kw_only=True):
+    """How a hand lets go: how far the fingers open, and where the hand is drawn back to."""
+
+    side: Side
+    opening_m: float
+    X_WG_back: SE3
+
+
 class PutDown(ScriptedSkill):
     """Put an object down; ends with the arm home, clear of the place, the object seen there."""
 
@@ -46,6 +57,8 @@ class PutDown(ScriptedSkill):
         """What to put where."""
         super().__init__(context)
         self.parameters = parameters
+        self._release: Release | None = None
+        self._released = False
 
     def script(self) -> Script[None]:
         """Plan, approach, lower, let go, withdraw, verify."""
@@ -73,6 +86,17 @@ class PutDown(ScriptedSkill):
         yield from bring_in(body, plan.side, posture_rad(body, plan.side, HOME))
         if missed is not None:
             raise GaveUp(missed)
+
+    def halt(self) -> Script[None]:
+        """A hand that has begun to let go lets go and draws back before the body rests."""
+        if self._release is not None:
+            with contextlib.suppress(GaveUp):  # then it rests where it is
+                yield from self._draw_back(self._release)
+        yield from super().halt()
+
+    def remaining(self) -> PlaceParams | None:
+        """Nothing, once the hand has begun to let go: the object stands."""
+        return None if self._released else self.parameters
 
     def _place(self) -> Place:
         """The place of the map, or for an exact pose the one under it, or a spot of its own."""
@@ -162,11 +186,20 @@ class PutDown(ScriptedSkill):
         body.phase = f"letting go of the {info.name}"
         body.context.holdings.release(side)
         set_payload(body, side, 0.0)
-        yield from open_fingers(body, side, opening_m=held.gap_m + OPEN_MARGIN_M)
-        body.phase = "drawing the hand back"
-        back = plan.X_WG_release.inverse() @ plan.X_WG_retreat
-        X_WG_back = body.X_WG(side) @ back
-        yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=RETREAT_M_S)
+        self._release = Release(
+            side=side,
+            opening_m=held.gap_m + OPEN_MARGIN_M,
+            X_WG_back=body.X_WG(side) @ plan.X_WG_release.inverse() @ plan.X_WG_retreat,
+        )
+        self._released = True
+        yield from self._draw_back(self._release)
+        self._release = None
+
+    def _draw_back(self, release: Release) -> Script[None]:
+        yield from open_fingers(self.body, release.side, opening_m=release.opening_m)
+        self.body.phase = "drawing the hand back"
+        back = release.X_WG_back
+        yield from move_hand(self.body, release.side, lambda: back, speed_m_s=RETREAT_M_S)
 
     def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[Failure | None]:
         """Look: the object must stand where it was put. Returns what is wrong."""

@@ -17,9 +17,15 @@ class Say(ScriptedSkill):
         """What to say."""
         super().__init__(context)
         self.parameters = parameters
+        self._said = False
 
     def script(self) -> Script[None]:
         """Say it; takes one tick."""
         self.body.phase = "speaking"
+        self._said = True
         self.context.say(self.parameters.text)
         yield
+
+    def remaining(self) -> SayParams | None:
+        """Nothing, once it is said."""
+        return None if self._said else self.parameters
