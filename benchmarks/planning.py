@@ -313,10 +313,11 @@ def main(
                         study, robot, target, held=held, side=plan.side
                     ),
                 )
-    _report(study)
+    report(study)
 
 
-def _report(study: Study) -> None:
+def report(study: Study) -> None:
+    """Print what held, how long it took, and what broke."""
     console = Console(width=150)
     chains = Table("chain", "whole", "tried")
     for name, tried in study.tried.items():

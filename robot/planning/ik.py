@@ -19,6 +19,10 @@ from robot.se3 import Array
 STEP_LIMIT_RAD = 0.4
 """Largest change of a joint in one iteration [rad]."""
 RELAX_GAIN = 0.25
+SWING_RAD = 0.2
+"""Motion of the joints in one step of a swing of the elbow [rad]."""
+LIMIT_ROOM_RAD = 0.1
+"""A swing ends so far before a limit [rad]."""
 STALL_STEPS, STALL_SHARE = 4, 0.6
 """A target is given up when so many iterations leave more than this share of the error."""
 
@@ -191,6 +195,39 @@ class Chain:
             pull = off**3 / self._half_range
             change = _damped_step(jacobian, error, pull, gain=np.full((len(q), 1), RELAX_GAIN))
             q = np.clip(q + change, self.lower, self.upper)
+        return self.solve(rotations, positions, q, iterations=6).q
+
+    def swing(self, q: Array, along: Array, *, steps: int) -> Array:
+        """Joints with the site where it is at q, shape (n, k), and the middle hinge elsewhere.
+
+        The middle hinge of an arm is its elbow: it swings about the line from shoulder to hand,
+        `SWING_RAD` of joint motion a step, as far as that leads along a direction and the limits
+        allow.
+
+        Args:
+            q: where to start.
+            along: the direction in the body's frame, shape (n, 3).
+            steps: how far.
+        """
+        if not len(q):
+            return q
+        q, (rotations, positions), middle = q.copy(), self.forward(q), len(self.joints) // 2
+        for _ in range(steps):
+            here, at, axes, anchors = self._sweep(q)
+            error = np.concatenate(
+                [positions - at, _rotation_vector(rotations @ here.transpose(0, 2, 1))], axis=1
+            )
+            jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), axes], axis=2)
+            lever = anchors[:, middle : middle + 1] - anchors[:, :middle]
+            wanted = np.zeros_like(q)
+            wanted[:, :middle] = np.sum(_cross(axes[:, :middle], lever) * along[:, None, :], axis=2)
+            free = _damped_step(jacobian, np.zeros_like(error), wanted, np.ones((len(q), 1)))
+            size = np.linalg.norm(free, axis=1, keepdims=True)
+            turn = SWING_RAD * free / np.maximum(size, 1e-6)
+            room = np.where(turn > 0, self.upper - q, q - self.lower) - LIMIT_ROOM_RAD
+            turn *= np.clip(np.min(room / np.maximum(np.abs(turn), 1e-9), axis=1), 0, 1)[:, None]
+            q = q + turn + _damped_step(jacobian, error, np.zeros_like(q))
+            q = np.clip(q, self.lower, self.upper)
         return self.solve(rotations, positions, q, iterations=6).q
 
     def margin(self, q: Array) -> Array:

@@ -39,6 +39,8 @@ BEST_ASIDE_M, ASIDE_COST_PER_M = 0.20, 0.8
 TURNS_RAD, TURN_COST_PER_RAD = (-0.4, 0.0, 0.4), 0.12
 SHARE_PER_M = 0.06
 """Cost of walking a metre."""
+OPTION_SHARE = 0.5
+"""Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
 JITTER = 0.12
 """Random cost that spreads the first candidates."""
 
@@ -168,19 +170,24 @@ def propose(
     kept: list[Indices] = []
     backs: list[Array] = []
     left = np.array([lean.quota for lean in LEANS])
+    share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
+    left -= share.reshape(len(LEANS), -1).sum(axis=1)
     for first in range(0, total, CHUNK):
         rows = order[first : first + CHUNK]
-        rows = rows[left[tags[rows, 2]] > 0]
+        kind = tags[rows, 2] * len(options) + tags[rows, 0]
+        rows = rows[(left[tags[rows, 2]] > 0) | (share[kind] > 0)]
         clearance = floor.clearances_m(stance[rows, :2])
         cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, ROOMY_M - clearance)
         rows = rows[clearance >= NARROW_M]
         back, tight = standoffs.lengths(stance[rows])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
-        inside = _within(tags[rows, 2], left)
+        inside = _within(tags[rows, 2] * len(options) + tags[rows, 0], share)
+        others = np.flatnonzero(~inside)
+        inside[others] = _within(tags[rows[others], 2], left)
         kept.append(rows[inside])
         backs.append(back[inside])
-        if not left.any():
+        if not left.any() and not share.any():
             break
     order, standoff = np.concatenate(kept), np.concatenate(backs)
     again = np.argsort(cost[order], kind="stable")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,6 +20,10 @@ from robot.se3 import Array
 
 DEPTH = 8
 """How many candidates of a batch are looked at closely at a time."""
+SWINGS = (5, 4)
+"""How far the elbow is swung up where the arm touches something, and how much further then."""
+OUTWARDS = 0.4
+"""How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
@@ -37,15 +41,27 @@ def passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[C
         some = batch.take(np.flatnonzero(batch.left == (side == "left")))
         if len(some):
             ranked += _reachable(body, job, side, some, tally)
-    ranked.sort(key=lambda entry: -entry.score)
     checker = Checker(body, job)
+    blocked = yield from _tested(body, job, checker, ranked, tally=tally)
+    for steps in SWINGS:
+        raised = _swung(body, blocked, steps)
+        blocked = yield from _tested(body, job, checker, raised, tally=tally)
+
+
+def _tested(
+    body: Body, job: Job, checker: Checker, entries: list[_Entry], *, tally: Tally
+) -> Generator[Choice | None, None, list[_Entry]]:
+    """Yields what `passing` does; returns the entries that touch something at their main pose."""
+    ranked = sorted(entries, key=lambda entry: -entry.score)
     waiting: list[_Entry] = []
+    blocked: list[_Entry] = []
     for k, entry in enumerate(ranked):
         checker.prepare(entry.candidate, entry.side, entry.main)
         touch = checker.at_main(entry.q_main)
         if touch is None:
             waiting.append(entry)
         else:
+            blocked.append(entry)
             tally.touched[touch] += 1
         if len(waiting) == DEPTH or k == len(ranked) - 1:
             for side in SIDES:
@@ -53,6 +69,7 @@ def passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[C
                 if group:
                     yield _closely(body, job, checker, group, tally=tally)
             waiting = []
+    return blocked
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +102,25 @@ def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally)
         _Entry(float(score[k]), side, some.take(ok[k : k + 1]), _row(main, int(i)), q[k])
         for k, i in enumerate(ok)
     ]
+
+
+def _swung(body: Body, entries: list[_Entry], steps: int) -> list[_Entry]:
+    """The same with the elbow further up and out, where the first touched a table or a board."""
+    result: list[_Entry] = []
+    for side in SIDES:
+        some = [entry for entry in entries if entry.side == side]
+        if not some:
+            continue
+        arm = body.arms[side]
+        trunks = reach.trunks_of(body, side, _join([entry.candidate for entry in some]))
+        aside = OUTWARDS if side == "left" else -OUTWARDS
+        along = trunks.R_ST.transpose(0, 2, 1) @ np.array([0.0, aside, 1.0])
+        q = arm.chain.swing(np.stack([entry.q_main for entry in some]), along, steps=steps)
+        score = reach.margins(arm, q) - np.array([entry.candidate.cost[0] for entry in some])
+        result += [
+            replace(entry, q_main=q[k], score=float(score[k])) for k, entry in enumerate(some)
+        ]
+    return result
 
 
 def _backs(job: Job, candidates: Candidates, main: Targets) -> Targets:

@@ -10,6 +10,7 @@ from robot.messages import Shape
 from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.requests import (
+    ObjectPose,
     PickPlan,
     PickRequest,
     PlacePlan,
@@ -113,6 +114,23 @@ def test_a_deep_reach_leans_the_trunk(solver: Solver) -> None:
     plan = pick(solver, surroundings(on_table(0.12, 0.0), more=walls))
     assert isinstance(plan, PickPlan), plan
     assert plan.posture.pitch_rad > 0.0
+
+
+@pytest.mark.parametrize("deep", [0.12, 0.16])
+def test_on_a_counter_as_high_as_the_elbow_the_elbow_swings_up(solver: Solver, deep: float) -> None:
+    counter = block("counter", 1.5, -1.0, (0.60, 1.80, 0.88))
+    cup = ObjectPose(id="cup", shape=CUP, X_WO=SE3((1.2 + deep, -1.0, 0.88 + 0.05)))
+    around = Surroundings(map=room(counter), objects=(cup,))
+    plan = pick(solver, around)
+    assert isinstance(plan, PickPlan), plan
+    scene = solver.body.scenes.get(solids_of(around))
+    standing = solver.body.standing(plan.posture, plan.side)
+    q = standing.q.copy()
+    q[solver.body.arms[plan.side].motors] = plan.pre_rad
+    scene.pose(SE3.from_xy_yaw(*plan.stance) @ standing.X_SB, q)
+    scene.set_clearance(0.0)
+    scene.update()
+    assert not scene.touches(scene.arm_geoms(plan.side))
 
 
 def test_carrying_is_near_the_body_and_upright(solver: Solver) -> None:

@@ -54,3 +54,28 @@ def test_relaxing_keeps_the_hand_and_widens_the_margin(body: Body) -> None:
     relaxed = arm.chain.relax(q)
     assert np.allclose(arm.chain.forward(relaxed)[1], arm.chain.forward(q)[1], atol=2e-3)
     assert arm.chain.margin(relaxed).mean() > arm.chain.margin(q).mean() + 0.015
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_swinging_keeps_the_hand_and_raises_the_elbow_inside_the_limits(body: Body, side) -> None:
+    arm, rng = body.arms[side], np.random.default_rng(3)
+    carry = np.array(body.description.posture("carry"))[arm.motors]
+    q = np.clip(carry + rng.normal(0.0, 0.15, (20, 7)), arm.lower + 0.2, arm.upper - 0.2)
+    up = np.tile([0.0, 0.4 if side == "left" else -0.4, 1.0], (len(q), 1))
+    swung = arm.chain.swing(q, up, steps=6)
+    assert np.allclose(arm.chain.forward(swung)[1], arm.chain.forward(q)[1], atol=1e-3)
+    assert (swung >= arm.lower).all()
+    assert (swung <= arm.upper).all()
+    rise = [elbow_height(body, side, after) - elbow_height(body, side, before)
+            for before, after in zip(q, swung, strict=True)]  # fmt: skip
+    assert min(rise) > 0.0
+    assert np.median(rise) > 0.03
+
+
+def elbow_height(body: Body, side, q_arm) -> float:
+    model, data = body.model, body.model.data()
+    q = body.nominal.copy()
+    q[body.arms[side].motors] = q_arm
+    model.write_joints(data, q)
+    mujoco.mj_kinematics(model.model, data)
+    return float(data.body(model.model.joint(f"{side}_elbow").bodyid[0]).xpos[2])
