@@ -14,6 +14,7 @@ from typing import Annotated, NoReturn
 import msgspec
 import typer
 
+from executive.history import cli as history
 from robot.errors import ConfigError, RobotError
 
 FAILED, INVALID, BROKEN = 1, 2, 3
@@ -30,6 +31,7 @@ app = typer.Typer(
 
 model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
 app.add_typer(model_app, name="model")
+history.register(app)
 
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")

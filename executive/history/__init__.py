@@ -1,0 +1,1 @@
+"""What past runs tell: why they ended, whether they repeat, how they are gone on with."""
