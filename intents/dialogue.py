@@ -1,75 +1,217 @@
-"""What was said before: what "it" is, and the one question that is open."""
+"""One conversation: what was said before, the one open question, confirmations, answers.
+
+Order of a turn: a cry to stop; the answer to the open question; what the sentence means by
+itself. Questions about the robot and about where things are get an answer from its state; goals
+that are risky or cannot be undone are read back first.
+"""
 
 import re
 
-import msgspec
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.corrections import substitute
+from intents import replies, wording
+from intents.context import Context
 from intents.english.lexer import tokenize
-from intents.goals import Goal, ObjectQuery, Person
-from intents.grounding import Entity
-from intents.outcomes import Choice, Question
+from intents.english.lexicon import phrases, words
+from intents.goals import Cancel, Find, Goal, Report, Stop
+from intents.outcomes import Choice, Goals, Question, Refusal, Reply, Turn
+from intents.parser import Fallback, hear
+from intents.risks import risk
+from intents.state import RobotState
+from intents.stopping import is_stop
+from intents.vocabulary import Vocabulary
+
+__all__ = ["Context", "Dialogue"]
+
+MAX_REPEATS = 2
+_YES = words("yes yeah yep yup sure ok okay affirmative confirm confirmed correct right indeed "
+             "absolutely certainly definitely proceed continue y ja si oui aye")  # fmt: skip
+_YES_PHRASES = phrases("do it,go ahead,of course,please do,do that,go on,sounds good,that is right,"
+                       "i am sure,you may,go for it,carry on")  # fmt: skip
+_NO = words("no nope nah not never negative neither none nothing nein non don't n nevermind")
+_NO_PHRASES = phrases("never mind,forget it,leave it,forget that,better not,rather not,stop that,"
+                      "do not,let it be,i changed my mind")  # fmt: skip
+_WHERE = re.compile(
+    r"\bwhere(?:'s|s|\s)|^\W*(?:is|are) there\b|^\W*(?:do|can|have) you "
+    r"(?:see|know|seen|find)\b",
+    re.IGNORECASE,
+)
 
 
-class Context(msgspec.Struct, frozen=True, kw_only=True):
-    """What a sentence may refer to; give the one of an outcome to the next sentence.
+class Dialogue:
+    """A conversation with one person, turn by turn.
+
+    >>> from intents.grounding import Entity
+    >>> from intents.state import RobotState
+    >>> from intents.vocabulary import Thing, Vocabulary
+    >>> home = Vocabulary.of(
+    ...     objects=[Thing(name="cup", color="red"), Thing(name="cup", color="blue")],
+    ...     places=["shelf", "trash can"],
+    ... )
+    >>> state = RobotState(
+    ...     entities=(
+    ...         Entity(id="c1", name="cup", color="red", held=True),
+    ...         Entity(id="c2", name="cup", color="blue", at="shelf"),
+    ...     )
+    ... )
+    >>> dialogue = Dialogue(home)
+    >>> dialogue.hear("what are you holding?", state).text
+    'I am holding the red cup.'
+    >>> dialogue.hear("look at the cup", state).question
+    'Which cup, the red one or the blue one?'
+    >>> wording.in_words(dialogue.hear("the blue one", state).goals)
+    'look at the blue cup at the shelf'
+    >>> dialogue.hear("throw it away", state).question  # doctest: +ELLIPSIS
+    'I shall put the blue cup at the shelf into the trash can; what is thrown away may be...'
+    >>> dialogue.hear("no", state).text
+    'All right, I leave it.'
 
     Attributes:
-        object: What "it" is.
-        person: Who "him" or "her" is.
-        place: Where "there" is.
-        goals: What was asked last, for "do it again".
-        question: The question that is open.
-        entities: What is known to be there; without any, nothing is found ambiguous.
+        context: What was said before; also holds the open question.
+        confirm: Whether risky goals are read back before they are returned.
     """
 
-    object: ObjectQuery | None = None
-    person: Person | None = None
-    place: str | None = None
-    goals: tuple[Goal, ...] = ()
-    question: Question | None = None
-    entities: tuple[Entity, ...] = ()
+    def __init__(
+        self, vocabulary: Vocabulary, *, confirm: bool = True, fallback: Fallback | None = None
+    ) -> None:
+        """Begin a conversation.
+
+        Args:
+            vocabulary: The names of this world.
+            confirm: Whether risky goals are read back before they are returned.
+            fallback: Asked what the grammar does not understand, such as a language model.
+        """
+        self.vocabulary = vocabulary
+        self.confirm = confirm
+        self.fallback = fallback
+        self.context = Context()
+        self._repeats = 0
+        self._pending: Context | None = None
+
+    @property
+    def question(self) -> Question | None:
+        """The question that is open."""
+        return self.context.question
+
+    def hear(self, text: str, state: RobotState | None = None) -> Turn:
+        """What one turn of the person leads to.
+
+        Args:
+            text: What was said or typed; every string is accepted.
+            state: What the robot knows of itself now.
+
+        Returns:
+            Goals to carry out (``parser`` is "stop" for a cry to stop), a question (the one that
+            is open from now on), a refusal with its reason, or a reply, which is all there is to
+            say.
+        """
+        state = state or RobotState()
+        if is_stop(text):
+            self._close()
+            return Goals(goals=(Stop(),), parser="stop")
+        opened = self.context.question
+        turn = self._answer(text, opened, state) if opened else None
+        return turn or self._understand(text, state, opened)
+
+    def forget(self) -> None:
+        """Begin anew: nothing was said, nothing is open."""
+        self._close()
+        self.context = Context()
+
+    def _close(self) -> None:
+        self.context = replace(self.context, question=None)
+        self._pending, self._repeats = None, 0
+
+    def _answer(self, text: str, opened: Question, state: RobotState) -> Turn | None:
+        """Yes or no to a confirmation; no to any question."""
+        verdict = _verdict(text)
+        if verdict is None or (verdict and opened.kind != "confirmation"):
+            return None
+        pending = self._pending
+        self._close()
+        if not verdict:
+            busy = bool(state.doing) and "cancel" in text.lower()
+            return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
+        if pending is not None:
+            self.context = replace(pending, question=None)
+        return Goals(goals=opened.goals, parser=opened.parser)
+
+    def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
+        before = replace(self.context, entities=state.entities, view=state.view)
+        outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
+        if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
+            self._repeats += 1
+            again = opened.question.removeprefix("I did not get that. ")
+            return replace(opened, question=f"I did not get that. {again}", ms=outcome.ms)
+        self._close()
+        if isinstance(outcome, Goals):
+            return self._settle(text, outcome, after, state)
+        self.context = after
+        return outcome
+
+    def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
+        """Answer what needs no motion, confirm what is risky, and pass on the rest."""
+        told = self._told(text, outcome.goals, state)
+        if isinstance(told, Reply):
+            self.context = after
+            return replace(told, ms=outcome.ms)
+        why = risk(outcome.goals) if self.confirm else ""
+        if self.confirm and outcome.parser == "model":
+            why = why or "that is how I understand it"
+        if told is None and not why:
+            self.context = after
+            return outcome
+        readback = f"I shall {wording.in_words(outcome.goals)}; {why}. Shall I?"
+        question = told or _confirmation(outcome, readback)
+        question = replace(question, text=text, ms=outcome.ms)
+        self._pending = after
+        self.context = replace(self.context, question=question)
+        return question
+
+    def _told(
+        self, text: str, goals: tuple[Goal, ...], state: RobotState
+    ) -> Reply | Question | None:
+        """What can be said at once, or asked because it is not known."""
+        reports = [goal for goal in goals if isinstance(goal, Report)]
+        if reports and len(reports) == len(goals):
+            return Reply(text=" ".join(replies.report(goal.topic, state) for goal in reports))
+        sought = goals[0] if len(goals) == 1 else None
+        if not isinstance(sought, Find) or sought.object is None or not _WHERE.search(text):
+            return None
+        found = replies.where(sought.object, state)
+        if found:
+            return Reply(text=found)
+        asked = replies.unknown_place(sought.object)
+        return _confirmation(Goals(goals=goals), asked)
 
 
-def answered(text: str, question: Question) -> tuple[Goal, ...] | None:
-    """The goals of an open question once a text answers it; None if it does not.
+def _confirmation(outcome: Goals, question: str) -> Question:
+    return Question(
+        question=question,
+        choices=(Choice(label="yes"), Choice(label="no")),
+        goals=outcome.goals,
+        kind="confirmation",
+        parser=outcome.parser,
+    )
 
-    An answer names what one of the choices has and the others have not ("blue", "the one on the
-    shelf"), or its position ("the second").
-    """
-    choice = _choice(text, question.choices)
-    if choice is None or choice.query is None or question.about is None:
+
+def _verdict(text: str) -> bool | None:
+    """Whether a text is a yes or a no and nothing else."""
+    said = [token.text for token in tokenize(text) if token.text[0].isalnum()]
+    said = [word for word in said if word not in ("please", "robot", "thanks", "thank", "you")]
+    short = " ".join(said)
+    if not 0 < len(said) <= 5:
         return None
-    refined = replace(choice.query, count=question.about.count)
-    return tuple(substitute(goal, question.about, refined) for goal in question.goals)
-
-
-def completed(text: str, question: Question) -> list[str]:
-    """What was said before with an answer in it, in the ways in which it may fit."""
-    choice = _choice(text, question.choices)
-    if choice is not None and question.said:
-        said = re.compile(rf"\b{re.escape(question.said)}\b", re.IGNORECASE)
-        return [said.sub(choice.label, question.text)]
-    if question.choices or not question.text:
-        return []
-    before = question.text.rstrip(" .!?")
-    return [f"{before}{link}{text}" for link in (" ", " on ", " to ")]
-
-
-_ORDINALS = {"first": 0, "former": 0, "second": 1, "latter": 1, "third": 2, "fourth": 3, "last": -1}
-_EMPTY = lexicon.DETERMINERS | lexicon.ONES | lexicon.words("at on in please")
-
-
-def _choice(text: str, choices: tuple[Choice, ...]) -> Choice | None:
-    said = [t.text for t in tokenize(text) if t.text not in _EMPTY and t.text[0].isalnum()]
-    if not said or len(said) > 6:
-        return None
-    fitting = [c for c in choices if all(w in c.label.split() for w in said)]
-    if len(fitting) == 1:
-        return fitting[0]
-    position = next((_ORDINALS[w] for w in said if w in _ORDINALS), None)
-    if position is not None and -1 <= position < len(choices) and len(said) <= 2:
-        return choices[position]
+    if said[0] in _NO or any(short.startswith(" ".join(p)) for p in _NO_PHRASES):
+        plain = len(said) == 1 or all(w in _NO | _YES | _REST for w in said[1:])
+        return False if plain or tuple(said) in _NO_PHRASES else None
+    if said[0] == "cancel" and len(said) <= 2:
+        return False
+    if said[0] in _YES or tuple(said[:2]) in _YES_PHRASES or tuple(said) in _YES_PHRASES:
+        rest = said[1:] if said[0] in _YES else []
+        plain = all(w in _YES | _REST for w in rest) or tuple(rest) in _YES_PHRASES
+        return True if plain else None
     return None
+
+
+_REST = words("it that do of them thing wait i want mind all one these go on ahead is the")

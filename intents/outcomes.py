@@ -7,6 +7,7 @@ import msgspec
 from intents.goals import Goal, ObjectQuery, to_builtins
 
 ParserName = Literal["grammar", "model", "stop"]
+QuestionKind = Literal["choice", "missing", "confirmation"]
 
 
 class Goals(msgspec.Struct, frozen=True, kw_only=True):
@@ -41,6 +42,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
         about: The description that fits several objects.
         text: What was said.
         said: The words in it that a choice stands in place of.
+        kind: Which of several, what is missing, or whether to do it at all ("yes" or "no").
     """
 
     question: str
@@ -49,6 +51,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
     about: ObjectQuery | None = None
     text: str = ""
     said: str = ""
+    kind: QuestionKind = "missing"
     parser: ParserName = "grammar"
     ms: float = 0.0
 
@@ -61,7 +64,17 @@ class Refusal(msgspec.Struct, frozen=True, kw_only=True):
     ms: float = 0.0
 
 
+class Reply(msgspec.Struct, frozen=True, kw_only=True):
+    """Nothing is to be done: ``text`` is the answer."""
+
+    text: str
+    ms: float = 0.0
+
+
 Outcome = Goals | Question | Refusal
+"""What a sentence leads to by itself."""
+Turn = Outcome | Reply
+"""What it leads to in a conversation."""
 _KINDS = {Goals: "goals", Question: "question", Refusal: "refusal"}
 
 

@@ -4,12 +4,12 @@ First the word "stop", before anything else; then the answer to an open question
 grammar. What the grammar understands is checked against what is known to be there.
 """
 
-import re
 import time
+from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.dialogue import Context, answered, completed
+from intents.context import Context, answered, completed
 from intents.english.names import index_of
 from intents.english.referents import Scope
 from intents.english.text import Text
@@ -18,25 +18,15 @@ from intents.goals import Cancel, Goal, Stop
 from intents.grammar import Grammar
 from intents.grounding import Ambiguous, Unknown, ground, narrowed, queries
 from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
+from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
+
+Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
+"""Asked for what the grammar does not understand; None if it has nothing to say either."""
+__all__ = ["MAX_CHARACTERS", "Fallback", "hear", "is_stop", "parse"]
 
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
-
-_WORD = re.compile(r"[a-z]+")
-_STOPS = {"stop", "halt", "freeze", "emergency", "estop", "stopp"}
-_BEFORE_STOP = {"please", "robot", "hey", "no", "now", "just", "okay", "oh", "wait", "e", "you",
-                "must", "should", "can", "everything", "immediately", "abort"}  # fmt: skip
-
-
-def is_stop(text: str) -> bool:
-    """Whether a text is a cry to stop; looks at the first words only, and errs towards yes."""
-    for word in _WORD.findall(text[:80].lower())[:6]:
-        if word in _STOPS:
-            return True
-        if word not in _BEFORE_STOP:
-            return False
-    return False
 
 
 def parse(text: str, vocabulary: Vocabulary, *, context: Context | None = None) -> Outcome:
@@ -54,12 +44,22 @@ def parse(text: str, vocabulary: Vocabulary, *, context: Context | None = None) 
 
 
 def hear(
-    text: str, vocabulary: Vocabulary, *, context: Context | None = None
+    text: str,
+    vocabulary: Vocabulary,
+    *,
+    context: Context | None = None,
+    fallback: Fallback | None = None,
 ) -> tuple[Outcome, Context]:
-    """Like :func:`parse`, with the context for the next sentence."""
+    """Like :func:`parse`, with the context for the next sentence.
+
+    A ``fallback`` is asked where the grammar gives up; what it says is checked against what is
+    there like anything else.
+    """
     started = time.perf_counter()
     before = context or Context()
     outcome, after = _hear(text, vocabulary, before)
+    if fallback is not None and isinstance(outcome, Refusal) and len(text) <= MAX_CHARACTERS:
+        outcome, after = _second_opinion(text, vocabulary, before, fallback) or (outcome, after)
     ms = round((time.perf_counter() - started) * 1e3, 3)
     timed = replace(outcome, ms=ms)
     question = timed if isinstance(timed, Question) else None
@@ -87,6 +87,21 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     return outcome, after
 
 
+def _second_opinion(
+    text: str, vocabulary: Vocabulary, context: Context, fallback: Fallback
+) -> tuple[Outcome, Context] | None:
+    other = fallback(text, vocabulary, context)
+    if not isinstance(other, Goals):
+        return None if other is None else (other, context)
+    scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
+    for goal in other.goals:
+        scope.mention_goal(goal)
+    checked = _checked(text, other.goals, context)
+    if isinstance(checked, Goals):
+        checked = other
+    return _settled(replace(checked, parser=other.parser), context, scope)
+
+
 def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
     """What the grammar makes of a text."""
     words = Text(text, vocabulary)
@@ -97,7 +112,10 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         goals = tuple(Grammar(words, scope, context.goals).read())
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
-        question = Question(question=str(unclear), choices=choices, text=text, said=unclear.said)
+        kind = "choice" if choices else "missing"
+        question = Question(
+            question=str(unclear), choices=choices, text=text, said=unclear.said, kind=kind
+        )
         return question, context
     except ReadingError as error:
         return Refusal(reason=f"{_sentence(str(error))}."), context
@@ -134,7 +152,7 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
         return Goals(goals=goals)
     by_id = {e.id: e for e in context.entities}
     for query in queries(goals):
-        found = ground(query, context.entities)
+        found = ground(query, context.entities, view=context.view)
         if isinstance(found, Unknown):
             return Refusal(reason=f"{_sentence(found.reason)}.")
         if isinstance(found, Ambiguous):
@@ -143,8 +161,9 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
                 for label, i in zip(found.labels, found.candidates, strict=True)
             )
             return Question(
-                question=found.question, choices=choices, goals=goals, about=query, text=text
-            )
+                question=found.question, choices=choices, goals=goals, about=query, text=text,
+                kind="choice",
+            )  # fmt: skip
     return Goals(goals=goals)
 
 

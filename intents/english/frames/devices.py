@@ -38,7 +38,8 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
             names.append(name)
         elif head in generic:
             room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
-            whole = f"{room} {phrase.said}" if room and room not in phrase.said else phrase.said
+            whole = f"{phrase.level} {phrase.said}".strip()
+            whole = f"{room} {whole}" if room and room not in whole else whole
             names.append(whole if phrase.noun != "body" else head)
         else:
             raise NotUnderstood(f"I cannot {act} “{phrase.said}”")

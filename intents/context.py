@@ -1,0 +1,78 @@
+"""What was said before, and how an answer completes the question that is open."""
+
+import re
+
+import msgspec
+from msgspec.structs import replace
+
+from intents.english import lexicon
+from intents.english.corrections import substitute
+from intents.english.lexer import tokenize
+from intents.goals import Goal, ObjectQuery, Person
+from intents.grounding import Entity
+from intents.outcomes import Choice, Question
+from intents.relations import Viewpoint
+
+
+class Context(msgspec.Struct, frozen=True, kw_only=True):
+    """What a sentence may refer to; give the one of an outcome to the next sentence.
+
+    Attributes:
+        object: What "it" is.
+        person: Who "him" or "her" is.
+        place: Where "there" is.
+        goals: What was asked last, for "do it again".
+        question: The question that is open.
+        entities: What is known to be there; without any, nothing is found ambiguous.
+        view: Where the robot stands, for "the leftmost".
+    """
+
+    object: ObjectQuery | None = None
+    person: Person | None = None
+    place: str | None = None
+    goals: tuple[Goal, ...] = ()
+    question: Question | None = None
+    entities: tuple[Entity, ...] = ()
+    view: Viewpoint | None = None
+
+
+def answered(text: str, question: Question) -> tuple[Goal, ...] | None:
+    """The goals of an open question once a text answers it; None if it does not.
+
+    An answer names what one of the choices has and the others have not ("blue", "the one on the
+    shelf"), or its position ("the second").
+    """
+    choice = _choice(text, question.choices)
+    if choice is None or choice.query is None or question.about is None:
+        return None
+    refined = replace(choice.query, count=question.about.count)
+    return tuple(substitute(goal, question.about, refined) for goal in question.goals)
+
+
+def completed(text: str, question: Question) -> list[str]:
+    """What was said before with an answer in it, in the ways in which it may fit."""
+    choice = _choice(text, question.choices)
+    if choice is not None and question.said:
+        said = re.compile(rf"\b{re.escape(question.said)}\b", re.IGNORECASE)
+        return [said.sub(choice.label, question.text)]
+    if question.choices or not question.text:
+        return []
+    before = question.text.rstrip(" .!?")
+    return [f"{before}{link}{text}" for link in (" ", " on ", " to ")]
+
+
+_ORDINALS = {"first": 0, "former": 0, "second": 1, "latter": 1, "third": 2, "fourth": 3, "last": -1}
+_EMPTY = lexicon.DETERMINERS | lexicon.ONES | lexicon.words("at on in please")
+
+
+def _choice(text: str, choices: tuple[Choice, ...]) -> Choice | None:
+    said = [t.text for t in tokenize(text) if t.text not in _EMPTY and t.text[0].isalnum()]
+    if not said or len(said) > 6:
+        return None
+    fitting = [c for c in choices if all(w in c.label.split() for w in said)]
+    if len(fitting) == 1:
+        return fitting[0]
+    position = next((_ORDINALS[w] for w in said if w in _ORDINALS), None)
+    if position is not None and -1 <= position < len(choices) and len(said) <= 2:
+        return choices[position]
+    return None

@@ -1,0 +1,130 @@
+"""Answers to questions about the robot and what it knows, from its state alone."""
+
+from collections.abc import Callable
+
+from intents.english.trouble import listing
+from intents.goals import ObjectQuery, ReportTopic
+from intents.grounding import Entity, Grounded, describe, describe_entity, ground
+from intents.state import RobotState
+
+_SKILLS = (
+    ("go_to", "go somewhere", "go to the kitchen"),
+    ("pick", "pick things up", "pick up the red cup"),
+    ("place", "put things down", "put it on the shelf"),
+    ("bring", "bring things", "bring me the bottle"),
+    ("find", "look for things and people", "look for the bottle"),
+    ("look_at", "look at something", "look at the table"),
+    ("count", "count things", "count the cups on the table"),
+    ("follow", "follow people", "follow me"),
+    ("guide", "guide people", "guide Ada to the door"),
+    ("gesture", "make gestures", "wave"),
+    ("balance", "hold postures", "stand on one leg for five seconds"),
+    ("say", "speak", "say hello"),
+    ("open", "open doors and drawers", "open the drawer"),
+    ("switch", "switch devices", "switch on the lamp"),
+)
+
+
+def report(topic: ReportTopic, state: RobotState) -> str:
+    """The answer to a question about the robot itself."""
+    return _REPORTS[topic](state)
+
+
+def where(query: ObjectQuery, state: RobotState) -> str | None:
+    """Where something is; None if that is not known, or nothing of the kind."""
+    everywhere = ground(_placeless(query), state.entities, view=state.view)
+    ids = everywhere.ids if isinstance(everywhere, Grounded) else getattr(
+        everywhere, "candidates", ()
+    )  # fmt: skip
+    known = [e for e in state.entities if e.id in ids]
+    told = [f"{_name(e)} is {spot}" for e in known if (spot := _spot(e))]
+    return f"{_capital(listing(told, 'and'))}." if told else None
+
+
+def _placeless(query: ObjectQuery) -> ObjectQuery:
+    return ObjectQuery(
+        name=query.name, category=query.category, color=query.color, size=query.size,
+        superlative=query.superlative, held=query.held, relation=query.relation, at=query.at,
+    )  # fmt: skip
+
+
+def unknown_place(query: ObjectQuery) -> str:
+    """The question to put where it is not known where something is."""
+    return f"I do not know where the {describe(query)} is. Shall I look for it?"
+
+
+def _spot(entity: Entity) -> str:
+    if entity.held:
+        return "in my hand"
+    if entity.at and entity.room and entity.at != entity.room:
+        return f"at the {entity.at} in the {entity.room}"
+    return f"at the {entity.at or entity.room}" if entity.at or entity.room else ""
+
+
+def _name(entity: Entity) -> str:
+    return f"the {describe_entity(entity)}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _holding(state: RobotState) -> str:
+    held = [_name(e) for e in state.held]
+    return f"I am holding {listing(held, 'and')}." if held else "I am not holding anything."
+
+
+def _seeing(state: RobotState) -> str:
+    seen = [_name(e) for e in state.entities if e.id in state.seen]
+    return f"I see {listing(seen, 'and')}." if seen else "I see nothing that I know."
+
+
+def _location(state: RobotState) -> str:
+    spots = ([f"at the {state.place}"] if state.place and state.place != state.room else []) + (
+        [f"in the {state.room}"] if state.room else []
+    )
+    view = state.view
+    told = f"x {view.x_m:.1f} m, y {view.y_m:.1f} m" if view else ""
+    if spots:
+        return f"I am {' '.join(spots)}" + (f", at {told}." if told else ".")
+    return f"I am at {told}." if told else "I do not know where I am."
+
+
+def _status(state: RobotState) -> str:
+    if not state.doing:
+        rest = "I have paused." if state.mode == "paused" else "I am doing nothing right now."
+        return f"{rest} {state.last}".strip()
+    step = f", now: {state.step}" if state.step else ""
+    begun = "I have paused" if state.mode == "paused" else "I am at"
+    waiting = f" {len(state.waiting)} more to do after that." if state.waiting else ""
+    return f"{begun} “{state.doing}”{step}.{waiting}"
+
+
+def _health(state: RobotState) -> str:
+    battery = "" if state.battery is None else f" My battery is at {state.battery:.0%}."
+    if not state.problems:
+        return f"I am well.{battery}"
+    return f"Something is wrong: {'; '.join(state.problems)}.{battery}"
+
+
+def _why(state: RobotState) -> str:
+    if state.last:
+        return state.last
+    return (
+        f"I have not stopped. {_status(state)}" if state.doing else "I have not done anything yet."
+    )
+
+
+def _capabilities(state: RobotState) -> str:
+    known = [row for row in _SKILLS if not state.skills or row[0] in state.skills]
+    examples = "; ".join(f"“{example}”" for _, _, example in known[:4])
+    if not known:
+        return "I can answer questions and stop."
+    can = listing([what for _, what, _ in known], "and")
+    return f"I can {can}. Say for example {examples}. “Stop” always stops me."
+
+
+_REPORTS: dict[ReportTopic, Callable[[RobotState], str]] = {
+    "holding": _holding, "seeing": _seeing, "location": _location, "status": _status,
+    "health": _health, "why": _why, "capabilities": _capabilities,
+}  # fmt: skip

@@ -1,0 +1,48 @@
+"""What the robot knows of itself when it is spoken to; questions are answered from it."""
+
+import msgspec
+
+from intents.grounding import Entity
+from intents.relations import Viewpoint
+
+_NO_ENTITIES: tuple[Entity, ...] = ()
+
+
+class RobotState(msgspec.Struct, frozen=True, kw_only=True):
+    """A snapshot, made by the executive for each turn. Everything has a default.
+
+    Attributes:
+        entities: The objects known, with where they are as far as that is known; ``held`` marks
+            those in a hand.
+        seen: Ids of those in view now.
+        place: Name of the place it stands at, or empty.
+        room: Name of the room it is in, or empty.
+        view: Where it stands and looks, for "the leftmost" and "behind the bottle".
+        doing: What it is doing, in words; empty when idle.
+        step: The step that it is at, in words.
+        waiting: The jobs that wait, in words.
+        mode: "idle", "working", "paused" or "stopped".
+        problems: What is wrong with it, in words; empty when all is well.
+        battery: State of charge, 0 to 1; None without a battery.
+        last: How the last job ended, in words, with its reason ("I could not ...: ...").
+        skills: Types of goals that it has skills for ("pick"); empty means all.
+    """
+
+    entities: tuple[Entity, ...] = _NO_ENTITIES
+    seen: tuple[str, ...] = ()
+    place: str = ""
+    room: str = ""
+    view: Viewpoint | None = None
+    doing: str = ""
+    step: str = ""
+    waiting: tuple[str, ...] = ()
+    mode: str = "idle"
+    problems: tuple[str, ...] = ()
+    battery: float | None = None
+    last: str = ""
+    skills: frozenset[str] = frozenset()
+
+    @property
+    def held(self) -> tuple[Entity, ...]:
+        """What it has in its hands."""
+        return tuple(entity for entity in self.entities if entity.held)

@@ -1,0 +1,183 @@
+"""Conversations: open questions, confirmations, answers from state."""
+
+import doctest
+
+import pytest
+
+from intents import dialogue as dialogue_module
+from intents.dialogue import Dialogue
+from intents.goals import Cancel, Find, Gesture, LookAt, ObjectQuery, Place, Stop
+from intents.grounding import Entity
+from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.state import RobotState
+from intents.vocabulary import Thing, Vocabulary
+
+WORDS = Vocabulary.of(
+    objects=[Thing(name="jar", color="green"), Thing(name="jar", color="white"), "torch", "knife"],
+    places=["bench", "rubbish bin", "stove", "upper shelf", "lower shelf"],
+    rooms=["cellar"],
+    people=["Ada"],
+)
+GREEN = Entity(id="j1", name="jar", color="green", at="bench", room="cellar")
+WHITE = Entity(id="j2", name="jar", color="white", held=True)
+TORCH = Entity(id="t1", name="torch")
+KNIFE = Entity(id="k1", name="knife")
+STATE = RobotState(
+    entities=(GREEN, WHITE, TORCH, KNIFE),
+    seen=("j1",),
+    place="bench",
+    room="cellar",
+    last="I stopped because you said so.",
+)
+
+
+def talk(*said: str, state: RobotState = STATE) -> list[Turn]:
+    conversation = Dialogue(WORDS)
+    return [conversation.hear(text, state) for text in said]
+
+
+def test_the_example_of_the_docstring_holds() -> None:
+    assert doctest.testmod(dialogue_module).failed == 0
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("what are you holding?", "white jar"),
+        ("what do you see?", "green jar"),
+        ("where are you?", "bench in the cellar"),
+        ("why did you stop?", "because you said so"),
+        ("what are you doing?", "doing nothing"),
+        ("how are you?", "well"),
+        ("what can you do?", "pick things up"),
+        ("where is the green jar?", "at the bench in the cellar"),
+        ("where is the white jar?", "in my hand"),
+        ("where are the jars?", "in my hand"),
+        ("do you see the green jar?", "at the bench"),
+    ],
+)
+def test_questions_are_answered_from_state(asked: str, told: str) -> None:
+    (reply,) = talk(asked)
+    assert isinstance(reply, Reply), reply
+    assert told in reply.text
+
+
+def test_the_state_decides_the_answer() -> None:
+    busy = RobotState(doing="bring the jar", step="walk", problems=("the left knee is hot",),
+                      battery=0.4, waiting=("wave",))  # fmt: skip
+    doing, health, holding = talk("what are you doing?", "how are you?", "what do you hold?",
+                                  state=busy)  # fmt: skip
+    assert isinstance(doing, Reply)
+    assert "bring the jar" in doing.text
+    assert "walk" in doing.text
+    assert isinstance(health, Reply)
+    assert "left knee" in health.text
+    assert "40%" in health.text
+    assert isinstance(holding, Reply)
+    assert "not holding anything" in holding.text
+
+
+def test_skills_that_are_not_there_are_not_offered() -> None:
+    (reply,) = talk("what can you do?", state=RobotState(skills=frozenset({"gesture"})))
+    assert isinstance(reply, Reply)
+    assert "gestures" in reply.text
+    assert "pick" not in reply.text
+
+
+def test_it_is_offered_to_look_for_what_is_not_known() -> None:
+    asked, agreed = talk("where is the torch?", "yes please")
+    assert isinstance(asked, Question)
+    assert asked.kind == "confirmation"
+    assert "Shall I look for it?" in asked.question
+    assert isinstance(agreed, Goals)
+    assert agreed.goals == (Find(object=ObjectQuery(name="torch")),)
+
+
+@pytest.mark.parametrize("yes", ["yes", "Yes, do it", "go ahead", "ok", "sure", "yes please"])
+def test_what_cannot_be_undone_is_read_back_and_done_after_a_yes(yes: str) -> None:
+    asked, done = talk("put the torch in the rubbish bin", yes)
+    assert isinstance(asked, Question)
+    assert "put the torch into the rubbish bin" in asked.question
+    assert [c.label for c in asked.choices] == ["yes", "no"]
+    assert isinstance(done, Goals)
+    assert done.goals == (Place(object=ObjectQuery(name="torch"), in_="rubbish bin"),)
+
+
+@pytest.mark.parametrize("no", ["no", "no, don't", "never mind", "better not", "No!"])
+def test_after_a_no_nothing_is_done(no: str) -> None:
+    _, reply = talk("switch on the stove", no)
+    assert isinstance(reply, Reply)
+
+
+@pytest.mark.parametrize(
+    "risky",
+    ["switch on the stove", "throw the torch away", "give Ada the knife", "walk 8 metres forward",
+     "wave twenty times", "put everything in the rubbish bin", "open the front door"],
+)  # fmt: skip
+def test_risky_goals_are_confirmed_and_can_be_let_through(risky: str) -> None:
+    (asked,) = talk(risky)
+    assert isinstance(asked, Question), asked
+    assert asked.kind == "confirmation"
+    assert isinstance(Dialogue(WORDS, confirm=False).hear(risky, STATE), Goals)
+
+
+@pytest.mark.parametrize("plain", ["look at the torch", "wave", "walk two metres forward"])
+def test_what_is_not_risky_is_not_confirmed(plain: str) -> None:
+    (done,) = talk(plain)
+    assert isinstance(done, Goals)
+
+
+def test_a_yes_without_a_question_is_no_command() -> None:
+    (turn,) = talk("yes")
+    assert isinstance(turn, Refusal)
+
+
+def test_stop_is_heard_whatever_is_open_and_closes_the_question() -> None:
+    asked, stopped, yes = talk("switch on the stove", "no stop!", "yes")
+    assert isinstance(asked, Question)
+    assert isinstance(stopped, Goals)
+    assert stopped.goals == (Stop(),)
+    assert isinstance(yes, Refusal)
+
+
+def test_an_answer_that_is_none_is_asked_again_but_not_for_ever() -> None:
+    asked, again, third, last = talk("look at the jar", "mumble", "grumble", "rumble")
+    assert isinstance(asked, Question)
+    assert isinstance(again, Question)
+    assert again.question.startswith("I did not get that. Which jar")
+    assert isinstance(third, Question)
+    assert third.question == again.question
+    assert isinstance(last, Refusal)
+
+
+def test_the_answer_may_come_after_asking_again() -> None:
+    turn = talk("look at the jar", "mumble", "the white one")[-1]
+    assert isinstance(turn, Goals)
+    assert isinstance(turn.goals[0], LookAt)
+    assert turn.goals[0].object is not None
+    assert turn.goals[0].object.color == "white"
+
+
+def test_a_new_command_replaces_the_question() -> None:
+    conversation = Dialogue(WORDS)
+    conversation.hear("look at the jar", STATE)
+    waved = conversation.hear("wave", STATE)
+    assert isinstance(waved, Goals)
+    assert isinstance(waved.goals[0], Gesture)
+    assert conversation.question is None
+
+
+def test_it_and_there_carry_over_turns_and_over_confirmations() -> None:
+    turns = talk("where is the green jar?", "look at it", "throw it away", "no", "look at it")
+    for turn in (turns[1], turns[4]):
+        assert isinstance(turn, Goals)
+        assert isinstance(turn.goals[0], LookAt)
+        assert turn.goals[0].object is not None
+        assert turn.goals[0].object.color == "green"
+
+
+def test_cancel_as_an_answer_cancels_what_is_being_done() -> None:
+    busy = RobotState(entities=STATE.entities, doing="bring the jar")
+    _, cancelled = talk("look at the jar", "cancel", state=busy)
+    assert isinstance(cancelled, Goals)
+    assert cancelled.goals == (Cancel(),)
