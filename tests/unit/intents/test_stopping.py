@@ -34,10 +34,12 @@ def test_other_words_are_not_cries(text: str) -> None:
     assert not is_stop(text)
 
 
-# fmt: off
-@given(st.sampled_from(["stop", "halt", "freeze"]), st.sampled_from(["", "!", "!!!", "...", "?!"]),
-       st.sampled_from([str.lower, str.upper, str.title]), st.text(" \t\n", max_size=4))
-# fmt: on
+@given(
+    st.sampled_from(["stop", "halt", "freeze"]),
+    st.sampled_from(["", "!", "!!!", "...", "?!"]),
+    st.sampled_from([str.lower, str.upper, str.title]),
+    st.text(" \t\n", max_size=4),
+)
 def test_case_signs_and_blanks_do_not_matter(word: str, sign: str, case, blanks: str) -> None:  # type: ignore[no-untyped-def]
     assert is_stop(blanks + case(word) + sign + blanks)
 
