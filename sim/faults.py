@@ -13,9 +13,13 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import msgspec
 
+from robot.bus.topics import TOPICS
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.model.description import RobotDescription
 from robot.se3 import SE3, Vector3
+from sim import atlas
+from sim.schema import World
 
 if TYPE_CHECKING:
     from sim.plant import Plant
@@ -181,9 +185,26 @@ def parse(data: Mapping[str, Any]) -> Fault:
         raise ConfigError(f"the fault {name!r}: {error}") from None
 
 
-def inject(plant: Plant, data: Mapping[str, Any]) -> None:
-    """Make a fault of plain data happen now. Raises ConfigError as `parse` and `apply` do."""
-    apply(plant, parse(data))
+def verify(data: Mapping[str, Any], world: World, robot: RobotDescription) -> Fault:
+    """A fault out of plain data, with every name in it checked, before there is a plant.
+
+    Raises:
+        ConfigError: as `parse` does, or for a name that is not there, with the nearest one.
+    """
+    fault = parse(data)
+    objects = [item.id for item in world.objects]
+    bodies = ["robot", *objects, *(item.id for item in (*world.furniture, *world.people))]
+    known = {
+        "target": objects if isinstance(fault, KnockOver | Occupy) else bodies,
+        "place": list(atlas.places(world)),
+        "motor": list(robot.motor_names),
+        "topic": [*SENSORS, *(topic.name for topic in TOPICS if topic.source == "plant")],
+    }
+    for field, valid in known.items():
+        name = getattr(fault, field, None)
+        if name is not None:
+            _check(name, valid, field)
+    return fault
 
 
 def apply(plant: Plant, fault: Fault) -> None:
