@@ -23,6 +23,7 @@ from typing import Any, Protocol, cast
 import msgspec
 import numpy as np
 
+from executive.journal import FILE as JOURNAL
 from executive.journal import Event, Journal
 from robot.bringup import entry
 from robot.config import nearest
@@ -212,15 +213,9 @@ class Injector:
     def _fill_disk(self, until_s: float) -> None:
         """Put the journal's open file on a device that is always full (Linux)."""
         full = os.open(FULL, os.O_WRONLY)
-        for link in list(Path("/proc/self/fd").iterdir()):
-            try:
-                target = link.readlink()
-            except OSError:
-                continue  # the listing's own
-            if target.name == "journal.jsonl":
-                number = int(link.name)
-                self._undo.append((until_s, _restoring(os.dup(number), number)))
-                os.dup2(full, number)
+        for number in [number for number, path in _open_files() if path.name == JOURNAL]:
+            self._undo.append((until_s, _restoring(os.dup(number), number)))
+            os.dup2(full, number)
         os.close(full)
 
 
@@ -318,6 +313,17 @@ def _value(text: str) -> Any:
         return msgspec.json.decode(text)
     except msgspec.DecodeError:
         return text
+
+
+def _open_files() -> list[tuple[int, Path]]:
+    """Number and path of every file that this process has open (Linux)."""
+    found: list[tuple[int, Path]] = []
+    for link in Path("/proc/self/fd").iterdir():
+        try:
+            found.append((int(link.name), link.readlink()))
+        except OSError:
+            continue  # the listing's own
+    return found
 
 
 def _restoring(saved: int, number: int) -> Callable[[], None]:
