@@ -47,6 +47,11 @@ class Growth:
         self._offset = 0
         self._statuses: dict[int, Status] = {}
         self._renewed: dict[int, float] = {}
+        self._titles: list[str] = []
+
+    def begin(self, title: str) -> None:
+        """A job is about to get its part of the tree: the next one under a node of kind `jobs`."""
+        self._titles.append(title)
 
     def tree(self, t_s: float, data: Mapping[str, Any]) -> None:
         """Take a ``tree`` event. Raises ValueError if it does not fit what was told before."""
@@ -101,6 +106,8 @@ class Growth:
         if number in self._nodes or (parent >= 0 and parent not in self._nodes):
             raise ValueError(f"node {born.id} cannot stand there")
         self._nodes[number] = node
+        if self._titles and parent >= 0 and self._nodes[parent].kind == "jobs":
+            node.title = self._titles.pop(0)
         siblings = self._nodes[parent].children if parent >= 0 else self._roots
         self._make_room(t_s, siblings)
         siblings.append(number)

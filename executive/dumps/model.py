@@ -36,6 +36,7 @@ class Change(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
 class Node(msgspec.Struct, kw_only=True, omit_defaults=True):
     """A node of the tree. `children` are all it ever had, in order.
 
+    `title` is what was asked for, where it is the root of a job. `step` is its path in the job.
     `born_s` is when it came into the tree, `gone_s` when it was taken out. One that is gone stays
     in view until something takes its place: until `hidden_s`.
     """
@@ -44,6 +45,7 @@ class Node(msgspec.Struct, kw_only=True, omit_defaults=True):
     parent: int
     kind: str
     name: str
+    title: str = ""
     step: str = ""
     born_s: float = 0.0
     gone_s: float | None = None

@@ -146,6 +146,8 @@ class Reader:
         if job is None:
             job = Job(number=told.job, text=told.text, urgent=told.urgent)
             self.run.jobs.append(job)
+        if told.state == "running" and all(state != "running" for _, state in job.states):
+            self._growth.begin(told.text)
         job.states.append((t_s, told.state))
 
     def _map(self, _t_s: float, data: Mapping[str, Any]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
 import msgspec
@@ -11,10 +11,12 @@ from py_trees.common import Status
 from py_trees.composites import Composite, Selector
 from py_trees.decorators import Decorator
 
+from executive.dumps.model import State
+from executive.dumps.snapshot import Shown
 from executive.trees.idioms import Alternatives
 from executive.trees.recovery import Recover
 
-State = Literal["waiting", "running", "done", "failed"]
+Style = Literal["unicode", "ascii", "colour"]
 
 _STATES: dict[Status, State] = {
     Status.INVALID: "waiting",
@@ -22,8 +24,16 @@ _STATES: dict[Status, State] = {
     Status.SUCCESS: "done",
     Status.FAILURE: "failed",
 }
-MARKS: dict[State, str] = {"waiting": "·", "running": "▸", "done": "✓", "failed": "✗"}
-ASCII_MARKS: dict[State, str] = {"waiting": " ", "running": ">", "done": "+", "failed": "x"}
+MARKS: dict[State, str] = {
+    "waiting": "·", "running": "▸", "done": "✓", "failed": "✗", "stopped": "■",
+}  # fmt: skip
+ASCII_MARKS: dict[State, str] = {
+    "waiting": " ", "running": ">", "done": "+", "failed": "x", "stopped": "#",
+}  # fmt: skip
+COLOURS: dict[State, str] = {
+    "waiting": "2", "running": "1;33", "done": "32", "failed": "31", "stopped": "35",
+}  # fmt: skip
+"""How a terminal shows a state: parameters of the SGR sequence (ECMA-48)."""
 
 
 class Line(msgspec.Struct, frozen=True):
@@ -60,6 +70,29 @@ def text(node: Behaviour, *, marks: dict[State, str] = MARKS) -> str:
         f"{'  ' * line.depth}{marks[line.state]} {line.name}{f': {line.note}' if line.note else ''}"
         for line in lines(node)
     )
+
+
+def picture(roots: Iterable[Shown], *, style: Style = "unicode") -> str:
+    """A snapshot as text, one line a node, with how long each has taken.
+
+    Control characters in names are left out, so that no name can command a terminal.
+    """
+    return "\n".join(_drawn(depth, shown, style) for root in roots for depth, shown in root.walk())
+
+
+def _drawn(depth: int, shown: Shown, style: Style) -> str:
+    marks = ASCII_MARKS if style == "ascii" else MARKS
+    words = "".join(letter for letter in shown.name if letter.isprintable())
+    note = "".join(letter for letter in shown.note if letter.isprintable())
+    line = f"{marks[shown.state]} {words}"
+    tail = f": {note}" if note else ""
+    tail += f"  ({shown.took_s:.1f} s)" if shown.took_s else ""
+    if style == "ascii":
+        line, tail = (text.encode("ascii", "replace").decode() for text in (line, tail))
+    if style == "colour":
+        line = f"\x1b[{COLOURS[shown.state]}m{line}\x1b[0m"
+        tail = f"\x1b[2m{tail}\x1b[0m" if tail else ""
+    return "  " * depth + line + tail
 
 
 def _plain(node: Behaviour) -> Behaviour:
