@@ -8,7 +8,7 @@ from typing import TypeVar
 from intents.grounding import Entity
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
-from robot.se3 import SE3
+from robot.se3 import SE3, Vector3
 
 T = TypeVar("T")
 ON_TOP_M = 0.3
@@ -25,7 +25,7 @@ class Knowledge:
 
     def vocabulary(self) -> Vocabulary:
         """All names of this world, for the parser."""
-        rooms = [place for place in self.map.places if place.floor and place.id == place.room]
+        rooms = [place for place in self.map.places if _is_room(place)]
         others = [place for place in self.map.places if place not in rooms]
         return Vocabulary.of(
             objects=[self._thing(info) for info in self.map.objects],
@@ -86,6 +86,11 @@ class Knowledge:
         under = [place for place in self.map.places if not place.floor and stands_on(X_WO, place)]
         return max(under, key=lambda place: place.X_WP.p[2], default=None)
 
+    def room_at(self, p_W: Vector3) -> str:
+        """The name of the room that a point is in, empty if in none."""
+        inside = (room.name for room in self.map.places if _is_room(room) and _over(p_W, room))
+        return next(inside, "")
+
     def person(self, name: str | None) -> PersonInfo | None:
         """A person by name; None stands for the operator: who is called so, or the only one."""
         people = self.map.people
@@ -101,6 +106,15 @@ def stands_on(X_WO: SE3, place: Place) -> bool:
     x, y, z = (place.X_WP.inverse() @ X_WO).p
     inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
     return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
+
+
+def _is_room(place: Place) -> bool:
+    return place.floor and place.id == place.room
+
+
+def _over(p_W: Vector3, place: Place) -> bool:
+    x, y, _ = (place.X_WP.inverse() @ SE3(p_W)).p
+    return abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
 
 
 def plain_name(info: ObjectInfo) -> str:

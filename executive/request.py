@@ -96,14 +96,28 @@ def request(text: str, where: Setting, *, ask: Ask | None = None) -> Understood 
         return Refused(
             outcome="question", reason=outcome.question, suggestion="say it again with the answer"
         )
+    return meant(text, outcome.goals, where)
+
+
+def meant(
+    text: str, goals: tuple[Goal, ...], where: Setting, *, held: tuple[str, ...] = ()
+) -> Understood | Refused:
+    """What goals mean here, checked against the world and the robot.
+
+    Args:
+        text: what was said.
+        goals: what it was understood as.
+        where: robot and world.
+        held: ids of the objects that will be in the hands by then.
+    """
     try:
-        task = understand(outcome.goals, Scene(knowledge))
+        task = understand(goals, Scene(where.knowledge, held=held))
     except CannotMean as end:
         return refused(end.failure)
-    refusal = check(task, knowledge, where.description)
+    refusal = check(task, where.knowledge, where.description)
     if refusal is not None:
         return refused(refusal)
-    return Understood(text=text, goals=outcome.goals, task=task)
+    return Understood(text=text, goals=goals, task=task)
 
 
 def refused(reason: Failure) -> Refused:

@@ -82,16 +82,10 @@ def _location(board: Blackboard, knowledge: Knowledge) -> str:
     if world is None:
         return "I do not know where I am."
     x, y, _ = world.X_WB.p
-    rooms = [place for place in knowledge.map.places if place.floor and place.id == place.room]
-    here = [r.name for r in rooms if _inside(r, x, y)]
     heading = math.degrees(world.X_WB.yaw_rad)
-    room = f" in the {here[0]}" if here else ""
+    here = knowledge.room_at(world.X_WB.p)
+    room = f" in the {here}" if here else ""
     return f"I am{room} at x {x:.1f} m, y {y:.1f} m, heading {heading:.0f} degrees."
-
-
-def _inside(place: Place, x_m: float, y_m: float) -> bool:
-    px, py, _ = place.X_WP.p
-    return abs(x_m - px) <= 0.5 * place.size_m[0] and abs(y_m - py) <= 0.5 * place.size_m[1]
 
 
 def _health(board: Blackboard, _knowledge: Knowledge) -> str:
