@@ -10,23 +10,19 @@ import msgspec
 
 from executive import loop, runs
 from executive.app import Executive, Outcome
-from executive.dumps.record import Recorder
 from executive.journal import Journal
 from executive.knowledge import full_name
 from executive.progress import Progress
 from executive.request import Setting, Understood
 from executive.runs import Header, Placed, Summary
-from executive.skills.context import SkillContext
+from executive.session import Session
 from executive.skills.parameters import PlaceParams
-from executive.trees.tasks import build, errands
+from executive.trees.parts import errands
 from intents.goals import to_builtins
-from robot.bus.topics import TOPICS
 from robot.clock import Clock
 from robot.errors import CATALOGUE, Failure
 from robot.messages import LoopTiming, WorldState
 from robot.planning.worker import Planner
-
-RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
 
 Show = Callable[[Executive], Progress]
 """Makes the progress display of an executive."""
@@ -65,32 +61,28 @@ def do(
     """
     begun_s, start_s = wall.now_s(), runtime.clock.now_s()
     with ExitStack() as stack:
-        journal = stack.enter_context(Journal(job.folder, wall_s=time_of_day))
-        executive = _executive(job, runtime, planner, journal)
-        recorder = Recorder(executive)
-        progress = stack.enter_context(show(executive))
-        _write_header(job, journal, start_s)
-        task = job.understood.task
-        executive.submit(lambda stage: build(task, stage), text=job.understood.text)
-
-        def on_tick() -> None:
-            recorder.update()
-            progress.update()
-
-        loop.run(runtime, executive, interrupts=interrupts, on_tick=on_tick)
-        assert executive.outcome is not None
+        session = Session(
+            runtime,
+            planner,
+            description=job.where.description,
+            interrupts=interrupts,
+            seed=job.seed,
+            folder=job.folder,
+            time_of_day=time_of_day,
+        )
+        stack.enter_context(session)
+        progress = stack.enter_context(show(session.executive))
+        session.on_tick(progress.update)
+        _write_header(job, session.journal, start_s)
+        session.submit(job.understood)
+        session.run()
+        outcome = session.executive.outcome
+        assert outcome is not None
         past_s = runtime.clock.now_s() - start_s
-        summary = _summary(job, runtime, executive.outcome, past_s, wall.now_s() - begun_s)
+        summary = _summary(job, runtime, outcome, past_s, wall.now_s() - begun_s)
     if job.folder is not None:
         runs.save(job.folder, "summary.json", summary)
     return summary
-
-
-def _executive(job: Job, runtime: loop.Runtime, planner: Planner, journal: Journal) -> Executive:
-    context = SkillContext(
-        link=runtime.link, planner=planner, description=job.where.description, seed=job.seed
-    )
-    return Executive(context, journal, rates_hz=RATES_HZ)
 
 
 def _write_header(job: Job, journal: Journal, now_s: float) -> None:

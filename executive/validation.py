@@ -14,7 +14,7 @@ from executive.skills.parameters import (
     PickParams,
     PlaceParams,
 )
-from executive.trees.tasks import Part, errands
+from executive.trees.parts import Part, errands
 from robot.errors import Failure, failure
 from robot.model.description import RobotDescription
 

@@ -140,6 +140,10 @@ CATALOGUE: dict[str, FailureKind] = {
     "controller_lost": FailureKind("the controller process died", "restart"),
     "plant_lost": FailureKind("the simulation died", "restart"),
     "timeout": FailureKind("it took longer than it may", "try again"),
+    "given_up": FailureKind("the mission gave up on purpose", "read the mission's reason"),
+    "not_as_expected": FailureKind(
+        "the world is not as the mission expects it", "look at what was found instead"
+    ),
     "cancelled": FailureKind("it was stopped on request", ""),
     "internal": FailureKind("the software broke", "report it with the run folder"),
 }

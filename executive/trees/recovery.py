@@ -25,17 +25,17 @@ import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.behaviours.run_skill import Bound, RunSkill
+from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.stage import Stage
 from executive.skills.parameters import (
     BalanceParams,
     NavigateParams,
     PickParams,
     SearchParams,
-    SkillParams,
     Step,
 )
 from executive.trees.idioms import Alternatives, in_order
+from executive.trees.parts import Errand
 
 PER_STEP, PER_TASK = 4, 12
 """Recoveries of one step, and of one task, whatever their codes."""
@@ -87,22 +87,11 @@ RULES: dict[str, Rule] = {
     "controller_lost": NONE,
     "plant_lost": NONE,
     "timeout": Rule(remedy="retry", times=1),
+    "given_up": NONE,
+    "not_as_expected": NONE,
     "cancelled": NONE,
     "internal": NONE,
 }
-
-
-class Errand(msgspec.Struct, frozen=True, kw_only=True):
-    """One step of a task: its name for people, what the skill is asked, which object it is about.
-
-    `carries` is set where the object is in the hand when the step begins.
-    """
-
-    name: str
-    params: SkillParams | Bound
-    object_id: str | None = None
-    object_name: str = ""
-    carries: bool = False
 
 
 def _retry(_errand: Errand) -> tuple[Errand, ...]:
@@ -147,25 +136,26 @@ REMEDIES: dict[Remedy, tuple[str, Callable[[Errand], tuple[Errand, ...]]]] = {
 """Remedy to its name for people and the steps that come before the next attempt."""
 
 
-def resilient(errand: Errand, stage: Stage) -> Behaviour:
-    """A step with its recoveries."""
-    node = Alternatives(errand.name, run(errand, stage))
-    node.add_child(Recover(errand, stage, Counter()))
+def resilient(errand: Errand, stage: Stage, *, path: str = "") -> Behaviour:
+    """A step with its recoveries; `path` is the step's in its task (`executive.trees.parts`)."""
+    node = Alternatives(errand.name, run(errand, stage, path=path))
+    node.add_child(Recover(errand, stage, Counter(), path=path))
     return node
 
 
-def run(errand: Errand, stage: Stage, *, attempt: int = 0) -> RunSkill:
+def run(errand: Errand, stage: Stage, *, attempt: int = 0, path: str = "") -> RunSkill:
     """The leaf of a step."""
-    return RunSkill(errand.name, errand.params, stage=stage, attempt=attempt)
+    return RunSkill(errand.name, errand.params, stage=stage, attempt=attempt, step_id=path)
 
 
 class Recover(Behaviour):
     """Chooses a remedy and puts it behind itself; always FAILURE, so that the selector goes on."""
 
-    def __init__(self, errand: Errand, stage: Stage, used: Counter[str]) -> None:
+    def __init__(self, errand: Errand, stage: Stage, used: Counter[str], *, path: str = "") -> None:
         """Recover from failures of `errand`; `used` counts by code what its step has used up."""
         super().__init__("recover")
         self._errand = errand
+        self._path = path
         self._stage = stage
         self._used = used
 
@@ -207,7 +197,12 @@ class Recover(Behaviour):
         if not isinstance(parent, Alternatives):
             raise TypeError("a recovery stands among alternatives")
         attempt = self._used.total()
-        again = run(self._errand, self._stage, attempt=attempt)
-        first = [run(step, self._stage, attempt=attempt) for step in steps]
+        path = f"{self._path}+{attempt}"
+        again = run(self._errand, self._stage, attempt=attempt, path=path)
+        first = [
+            run(step, self._stage, attempt=attempt, path=f"{path}.{number}")
+            for number, step in enumerate(steps, 1)
+        ]
         remedy = in_order(name, [*first, again])
-        parent.extend(self, [remedy, Recover(self._errand, self._stage, self._used)])
+        following = Recover(self._errand, self._stage, self._used, path=self._path)
+        parent.extend(self, [remedy, following])

@@ -1,20 +1,19 @@
 """Goals to a task: what they mean here, as steps of skills, and the tree of those steps.
 
 A goal is first turned into a `Part`, a plain value that can be checked and shown before anything
-moves; `build` makes the tree of it. `HANDLERS` says, goal by goal, what it takes.
+moves (`executive.trees.parts`); `executive.trees.build` makes the tree of it. `HANDLERS` says, goal
+by goal, what it takes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, TypeAlias
+from typing import Any
 
 import msgspec
-from py_trees.behaviour import Behaviour
 
 from executive.behaviours import say
 from executive.behaviours.conditions import Predicate
-from executive.behaviours.stage import Stage
 from executive.knowledge import full_name
 from executive.scene import Scene, cannot
 from executive.skills.parameters import (
@@ -31,31 +30,11 @@ from executive.skills.parameters import (
     StopParams,
     WaitParams,
 )
-from executive.trees.idioms import either, in_order
-from executive.trees.recovery import Errand, resilient
+from executive.trees.parts import Branch, Errand, Part, Series, errands
 from intents import goals
 from robot.messages import ObjectInfo, Place
 
 MAX_TIMES, MAX_STEPS = 50, 500
-
-
-class Series(msgspec.Struct, frozen=True, kw_only=True):
-    """Parts to be done one after the other."""
-
-    name: str
-    parts: tuple[Part, ...]
-
-
-class Branch(msgspec.Struct, frozen=True, kw_only=True):
-    """One part or the other, as the answer to a question is when it is asked."""
-
-    name: str
-    question: Predicate
-    then: Part
-    otherwise: Part
-
-
-Part: TypeAlias = Errand | Series | Branch
 
 
 def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
@@ -72,28 +51,6 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     if count > MAX_STEPS:
         raise cannot("invalid_goal", f"that would be {count} steps, at most {MAX_STEPS}")
     return task
-
-
-def build(part: Part, stage: Stage) -> Behaviour:
-    """The tree of a part."""
-    if isinstance(part, Errand):
-        return resilient(part, stage)
-    if isinstance(part, Branch):
-        then, otherwise = build(part.then, stage), build(part.otherwise, stage)
-        return either(part.name, part.question, then=then, otherwise=otherwise, board=stage.board)
-    return in_order(part.name, [build(child, stage) for child in part.parts])
-
-
-def errands(part: Part) -> Iterable[Errand]:
-    """Every step that may be done."""
-    if isinstance(part, Errand):
-        yield part
-    elif isinstance(part, Branch):
-        yield from errands(part.then)
-        yield from errands(part.otherwise)
-    else:
-        for child in part.parts:
-            yield from errands(child)
 
 
 def _part(goal: goals.Goal, scene: Scene) -> Part:

@@ -7,8 +7,9 @@ from executive.journal import Journal
 from executive.skills.context import SkillContext
 from executive.skills.parameters import NavigateParams, PickParams, PlaceParams, WaitParams
 from executive.skills.parameters import Step as StepParams
+from executive.trees.build import build
+from executive.trees.parts import Series
 from executive.trees.recovery import Errand
-from executive.trees.tasks import Series, build
 from robot.model.description import load
 from tests.fakes.scripted_skills import SilentLink, Troupe
 

@@ -7,7 +7,8 @@ from py_trees.common import Status
 from executive.dumps.failures import page
 from executive.dumps.text import ASCII_MARKS, lines, text
 from executive.skills.parameters import PickParams
-from executive.trees.tasks import Series, build
+from executive.trees.build import build
+from executive.trees.parts import Series
 from tests.fakes.rig import PICK, WAIT, Rig
 from tests.fakes.scripted_skills import Script
 

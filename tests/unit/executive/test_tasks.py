@@ -7,7 +7,7 @@ import pytest
 from executive.knowledge import Knowledge
 from executive.request import Refused, request
 from executive.skills.parameters import PickParams, PlaceParams
-from executive.trees.tasks import errands
+from executive.trees.parts import errands
 from tests.fakes.worlds import WHERE, world_map
 
 

@@ -17,8 +17,9 @@ from executive.skills.parameters import (
     StopParams,
     WaitParams,
 )
+from executive.trees.build import build
+from executive.trees.parts import Branch
 from executive.trees.recovery import PER_STEP, PER_TASK, REMEDIES, RULES, Errand
-from executive.trees.tasks import Branch, build
 from robot.errors import CATALOGUE, Failure
 from robot.messages import LidarScan
 from tests.fakes.rig import PICK, PUT, TICK_S, WAIT, WALK, Rig

@@ -1,0 +1,194 @@
+"""What a task is made of, as plain values that can be checked and shown before anything moves.
+
+Every part has a *path* inside its task, so that a step can be named: by the journal, by `--from`,
+by a run that is taken up again::
+
+    2           the second step                2.1        the first step of the second
+    2.then.1    the first step of a branch     2#3.1      the first step of the third round
+    2.no_path.1 what is done on that failure   2.always.1 what is done after 2 in any case
+    2*2.1       the same in a second attempt   2+1        2 again, after its first recovery
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeAlias
+
+import msgspec
+
+from executive.behaviours.conditions import Predicate
+from executive.behaviours.run_skill import Bound
+from executive.blackboard import Blackboard
+from executive.skills.parameters import SkillParams
+
+Words = Callable[[Blackboard], str]
+"""What is so, in words."""
+
+
+class Errand(msgspec.Struct, frozen=True, kw_only=True):
+    """One step of a task: its name for people, what the skill is asked, which object it is about.
+
+    `carries` is set where the object is in the hand when the step begins.
+    """
+
+    name: str
+    params: SkillParams | Bound
+    object_id: str | None = None
+    object_name: str = ""
+    carries: bool = False
+
+
+class Series(msgspec.Struct, frozen=True, kw_only=True):
+    """Parts to be done one after the other."""
+
+    name: str
+    parts: tuple[Part, ...]
+
+
+class Branch(msgspec.Struct, frozen=True, kw_only=True):
+    """One part or the other, as the answer to a question is when it is asked."""
+
+    name: str
+    question: Predicate
+    then: Part
+    otherwise: Part
+
+
+class Parallel(msgspec.Struct, frozen=True, kw_only=True):
+    """Parts to be done at the same time; the first that fails ends the others."""
+
+    name: str
+    parts: tuple[Part, ...]
+
+
+class Loop(msgspec.Struct, frozen=True, kw_only=True):
+    """A part done again and again, in at most `at_most` rounds.
+
+    With a question the loop ends when the answer is no, and fails if it is yes after all rounds.
+    `bodies` holds what the first rounds do where that differs; the last one goes for all others.
+    """
+
+    name: str
+    bodies: tuple[Part, ...]
+    at_most: int
+    question: Predicate | None = None
+
+    def body(self, number: int) -> Part:
+        """What a round does; the first is number 1."""
+        return self.bodies[min(number, len(self.bodies)) - 1]
+
+
+class Retry(msgspec.Struct, frozen=True, kw_only=True):
+    """A part that is tried again when it fails: `attempts` counts the first as well."""
+
+    name: str
+    part: Part
+    attempts: int
+
+
+class Timeout(msgspec.Struct, frozen=True, kw_only=True):
+    """A part that fails with `timeout` when it takes longer [s]."""
+
+    name: str
+    part: Part
+    limit_s: float
+
+
+class OnFail(msgspec.Struct, frozen=True, kw_only=True):
+    """A part, and what else to do when it fails, by failure code; "any" is for all others."""
+
+    name: str
+    part: Part
+    handlers: tuple[tuple[str, Part], ...]
+
+
+class Always(msgspec.Struct, frozen=True, kw_only=True):
+    """A part, and what is done after it in any case; it ends as the first part ended."""
+
+    name: str
+    part: Part
+    after: Part
+
+
+class GiveUp(msgspec.Struct, frozen=True, kw_only=True):
+    """Fails, and says why."""
+
+    name: str
+    cause: str
+    code: str = "given_up"
+
+
+class Finding(msgspec.Struct, frozen=True, kw_only=True):
+    """One thing that should be so: in words, as a question, and what is so instead, in words."""
+
+    text: str
+    question: Predicate
+    found: Words | None = None
+
+
+class Expect(msgspec.Struct, frozen=True, kw_only=True):
+    """Things that have to be so by now; fails with `not_as_expected` if one is not."""
+
+    name: str
+    findings: tuple[Finding, ...]
+
+
+Part: TypeAlias = (
+    Errand | Series | Branch | Parallel | Loop | Retry | Timeout | OnFail | Always | GiveUp | Expect
+)
+"""Any part."""
+
+Leaf: TypeAlias = Errand | GiveUp | Expect
+Wrapper: TypeAlias = Retry | Timeout | OnFail | Always
+
+
+def below(path: str, step: int | str) -> str:
+    """The path of a step inside the part with a path."""
+    return f"{path}.{step}" if path else str(step)
+
+
+def of_round(path: str, number: int) -> str:
+    """The path of a round of the loop with a path; the first is number 1."""
+    return f"{path}#{number}"
+
+
+def of_attempt(path: str, number: int) -> str:
+    """The path of an attempt of the part with a path; the first has the path itself."""
+    return path if number == 1 else f"{path}*{number}"
+
+
+def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
+    """The parts inside a part with their paths; of a loop the first round of each body."""
+    match part:
+        case Series(parts=parts) | Parallel(parts=parts):
+            yield from ((below(path, n + 1), child) for n, child in enumerate(parts))
+        case Branch():
+            yield below(path, "then"), part.then
+            yield below(path, "else"), part.otherwise
+        case Loop():
+            yield from ((of_round(path, n + 1), body) for n, body in enumerate(part.bodies))
+        case Retry() | Timeout():
+            yield path, part.part
+        case OnFail():
+            yield path, part.part
+            for code, handler in part.handlers:
+                yield below(path, code), handler
+        case Always():
+            yield path, part.part
+            yield below(path, "always"), part.after
+        case Errand() | GiveUp() | Expect():
+            return
+
+
+def walk(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
+    """A part and all parts inside it with their paths, in reading order."""
+    stack = [(path, part)]
+    while stack:
+        where, node = stack.pop()
+        yield where, node
+        stack += reversed(list(children(node, where)))
+
+
+def errands(part: Part) -> Iterable[Errand]:
+    """Every step of a skill that may be done."""
+    return (node for _, node in walk(part) if isinstance(node, Errand))
