@@ -16,9 +16,10 @@ from typing import Literal
 
 import msgspec
 
+from executive.behaviours.ask import ANSWERS, Answer
 from executive.behaviours.sense import Sense
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import ABORT, PAUSE, PAUSED, SAID, STOP, Blackboard
+from executive.blackboard import ABORT, HELP, PAUSE, PAUSED, SAID, SPEED_LIMIT, STOP, Blackboard
 from executive.health import HealthMonitor
 from executive.jobs import BODY, OVER, UNLIMITED, Job, Limits
 from executive.journal import Journal
@@ -79,7 +80,7 @@ class Executive:
         self._operator = self.board.claim("operator")
         self._voice = self.board.claim("voice")
         self._say_on = context.say
-        self._context = replace(context, say=self._say)
+        self._context = replace(context, say=self._say, speed_limit=self._speed_limit)
         self._make = make
         self.stage = Stage(self.board, journal, self._make_skill)
         monitor = HealthMonitor(
@@ -171,6 +172,34 @@ class Executive:
         self._must_be(number, waiting=True)
         self._post(lambda: self._move(number, place))
 
+    def break_at(self, pattern: str) -> None:
+        """Hold every step whose path is `pattern` or whose name it matches, before it begins."""
+        self._post(lambda: self.stage.breakpoints.add(pattern))
+
+    def clear_breaks(self, pattern: str | None = None) -> None:
+        """Forget a breakpoint, or all of them; what is held stays held until `go_on`."""
+        self._post(lambda: self.stage.breakpoints.remove(pattern))
+
+    def step_once(self) -> None:
+        """Let the held step go on, and hold the next one; if none is held, just hold the next."""
+        self._post(lambda: self.stage.breakpoints.go_on(one_step=True))
+
+    def go_on(self) -> None:
+        """Let held steps begin; from here on only breakpoints hold."""
+        self._post(self.stage.breakpoints.go_on)
+
+    def answer(self, text: Answer) -> None:
+        """Answer the open question (`question`): "continue" when it is done, or "give up".
+
+        Raises:
+            JobError: if nothing was asked, or that is no answer.
+        """
+        if text not in ANSWERS:
+            raise JobError(f"{text!r} is no answer; say {' or '.join(ANSWERS)}")
+        if not self.question:
+            raise JobError("nothing was asked")
+        self._post(lambda: self._answer(text))
+
     # --- how things stand, from any thread ---
 
     @property
@@ -183,6 +212,25 @@ class Executive:
             return (*self._over, *live, *new)
 
     @property
+    def question(self) -> str:
+        """What a person is asked to help with; empty when nothing is."""
+        return self.board.read(HELP)
+
+    @property
+    def attended(self) -> bool:
+        """Whether somebody is there to answer questions; set by the front end."""
+        return self.stage.help.attended
+
+    @attended.setter
+    def attended(self, there: bool) -> None:
+        self.stage.help.attended = there
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The names of the steps that breakpoints hold now."""
+        return self.stage.breakpoints.held
+
+    @property
     def state(self) -> State:
         """What the executive is about."""
         board = self.board
@@ -190,9 +238,16 @@ class Executive:
             return "stopping"
         if board.read(PAUSE):
             return "paused" if board.read(PAUSED) else "pausing"
+        if self.held and self.stage.quiet:
+            return "paused"
         if self._requests or self._waiting or self.tree.jobs.works:
             return "working"
         return "idle" if self.stage.quiet else "stopping"
+
+    @property
+    def awaits_operator(self) -> bool:
+        """Whether nothing goes on before somebody who is there asks for something."""
+        return self.attended and not self._requests and self.state == "paused"
 
     # --- the loop's side ---
 
@@ -301,12 +356,20 @@ class Executive:
         if work is not None and work.job.state == "waiting":
             self.tree.jobs.move(work, place)
 
+    def _answer(self, text: str) -> None:
+        if self.stage.help.asker is not None:
+            self.stage.help.answer = text
+
     # --- what skills are given ---
 
     def _make_skill(self, params: SkillParams, attempt: int) -> Skill:
         """A skill; a retry plans with another seed."""
         context = replace(self._context, seed=self._context.seed + attempt)
         return self._make(params, context)
+
+    def _speed_limit(self) -> float:
+        """What health and the job whose turn it is allow [m/s]."""
+        return min(self.board.read(SPEED_LIMIT), self.stage.scope.speed_m_s)
 
     def _say(self, text: str) -> None:
         self._voice.set(SAID, text)

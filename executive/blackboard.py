@@ -6,6 +6,7 @@ read. So a wrong value has one place that it can have come from.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from types import UnionType
 from typing import Any, Generic, TypeVar, cast, get_args, get_origin
@@ -63,6 +64,13 @@ PAUSE = Key[str](
 PAUSED = Key[bool](
     "paused", bool, writer="guard", meaning="whether the robot stands, paused", initial=False
 )
+HELP = Key[str](
+    "help", str, writer="task", meaning="what a person is asked to help with, or empty", initial=""
+)
+SPEED_LIMIT = Key[float](
+    "speed_limit_m_s", float, writer="sense", meaning="fastest walk as healthy as it is [m/s]",
+    initial=math.inf,
+)  # fmt: skip
 GOAL = Key[str]("goal", str, writer="task", meaning="what was asked for, in words", initial="")
 ABORT = Key[Failure | None](
     "abort", Failure | None, writer="guard", meaning="why the task was ended from above",
@@ -82,7 +90,7 @@ SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robo
 
 KEYS: tuple[Key[Any], ...] = (
     NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE, RECOVERIES,
-    PHASE, SAID,
+    PHASE, SAID, HELP, SPEED_LIMIT,
 )  # fmt: skip
 """The whole table."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from enum import IntEnum
 
 import msgspec
@@ -36,11 +37,13 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True):
 class Health(msgspec.Struct, frozen=True, kw_only=True):
     """All findings of one look at the robot, worst first; none: it is well.
 
-    `ages_s` says how old the newest message of each watched topic is.
+    `ages_s` says how old the newest message of each watched topic is; `speed_m_s` how fast the
+    robot may walk as it is.
     """
 
     findings: tuple[Finding, ...] = ()
     ages_s: dict[str, float] = {}
+    speed_m_s: float = math.inf
 
     @property
     def level(self) -> Level:

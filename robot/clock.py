@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import select
 import time
 from typing import Protocol
 
@@ -56,3 +59,35 @@ class SimulatedClock:
     def sleep_until(self, time_s: float) -> None:
         """Move on to `time_s` at once."""
         self._now_s = max(self._now_s, time_s)
+
+
+class Waker:
+    """A wait that another thread or a signal handler can end.
+
+    It is a pipe, because a lock must not be taken in a signal handler.
+    """
+
+    def __init__(self) -> None:
+        """Open the pipe."""
+        self._read, self.fd = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+
+    def wake(self) -> None:
+        """End the wait under way, or else the next one."""
+        with contextlib.suppress(BlockingIOError):  # it is full: the wait ends anyway
+            os.write(self.fd, b"\0")
+
+    def wait(self, timeout_s: float) -> bool:
+        """Wait until `wake` or for `timeout_s`; whether it was woken."""
+        woken, _, _ = select.select([self._read], [], [], max(timeout_s, 0.0))
+        return bool(woken) and bool(self.drain())
+
+    def drain(self) -> bytes:
+        """What was written to `fd` since the last time, a byte each."""
+        with contextlib.suppress(BlockingIOError):
+            return os.read(self._read, 4096)
+        return b""
+
+    def __del__(self) -> None:
+        """Close the pipe, once nobody can wake it any more."""
+        os.close(self._read)
+        os.close(self.fd)

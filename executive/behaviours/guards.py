@@ -67,7 +67,8 @@ class Hold(Behaviour):
         self._last_s = now_s
         worst = self._stage.board.read(HEALTH).failure
         self.feedback_message = worst.cause if worst else ""
-        if self._left_s < 0.0 and self._stage.board.read(ABORT) is None:
+        out_of_patience = self._left_s < 0.0 or not self._stage.recovers
+        if out_of_patience and self._stage.board.read(ABORT) is None:
             end_task(self._stage, self._guard, worst)
         return Status.RUNNING
 

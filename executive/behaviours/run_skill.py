@@ -87,6 +87,7 @@ class RunSkill(Behaviour):
         if new_status is Status.INVALID:
             self._leave()
         self._skill = None
+        self._stage.breakpoints.forget(self)
 
     def suspend(self) -> None:
         """Bring the skill to rest, to go on with what is left of it when ticked again."""
@@ -111,6 +112,8 @@ class RunSkill(Behaviour):
         if self._finished:
             self._record("done")
             return Status.SUCCESS
+        if self._skill is None and self._waits():
+            return Status.RUNNING
         if self._skill is None:
             params = self._wanted()
             if isinstance(params, Failure):
@@ -130,6 +133,19 @@ class RunSkill(Behaviour):
             text = f"{self.name!r} took longer than {self._limit_s:.0f} s"
             return self._give_up(failure("timeout", text, phase=self.feedback_message))
         return self._judge(self._skill.step(now_s))
+
+    def _waits(self) -> bool:
+        """Whether a breakpoint holds the step, which has not begun yet."""
+        stage = self._stage
+        if self._resumed or stage.scope is stage.own:
+            return False
+        before = stage.breakpoints.held
+        if not stage.breakpoints.holds(self, self.name, self.step_id):
+            return False
+        if stage.breakpoints.held != before:
+            self.feedback_message = "held at a breakpoint"
+            self._record("break")
+        return True
 
     def _wanted(self) -> SkillParams | Failure:
         """What the skill is asked: all of it the first time, after an interruption the rest."""

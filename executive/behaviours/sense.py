@@ -8,7 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import BODY, HEALTH, HELD, MAP, NOW, WORLD
+from executive.blackboard import BODY, HEALTH, HELD, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.health import HealthMonitor
 from executive.ladder import Health, Level
 from executive.skills.holding import Holdings
@@ -63,6 +63,7 @@ class Sense(Behaviour):
             world=link.world(),
         )
         board.set(HEALTH, health)
+        board.set(SPEED_LIMIT, health.speed_m_s)
         self._journal(health)
         worst = health.failure
         self.feedback_message = worst.cause if worst else "all is well"

@@ -7,8 +7,9 @@ from contextlib import contextmanager
 
 import msgspec
 
+from executive.behaviours.breakpoints import Breakpoints
 from executive.behaviours.scope import Scope
-from executive.blackboard import FAILURE, NOW, PHASE, RECOVERIES, Blackboard
+from executive.blackboard import FAILURE, HELP, NOW, PHASE, RECOVERIES, Blackboard, Writer
 from executive.journal import Journal
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill, SkillReport
@@ -30,6 +31,28 @@ class Stopping(msgspec.Struct, frozen=True, eq=False):
     scope: Scope
 
 
+class HelpDesk:
+    """The one open question to a person, and the answer to it."""
+
+    def __init__(self, board: Writer) -> None:
+        """Show questions on the board."""
+        self._board = board
+        self.attended = False
+        """Whether somebody is there who can answer."""
+        self.asker: object | None = None
+        self.answer: str | None = None
+
+    def ask(self, asker: object, question: str) -> None:
+        """Open a question."""
+        self.asker, self.answer = asker, None
+        self._board.set(HELP, question)
+
+    def close(self) -> None:
+        """Take the question back."""
+        self.asker = self.answer = None
+        self._board.set(HELP, "")
+
+
 class Stage:
     """The skills at work, what they hold of the body, and where leaves report.
 
@@ -45,6 +68,9 @@ class Stage:
         self.make_skill = make_skill
         self.task = board.claim("task")
         self.scope = self.own = Scope()
+        self.recovers = True
+        self.help = HelpDesk(self.task)
+        self.breakpoints = Breakpoints()
         self._phases = board.claim("skills")
         self._taken: dict[Resource, Skill] = {}
         self._stopping: list[Stopping] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -15,6 +16,11 @@ def _silent(_text: str) -> None:
     """Say nothing."""
 
 
+def _unlimited() -> float:
+    """Allow any speed."""
+    return math.inf
+
+
 @dataclass(frozen=True, kw_only=True)
 class SkillContext:
     """One per mission, shared by its skills.
@@ -25,6 +31,7 @@ class SkillContext:
         description: the robot, for its limits.
         seed: of every planning request; a retry adds to it.
         say: where spoken words go.
+        speed_limit: the fastest walk allowed now [m/s]; it changes while a skill walks.
         holdings: what the hands hold; outlives a skill, so that place knows what pick took.
     """
 
@@ -33,4 +40,5 @@ class SkillContext:
     description: RobotDescription
     seed: int = 0
     say: Callable[[str], None] = _silent
+    speed_limit: Callable[[], float] = _unlimited
     holdings: Holdings = field(default_factory=Holdings)

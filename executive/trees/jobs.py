@@ -6,6 +6,7 @@ what they know. So it goes on at the step, and at the try of a recovery, where i
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -40,6 +41,7 @@ class Jobs(Composite):
         self._stage = stage
         self._works: list[Work] = []
         self._over: list[Work] = []
+        self._last_s = math.nan
         self.pausing = False
 
     @property
@@ -75,8 +77,9 @@ class Jobs(Composite):
         if self.status is not Status.RUNNING:
             self.initialise()
         turns = self._take_turns()
+        self._count_time(turns)
         for work in turns:
-            if work.node.status in (Status.SUCCESS, Status.FAILURE):
+            if work.ending or work.node.status in (Status.SUCCESS, Status.FAILURE):
                 continue  # its body is coming to rest
             with self._stage.turn(work.scope):
                 yield from work.node.tick()
@@ -105,6 +108,19 @@ class Jobs(Composite):
         for work in turns:
             self._let_run(work)
         return turns
+
+    def _count_time(self, turns: list[Work]) -> None:
+        """Count the time of those at work, and end what has taken too long."""
+        now_s, last_s = self._stage.now_s, self._last_s
+        self._last_s = now_s
+        if self.status is not Status.RUNNING:
+            return
+        for work in turns:
+            limit_s = work.job.limits.duration_s
+            work.scope.worked_s += now_s - last_s
+            if work.scope.worked_s > limit_s:
+                cause = f"{work.job.text!r} took longer than {limit_s:g} s"
+                self.end(work, failure("timeout", cause))
 
     def _let_run(self, work: Work) -> None:
         if work.job.began_s is None:
