@@ -21,7 +21,7 @@ FAILED, INVALID, BROKEN = 1, 2, 3
 
 app = typer.Typer(
     name="humanoid",
-    no_args_is_help=True,
+    invoke_without_command=True,
     add_completion=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
@@ -46,6 +46,13 @@ Fast = Annotated[
         "--fast", help="As fast as the machine goes, and the same every time, in one process."
     ),
 ]
+Vary = Annotated[
+    bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
+]
+RunDir = Annotated[
+    Path | None,
+    typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 
@@ -57,16 +64,47 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def humanoid(
+    context: typer.Context,
     *,
-    version: Annotated[
+    version: Annotated[  # noqa: ARG001, its callback acts
         bool,
         typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
     ] = False,
 ) -> None:
-    """Type a sentence, and a humanoid does it in physics.
+    """Type a sentence, and a humanoid does it in physics. Without a command: the prompt.
 
     Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
     """
+    if context.invoked_subcommand is None:
+        repl()
+
+
+@app.command()
+def repl(
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    vary: Vary = False,
+    run_dir: RunDir = None,
+) -> None:
+    r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
+
+    [bold]Examples[/bold]
+
+      humanoid
+
+      humanoid repl --world my_house.yaml --seed 7
+
+      printf 'go to the table\nwhy\n' | humanoid repl --fast
+
+    `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
+    """
+    from executive.repl import cli
+
+    options = cli.Options(world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir)
+    raise typer.Exit(cli.repl(options))
 
 
 @app.command(no_args_is_help=True)
@@ -78,13 +116,8 @@ def do(
     seed: Seed = 0,
     fast: Fast = False,
     as_json: AsJson = False,
-    vary: Annotated[
-        bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
-    ] = False,
-    run_dir: Annotated[
-        Path | None,
-        typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
-    ] = None,
+    vary: Vary = False,
+    run_dir: RunDir = None,
 ) -> None:
     """Do what a sentence says.
 

@@ -6,7 +6,7 @@ import signal
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from types import FrameType
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 from executive.app import RATE_HZ, Executive
 from robot.clock import Clock, Waker
@@ -38,6 +38,10 @@ class Runtime(Protocol):
 
     def failure(self) -> Failure | None:
         """Why the run cannot go on, None while it can."""
+        ...
+
+    def inject(self, fault: Mapping[str, Any]) -> None:
+        """Let a fault happen (`executive.faults`); raises ConfigError where that cannot be."""
         ...
 
 

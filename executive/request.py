@@ -54,11 +54,12 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Understood(msgspec.Struct, frozen=True, kw_only=True):
-    """A sentence, its goals, and the task they make."""
+    """A sentence, its goals, the task they make, and what is in the hands after it (ids)."""
 
     text: str
     goals: tuple[Goal, ...]
     task: Series
+    holds: tuple[str, ...] = ()
 
 
 def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
@@ -110,14 +111,15 @@ def meant(
         where: robot and world.
         held: ids of the objects that will be in the hands by then.
     """
+    scene = Scene(where.knowledge, held=held)
     try:
-        task = understand(goals, Scene(where.knowledge, held=held))
+        task = understand(goals, scene)
     except CannotMean as end:
         return refused(end.failure)
     refusal = check(task, where.knowledge, where.description)
     if refusal is not None:
         return refused(refusal)
-    return Understood(text=text, goals=goals, task=task)
+    return Understood(text=text, goals=goals, task=task, holds=tuple(scene.held))
 
 
 def refused(reason: Failure) -> Refused:

@@ -1,0 +1,1 @@
+"""The prompt: sentences and commands in one place, while the robot works."""

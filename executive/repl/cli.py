@@ -1,0 +1,96 @@
+"""`humanoid repl`: the prompt, on a terminal or from a pipe."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import ExitStack
+from datetime import datetime
+from pathlib import Path
+
+import msgspec
+from rich.console import Console
+
+from executive import request, runs, runtimes
+from executive.journal import Event
+from executive.progress import sentence
+from executive.repl.plain import work_off
+from executive.repl.robot import Robot
+from executive.repl.shell import Shell
+from robot.clock import WallClock
+
+DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
+HISTORY = Path("~/.local/state/humanoid/history")
+QUIET = frozenset({"phase", "stopping"})
+"""Events that the status line shows anyway."""
+
+
+class Options(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid repl`."""
+
+    world: str
+    robot: str
+    seed: int
+    fast: bool
+    vary: bool
+    folder: Path | None
+
+
+def repl(options: Options) -> int:
+    """Prompt until the person leaves; returns the exit status.
+
+    Raises:
+        RobotError: a file is wrong (ConfigError), or a part does not start.
+    """
+    where = request.setting(
+        options.world, options.robot, vary_seed=options.seed if options.vary else None
+    )
+    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    folder = options.folder or runs.folder_for("prompt", stamp=stamp)
+    runs.check_free(folder)
+    kind: runtimes.Kind = "fast" if options.fast else "live"
+    robot = Robot(
+        lambda: runtimes.opened(kind, where, seed=options.seed, folder=folder),
+        where=where,
+        seed=options.seed,
+        folder=folder,
+        wall=WallClock(),
+        time_of_day=lambda: datetime.now().astimezone().timestamp(),
+        idles=kind == "live",
+    )
+    with ExitStack() as stack:
+        with Console(stderr=True).status("starting the robot"):
+            stack.enter_context(robot)
+        shell = Shell(robot, say, folder=folder)
+        robot.session.journal.listen(_tell)
+        if sys.stdin.isatty() and sys.stdout.isatty():
+            from executive.repl.terminal import Terminal
+
+            say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
+            Terminal(shell, history=HISTORY.expanduser()).run()
+            say("The robot comes to a stand." if robot.busy else "The robot stands.")
+            return BROKEN if robot.lost else DONE
+        work_off(shell, sys.stdin)
+        return _status(shell)
+
+
+def say(text: str) -> None:
+    """A line for people; above the prompt where there is one."""
+    console = Console(file=sys.stdout, highlight=False)
+    console.print(text, markup=False, soft_wrap=True)
+
+
+def _tell(event: Event) -> None:
+    """What happens, as it happens."""
+    words = sentence(event) if event.event not in QUIET else ""
+    if words:
+        say(f"[{event.t_s:7.2f} s] {words}")
+
+
+def _status(shell: Shell) -> int:
+    """Of lines from a pipe: the worst that came of one."""
+    if shell.robot.lost:
+        return BROKEN
+    if shell.refused:
+        return INVALID
+    failed = any(job.state in ("failed", "cancelled") for job in shell.robot.executive.jobs)
+    return FAILED if failed else DONE

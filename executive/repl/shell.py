@@ -1,0 +1,166 @@
+"""What comes of a line: a command, an answer, or a sentence. Knows no terminal.
+
+A line is, in this order: a cry to stop; a command of the table; the answer to what the robot asks;
+a sentence, as part of one conversation. Sentences queue up: each is done when those before it are,
+or beside them where they do not need the same parts of the body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from executive.app import JobError
+from executive.behaviours.ask import ANSWERS, Answer
+from executive.blackboard import HELD
+from executive.jobs import OVER, UNDER_WAY, Job
+from executive.repl.robot import Robot
+from executive.repl.state import robot_state
+from executive.repl.table import Command
+from executive.request import Refused, Understood, meant
+from intents.dialogue import Dialogue
+from intents.goals import Cancel, Goal, Pause, Resume, Stop
+from intents.outcomes import Goals, Question, Refusal, Reply
+from intents.stopping import is_stop
+from robot.errors import RobotError
+
+Out = Callable[[str], None]
+
+
+class Shell:
+    """Takes lines and says what comes of them.
+
+    Attributes:
+        robot: what is spoken to.
+        out: says a line to people.
+        folder: of this run.
+        leaving: whether the person wants to go.
+        said: the sentences that became jobs, by number.
+        refused: how many lines led to nothing, because they could not be meant.
+    """
+
+    def __init__(self, robot: Robot, out: Out, *, folder: Path) -> None:
+        """Begin a conversation."""
+        from executive.repl.commands import table
+
+        self.robot = robot
+        self.out = out
+        self.folder = folder
+        self.leaving = False
+        self.refused = 0
+        self.said: dict[int, str] = {}
+        self.dialogue = Dialogue(robot.where.knowledge.vocabulary())
+        self._holds: tuple[str, ...] = ()
+        self.commands: dict[str, Command] = {one.name: one for one in table(self)}
+
+    def stop_at_once(self, text: str) -> bool:
+        """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
+        if not is_stop(text):
+            return False
+        self.stop("the operator said stop")
+        return True
+
+    def stop(self, why: str) -> None:
+        """Bring the robot to a stand and end all jobs."""
+        busy = self.robot.busy
+        self.robot.executive.stop(why)
+        self.dialogue.forget()
+        self.out("Stopping." if busy else "I stand already.")
+
+    def line(self, text: str) -> None:
+        """Do what a line says; never raises for what is in it."""
+        text = text.strip()
+        if not text or self.stop_at_once(text):
+            return
+        try:
+            self._take(text)
+        except RobotError as error:
+            self._refuse(f"Not done: {error}")
+
+    def sentence(self, text: str, *, urgent: bool = False) -> None:
+        """Understand a sentence in the conversation so far, and do it."""
+        understood = self.understand(text)
+        if isinstance(understood, Understood):
+            self.submit(understood, urgent=urgent)
+
+    def understand(self, text: str) -> Understood | None:
+        """What a sentence asks for; None when something else was said about it already."""
+        robot = self.robot
+        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        turn = self.dialogue.hear(text, state)
+        if isinstance(turn, Reply):
+            self.out(turn.text)
+        elif isinstance(turn, Question):
+            self.out(turn.question)
+        elif isinstance(turn, Refusal):
+            self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
+        else:
+            return self._settle(text, turn)
+        return None
+
+    def submit(self, understood: Understood, *, urgent: bool = False) -> None:
+        """Queue a task, and say where it stands."""
+        before = [job for job in self.robot.executive.jobs if job.state not in OVER]
+        number = self.robot.submit(understood, urgent=urgent)
+        self.said[number] = understood.text
+        self._holds = understood.holds
+        if before and not urgent:
+            self.out(f"Queued as {number}, with {len(before)} before it.")
+
+    def under_way(self) -> list[Job]:
+        """The jobs that have begun and are not over."""
+        return [job for job in self.robot.executive.jobs if job.state in UNDER_WAY]
+
+    def _take(self, text: str) -> None:
+        first, _, rest = text.partition(" ")
+        rest = rest.strip()
+        command = self.commands.get(first.casefold())
+        if command is not None and command.accepts(rest):
+            command.run(rest)
+        elif self.robot.executive.question and _answer(text) is not None:
+            self.robot.executive.answer(_answer(text) or "continue")
+        else:
+            self.sentence(text)
+
+    def _settle(self, text: str, turn: Goals) -> Understood | None:
+        """Steer the jobs at once if that is all that was meant; else what the goals mean here."""
+        if all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals):
+            for goal in turn.goals:
+                self._steer(goal)
+            return None
+        held = self._holds if self.robot.busy else self._held()
+        understood = meant(text, turn.goals, self.robot.where, held=held)
+        if isinstance(understood, Refused):
+            self._refuse(f"Not done: {understood.reason}", understood.suggestion)
+            return None
+        return understood
+
+    def _refuse(self, why: str, cure: str = "") -> None:
+        self.refused += 1
+        self.out(why)
+        if cure:
+            self.out(f"  {cure}")
+
+    def _held(self) -> tuple[str, ...]:
+        return tuple(self.robot.executive.board.read(HELD).values())
+
+    def _steer(self, goal: Goal) -> None:
+        """Steer the jobs as a command would."""
+        self.commands[type(goal).__name__.casefold()].run("")
+
+
+def _answer(text: str) -> Answer | None:
+    """The answer that a line is to what the robot asks for."""
+    wanted = text.casefold().strip(" .!")
+    return next((answer for answer in ANSWERS if answer == wanted), None)
+
+
+def number_of(text: str) -> int:
+    """A job's number as typed.
+
+    Raises:
+        JobError: if it is none.
+    """
+    if not text.isdecimal():
+        raise JobError(f"{text!r} is no job's number; `goals` shows them")
+    return int(text)

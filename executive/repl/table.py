@@ -1,0 +1,44 @@
+"""A command of the prompt, as a row of the table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+
+def nothing() -> Iterable[str]:
+    """No choices."""
+    return ()
+
+
+def alone(rest: str) -> bool:
+    """Whether nothing follows the command's name: "step back" is a sentence, "step" is not."""
+    return not rest
+
+
+def anything(_rest: str) -> bool:
+    """Whatever follows belongs to the command."""
+    return True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """One command.
+
+    Attributes:
+        name: the first word of the line.
+        usage: the whole line, for people.
+        summary: what it does, in one sentence without a full stop.
+        run: does it, with what follows the name.
+        accepts: whether what follows makes this a command; else the line is a sentence.
+        choices: what may follow, for completion.
+        takes_sentence: what follows is a sentence.
+    """
+
+    name: str
+    usage: str
+    summary: str
+    run: Callable[[str], None]
+    accepts: Callable[[str], bool] = alone
+    choices: Callable[[], Iterable[str]] = nothing
+    takes_sentence: bool = False

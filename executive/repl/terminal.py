@@ -1,0 +1,112 @@
+"""The prompt on a terminal: history, completion, a status line that lives, output above it.
+
+Lines are worked off in order in a thread of their own, so that nothing that a line takes (a plan,
+a long sentence) keeps the prompt from hearing a stop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from prompt_toolkit import PromptSession
+from prompt_toolkit.auto_suggest import AutoSuggestFromHistory
+from prompt_toolkit.formatted_text import StyleAndTextTuples
+from prompt_toolkit.history import FileHistory, History, InMemoryHistory
+from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
+from prompt_toolkit.patch_stdout import patch_stdout
+from prompt_toolkit.shortcuts import CompleteStyle
+from prompt_toolkit.styles import Style
+
+from executive.repl.completion import LineCompleter
+from executive.repl.shell import Shell
+from executive.repl.toolbar import STYLES, toolbar
+
+REFRESH_S = 0.2
+PANEL_SHARE = 0.5
+"""Of the terminal's height that the tree may take."""
+LEAVING = ("quit", "exit")
+
+
+class Terminal:
+    """A prompt until the person leaves."""
+
+    def __init__(self, shell: Shell, *, history: Path | None) -> None:
+        """Prepare; `history` is the file of what was typed (None: not kept)."""
+        self._shell = shell
+        self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
+        vocabulary = shell.robot.where.knowledge.vocabulary()
+        self._prompt: PromptSession[str] = PromptSession(
+            "> ",
+            history=_history(history),
+            completer=LineCompleter(shell.commands.values(), vocabulary),
+            complete_style=CompleteStyle.COLUMN,
+            complete_while_typing=False,
+            auto_suggest=AutoSuggestFromHistory(),
+            key_bindings=self._keys(),
+            bottom_toolbar=self._toolbar,
+            refresh_interval=REFRESH_S,
+            style=Style.from_dict(STYLES),
+        )
+
+    def run(self) -> None:
+        """Prompt until the person leaves."""
+        with patch_stdout(raw=True):
+            asyncio.run(self._run())
+        self._worker.shutdown(wait=True, cancel_futures=True)
+
+    async def _run(self) -> None:
+        shell = self._shell
+        while not shell.leaving:
+            try:
+                text = await self._prompt.prompt_async()
+            except EOFError:
+                shell.leaving = True
+                return
+            if text.strip() in LEAVING:
+                shell.leaving = True
+            elif not shell.stop_at_once(text):
+                self._worker.submit(self._line, text)
+
+    def _line(self, text: str) -> None:
+        """One line; a mistake in this software must not end the prompt."""
+        try:
+            self._shell.line(text)
+        except Exception as error:
+            kind = type(error).__name__
+            self._shell.out(f"That is a mistake in this software: {kind}: {error}")
+
+    def _toolbar(self) -> StyleAndTextTuples:
+        size = self._prompt.output.get_size()
+        rows = int(size.rows * PANEL_SHARE)
+        return toolbar(self._shell.robot.view, columns=size.columns, rows=rows)
+
+    def _keys(self) -> KeyBindings:
+        keys = KeyBindings()
+
+        def stop(event: KeyPressEvent) -> None:
+            """Ctrl-C stops the robot; with nothing to stop it clears the line."""
+            if self._shell.robot.busy:
+                self._shell.stop("the operator pressed Ctrl-C")
+            elif event.current_buffer.text:
+                event.current_buffer.reset()
+            else:
+                self._shell.out("The robot stands. Ctrl-D or `quit` leaves.")
+
+        add: Callable[..., Callable[[Callable[[KeyPressEvent], None]], object]] = keys.add
+        add("c-c", eager=True)(stop)
+        return keys
+
+
+def _history(path: Path | None) -> History:
+    """What was typed before, kept where it can be."""
+    if path is None:
+        return InMemoryHistory()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch(mode=0o600)
+    except OSError:
+        return InMemoryHistory()
+    return FileHistory(str(path))
