@@ -170,6 +170,11 @@ _SENTENCES: dict[str, str] = {
     "hold": "standing still: {why}",
     "abort": "ending the task: {cause}",
     "stopping": "{step}: stopping",
+    "paused": "paused: the robot stands",
+    "resume": "going on",
+    "help": "asks: {question}",
+    "answer": "was told: {answer}",
+    "fault": "fault injected: {fault}",
     "said": "says: {text}",
     "warning": "warning: {text}",
 }

@@ -20,8 +20,9 @@ from robot.clock import WallClock
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
 HISTORY = Path("~/.local/state/humanoid/history")
-QUIET = frozenset({"phase", "stopping"})
+QUIET = frozenset({"phase", "stopping", "abort"})
 """Events that the status line shows anyway."""
+ENDINGS = {"done": "Done", "failed": "Failed", "cancelled": "Ended"}
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):
@@ -81,9 +82,22 @@ def say(text: str) -> None:
 
 def _tell(event: Event) -> None:
     """What happens, as it happens."""
-    words = sentence(event) if event.event not in QUIET else ""
+    words = _words(event)
     if words:
         say(f"[{event.t_s:7.2f} s] {words}")
+
+
+def _words(event: Event) -> str:
+    """An event for people who see the status line as well; empty if it is no news to them."""
+    if event.event in QUIET:
+        return ""
+    if event.event in ("step", "done") and not event.data.get("id"):
+        return ""  # the executive's own business: coming to a stand
+    if event.event == "job" and event.data["state"] in ENDINGS:
+        cause = event.data.get("cause")
+        head = f"{ENDINGS[event.data['state']]} ({event.data['job']}): {event.data['text']}"
+        return f"{head}: {cause}" if cause else head
+    return sentence(event)
 
 
 def _status(shell: Shell) -> int:

@@ -100,10 +100,12 @@ class Shell:
 
     def submit(self, understood: Understood, *, urgent: bool = False) -> None:
         """Queue a task, and say where it stands."""
-        before = [job for job in self.robot.executive.jobs if job.state not in OVER]
         number = self.robot.submit(understood, urgent=urgent)
         self.said[number] = understood.text
         self._holds = understood.holds
+        live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
+        mine = live.pop(number, None)
+        before = [job for job in live.values() if mine and job.resources & mine.resources]
         if before and not urgent:
             self.out(f"Queued as {number}, with {len(before)} before it.")
 

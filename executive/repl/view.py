@@ -10,6 +10,7 @@ import msgspec
 from executive.app import Executive
 from executive.blackboard import BODY, HEALTH, HELD, HELP, PHASE, WORLD
 from executive.dumps.text import Line, lines
+from executive.jobs import UNDER_WAY
 from executive.ladder import Level
 
 PACE_SPAN_S = 2.0
@@ -24,7 +25,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
         state: of the executive: idle, working, pausing, paused, stopping.
         mode: of the body: damping, stand, walk, fallen.
         pose: estimated x [m], y [m] and heading [degrees] in the world, None before the first fix.
-        goal: what the first running job was asked for.
+        goal: what the first job under way was asked for.
         phase: what the newest skill does.
         waiting: jobs in the queue.
         level: of the worst finding about the robot's health.
@@ -70,7 +71,8 @@ class Observer:
         """
         board = executive.board
         body, world, health = board.read(BODY), board.read(WORLD), board.read(HEALTH)
-        running = [job for job in executive.jobs if job.state == "running"]
+        running = [job for job in executive.jobs if job.state in UNDER_WAY]
+        phase = board.read(PHASE) if running else ""
         pose = None
         if world is not None:
             X_WB = world.X_WB
@@ -81,7 +83,7 @@ class Observer:
             mode=body.mode if body else "damping",
             pose=pose,
             goal=running[0].text if running else "",
-            phase=board.read(PHASE) if running else "",
+            phase="" if phase == "done" else phase,
             waiting=sum(1 for job in executive.jobs if job.state == "waiting"),
             level=health.level,
             unwell=health.failure.cause if health.failure else "",
