@@ -8,11 +8,12 @@ sets it to what wakes a sleeping runtime, so that a request acts at once.
 
 from __future__ import annotations
 
+import math
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
@@ -107,6 +108,7 @@ class Executive:
         urgent: bool = False,
         resources: frozenset[Resource] = BODY,
         limits: Limits = UNLIMITED,
+        origin: Mapping[str, Any] | None = None,
     ) -> int:
         """Put a job into the queue; returns its number.
 
@@ -116,6 +118,7 @@ class Executive:
             urgent: it interrupts the jobs that it conflicts with; they come back after it.
             resources: the parts of the body that it may use; jobs that share none run side by side.
             limits: what it may take.
+            origin: what it is made from, as plain data for the journal: goals, or a mission.
         """
         node = build(self.stage)
         with self._lock:
@@ -125,17 +128,17 @@ class Executive:
             )
             self._waiting[job.number] = job
             self.outcome = None
-            self._requests.append(lambda: self._add(Work(job, node)))
+            self._requests.append(lambda: self._add(Work(job, node), dict(origin or {})))
         self.on_request()
         return job.number
 
     def pause(self, why: str = "paused on request") -> None:
         """Bring the robot to a stand and keep it there; `state` says when it stands."""
-        self._post(lambda: self._pause(why))
+        self._post(lambda: self._pause(why), "pause", why=why)
 
     def resume(self) -> None:
         """Go on after a pause, each job with the step it was in."""
-        self._post(self._resume)
+        self._post(self._resume, "resume")
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs with `cancelled`; takes several ticks.
@@ -144,7 +147,7 @@ class Executive:
         """
         with self._lock:
             last = self._count
-        self._post(lambda: self._stop(why, last))
+        self._post(lambda: self._stop(why, last), "stop", why=why)
 
     def cancel(self, number: int, why: str = "cancelled on request") -> None:
         """End one job with `cancelled`; it is over when its part of the body is at rest.
@@ -153,7 +156,7 @@ class Executive:
             JobError: if there is no such job, or it is over.
         """
         self._must_be(number)
-        self._post(lambda: self._cancel(number, why))
+        self._post(lambda: self._cancel(number, why), "cancel", number=number, why=why)
 
     def drop(self, number: int) -> None:
         """Take a waiting job out of the queue (one that has begun by then is cancelled).
@@ -170,23 +173,23 @@ class Executive:
             JobError: if no such job waits.
         """
         self._must_be(number, waiting=True)
-        self._post(lambda: self._move(number, place))
+        self._post(lambda: self._move(number, place), "move", number=number, place=place)
 
     def break_at(self, pattern: str) -> None:
         """Hold every step whose path is `pattern` or whose name it matches, before it begins."""
-        self._post(lambda: self.stage.breakpoints.add(pattern))
+        self._post(lambda: self.stage.breakpoints.add(pattern), "break_at", pattern=pattern)
 
     def clear_breaks(self, pattern: str | None = None) -> None:
         """Forget a breakpoint, or all of them; what is held stays held until `go_on`."""
-        self._post(lambda: self.stage.breakpoints.remove(pattern))
+        self._post(lambda: self.stage.breakpoints.remove(pattern), "clear_breaks", pattern=pattern)
 
     def step_once(self) -> None:
         """Let the held step go on, and hold the next one; if none is held, just hold the next."""
-        self._post(lambda: self.stage.breakpoints.go_on(one_step=True))
+        self._post(lambda: self.stage.breakpoints.go_on(one_step=True), "step_once")
 
     def go_on(self) -> None:
         """Let held steps begin; from here on only breakpoints hold."""
-        self._post(self.stage.breakpoints.go_on)
+        self._post(self.stage.breakpoints.go_on, "go_on")
 
     def answer(self, text: Answer) -> None:
         """Answer the open question (`question`): "continue" when it is done, or "give up".
@@ -198,7 +201,7 @@ class Executive:
             raise JobError(f"{text!r} is no answer; say {' or '.join(ANSWERS)}")
         if not self.question:
             raise JobError("nothing was asked")
-        self._post(lambda: self._answer(text))
+        self._post(lambda: self._answer(text), "answer", text=text)
 
     # --- how things stand, from any thread ---
 
@@ -261,8 +264,10 @@ class Executive:
 
     def abandon(self, reason: Failure | None, now_s: float) -> None:
         """End all jobs at once, without bringing anything to rest (None: as a person wants it)."""
-        reason = reason or failure("cancelled", "stopped at once on request; the motors damp")
         self._carry_out()
+        if reason is None:
+            self.journal.write(now_s, "request", request="abandon")
+            reason = failure("cancelled", "stopped at once on request; the motors damp")
         with self._lock:
             self._note(self.tree.jobs.abandon(reason), now_s)
 
@@ -296,9 +301,15 @@ class Executive:
 
     # --- requests, carried out as a tick begins ---
 
-    def _post(self, request: Request) -> None:
+    def _post(self, request: Request, name: str, **arguments: object) -> None:
+        """Put down a request; the journal says when it was carried out, for replays."""
+
+        def carry_out() -> None:
+            self.stage.record("request", request=name, **arguments)
+            request()
+
         with self._lock:
-            self._requests.append(request)
+            self._requests.append(carry_out)
         self.on_request()
 
     def _must_be(self, number: int, *, waiting: bool = False) -> None:
@@ -315,8 +326,13 @@ class Executive:
             kind = "waiting job" if waiting else "job"
             raise JobError(f"there is no {kind} {number}; there is: {known}")
 
-    def _add(self, work: Work) -> None:
-        jobs = self.tree.jobs
+    def _add(self, work: Work, origin: dict[str, Any]) -> None:
+        jobs, job = self.tree.jobs, work.job
+        limits = {k: v for k, v in msgspec.structs.asdict(job.limits).items() if math.isfinite(v)}
+        self.stage.record(
+            "request", request="submit", job=job.number, text=job.text, urgent=job.urgent,
+            limits=limits, origin=origin,
+        )  # fmt: skip
         if not jobs.works:
             self.tree.hold.reset()
         with self._lock:
@@ -342,6 +358,7 @@ class Executive:
     def _stop(self, why: str, last: int) -> None:
         self.stage.record("stop", why=why)
         self._go_on()
+        self.stage.breakpoints.go_on()
         self._stop_until = last
         self._operator.set(STOP, why)
 
