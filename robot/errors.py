@@ -127,6 +127,12 @@ CATALOGUE: dict[str, FailureKind] = {
     "grasp_missed": FailureKind("the fingers closed on air", "check where the object is"),
     "object_dropped": FailureKind("the object left the hand", "check the object"),
     "object_not_seen": FailureKind("the object is not where it was", "show it to the camera"),
+    "on_the_floor": FailureKind(
+        "the object lies on the floor, lower than a hand reaches", "put it back onto a table"
+    ),
+    "not_taken": FailureKind("nobody took what was held out", "pull it out of the hand"),
+    "person_near": FailureKind("somebody stands too near to go on", "step back from the robot"),
+    "person_not_seen": FailureKind("the person is not where they were", "come before the camera"),
     "not_holding": FailureKind("there is nothing in the hand", "pick something up first"),
     "hands_full": FailureKind("no free hand", "put something down first"),
     "arm_stalled": FailureKind("the arm did not get to where it was sent", "clear the arm"),
@@ -137,6 +143,10 @@ CATALOGUE: dict[str, FailureKind] = {
     "localisation_lost": FailureKind("the robot does not know where it is", "wait, or re-localise"),
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
     "overheated": FailureKind("a motor is too hot", "let it cool down"),
+    "battery_low": FailureKind("the battery is nearly empty", "charge it"),
+    "emergency_stop": FailureKind(
+        "the emergency stop was pressed", "release it, then reset it"
+    ),
     "controller_lost": FailureKind("the controller process died", "restart"),
     "plant_lost": FailureKind("the simulation died", "restart"),
     "timeout": FailureKind("it took longer than it may", "try again"),

@@ -74,6 +74,10 @@ RULES: dict[str, Rule] = {
     "grasp_missed": Rule(remedy="look_again", times=2),
     "object_dropped": Rule(remedy="fetch_again", times=2),
     "object_not_seen": Rule(remedy="look_again", times=1),
+    "on_the_floor": NONE,
+    "not_taken": NONE,
+    "person_near": Rule(remedy="wait", times=3),
+    "person_not_seen": Rule(remedy="wait", times=1),
     "not_holding": Rule(remedy="fetch_again", times=1),
     "hands_full": NONE,
     "arm_stalled": Rule(remedy="step_back", times=1),
@@ -84,6 +88,8 @@ RULES: dict[str, Rule] = {
     "localisation_lost": Rule(remedy="wait", times=2),
     "sensor_silent": Rule(remedy="wait", times=2),
     "overheated": NONE,
+    "battery_low": NONE,
+    "emergency_stop": NONE,
     "controller_lost": NONE,
     "plant_lost": NONE,
     "timeout": Rule(remedy="retry", times=1),
@@ -181,6 +187,8 @@ class Recover(Behaviour):
 
     def _refusal(self, code: str, rule: Rule) -> str:
         """Why there is no remedy, or an empty text."""
+        if not self._stage.recovers:
+            return "recovery is switched off"
         if rule.remedy == "none":
             return f"nothing to be done about {code}"
         if self._used[code] >= rule.times:
