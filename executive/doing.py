@@ -10,15 +10,13 @@ import msgspec
 
 from executive import loop, runs
 from executive.app import Executive, Outcome
-from executive.journal import Journal
 from executive.knowledge import full_name
 from executive.progress import Progress
 from executive.request import Setting, Understood
-from executive.runs import Header, Placed, Summary
+from executive.runs import Placed, Summary
 from executive.session import Session
 from executive.skills.parameters import PlaceParams
 from executive.trees.parts import errands
-from intents.goals import to_builtins
 from robot.clock import Clock
 from robot.errors import CATALOGUE, Failure
 from robot.messages import LoopTiming, WorldState
@@ -73,7 +71,10 @@ def do(
         stack.enter_context(session)
         progress = stack.enter_context(show(session.executive))
         session.on_tick(progress.update)
-        _write_header(job, session.journal, start_s)
+        header = runs.header(
+            job.where, text=job.understood.text, seed=job.seed, runtime=job.runtime_name
+        )
+        runs.begin(session.journal, header, now_s=start_s, folder=job.folder)
         session.submit(job.understood)
         session.run()
         outcome = session.executive.outcome
@@ -83,22 +84,6 @@ def do(
     if job.folder is not None:
         runs.save(job.folder, "summary.json", summary)
     return summary
-
-
-def _write_header(job: Job, journal: Journal, now_s: float) -> None:
-    """What was asked for goes into the folder and opens the journal."""
-    header = Header(
-        text=job.understood.text,
-        world=job.where.world_name,
-        robot=job.where.robot_name,
-        seed=job.seed,
-        runtime=job.runtime_name,
-        varied=job.where.vary_seed is not None,
-        goals=tuple(to_builtins(job.understood.goals)),
-    )
-    if job.folder is not None:
-        runs.save(job.folder, "run.json", header)
-    journal.write(now_s, "run", **msgspec.to_builtins(header))
 
 
 def _summary(

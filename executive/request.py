@@ -54,11 +54,12 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Understood(msgspec.Struct, frozen=True, kw_only=True):
-    """A sentence, its goals, the task they make, and what is in the hands after it (ids)."""
+    """A sentence, its goals, the task they make; what is in the hands before and after it (ids)."""
 
     text: str
     goals: tuple[Goal, ...]
     task: Series
+    held: tuple[str, ...] = ()
     holds: tuple[str, ...] = ()
 
 
@@ -119,7 +120,7 @@ def meant(
     refusal = check(task, where.knowledge, where.description)
     if refusal is not None:
         return refused(refusal)
-    return Understood(text=text, goals=goals, task=task, holds=tuple(scene.held))
+    return Understood(text=text, goals=goals, task=task, held=held, holds=tuple(scene.held))
 
 
 def refused(reason: Failure) -> Refused:

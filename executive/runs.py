@@ -7,12 +7,19 @@ from pathlib import Path
 
 import msgspec
 
+from executive import origin
 from executive.app import Outcome
+from executive.journal import Journal
+from executive.origin import Origin
+from executive.request import Setting
 from robot.errors import ConfigError, Problem
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """What a run was started with: enough to start it again (`run.json`)."""
+    """What a run was started with: enough to start it again (`run.json`).
+
+    What was asked for stands here as `text` for people; what jobs are made of, in the journal.
+    """
 
     text: str
     world: str
@@ -20,7 +27,27 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     seed: int
     runtime: str
     varied: bool = False
-    goals: tuple[dict[str, object], ...] = ()
+    origin: Origin | None = None
+
+
+def header(where: Setting, *, text: str, seed: int, runtime: str) -> Header:
+    """The header of a run that starts now."""
+    return Header(
+        text=text,
+        world=where.world_name,
+        robot=where.robot_name,
+        seed=seed,
+        runtime=runtime,
+        varied=where.vary_seed is not None,
+        origin=origin.of(where.world, where.description),
+    )
+
+
+def begin(journal: Journal, header: Header, *, now_s: float, folder: Path | None) -> None:
+    """Write what a run is started with into its folder, and as the journal's first event."""
+    if folder is not None:
+        save(folder, "run.json", header)
+    journal.write(now_s, "run", **msgspec.to_builtins(header))
 
 
 class Summary(msgspec.Struct, frozen=True, kw_only=True):

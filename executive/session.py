@@ -12,11 +12,11 @@ pauses and stops come through `session.executive` from any thread (see `executiv
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 from executive import loop
 from executive.app import Executive
@@ -28,6 +28,7 @@ from executive.resources import needed_by
 from executive.skills.context import SkillContext
 from executive.trees.build import build
 from executive.trees.parts import errands
+from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
 from robot.model.description import RobotDescription
 from robot.planning.worker import Planner
@@ -50,6 +51,7 @@ class Session:
         seed: int = 0,
         folder: Path | None = None,
         time_of_day: Callable[[], float] | None = None,
+        journal: Journal | None = None,
     ) -> None:
         """Build the executive; nothing moves before a job is submitted and `run` called.
 
@@ -61,10 +63,12 @@ class Session:
             seed: of every planning request.
             folder: where the journal goes (None: it is kept in memory).
             time_of_day: for the journal's sibling file.
+            journal: to use in place of a new one: a run is replayed, or gone on with.
         """
         self.runtime = runtime
         self.interrupts = interrupts
-        self.journal = Journal(folder, wall_s=time_of_day)
+        live = isinstance(runtime, loop.Wakeable)  # no disk may hold it up
+        self.journal = journal or Journal(folder, wall_s=time_of_day, background=live)
         context = SkillContext(
             link=runtime.link, planner=planner, description=description, seed=seed
         )
@@ -77,16 +81,35 @@ class Session:
         self._listeners.append(listener)
 
     def submit(
-        self, understood: Understood, *, urgent: bool = False, limits: Limits = UNLIMITED
+        self,
+        understood: Understood,
+        *,
+        urgent: bool = False,
+        limits: Limits = UNLIMITED,
+        origin: Mapping[str, Any] | None = None,
+        done: frozenset[str] = frozenset(),
     ) -> int:
-        """Queue what a sentence asks for; returns the job's number. From any thread."""
+        """Queue a task; returns the job's number. From any thread.
+
+        Args:
+            understood: what a sentence asks for, or a task made otherwise.
+            urgent: see `Executive.submit`.
+            limits: what it may take.
+            origin: what the task is made from, for the journal (default: the goals).
+            done: paths of steps that are done already.
+        """
         task = understood.task
+        made_from: dict[str, Any] = {
+            "goals": to_builtins(understood.goals),
+            **({"held": understood.held} if understood.held else {}),
+        }
         return self.executive.submit(
-            lambda stage: build(task, stage),
+            lambda stage: build(task, stage, done=done),
             text=understood.text,
             urgent=urgent,
             resources=needed_by(errand.params for errand in errands(task)),
             limits=limits,
+            origin={**(origin or made_from), **({"done": sorted(done)} if done else {})},
         )
 
     def run(self, *, until: Callable[[], bool] | None = None) -> None:

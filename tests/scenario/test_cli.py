@@ -71,7 +71,7 @@ def test_the_main_job_is_done_and_summed_up(runtime, humanoid, tmp_path):
     assert events[0]["event"] == "run"
     assert [event["code"] for event in events if event["event"] == "outcome"] == ["done"]
     assert (folder / "wall.jsonl").exists()
-    assert json.loads((folder / "run.json").read_text())["goals"]
+    assert json.loads((folder / "run.json").read_text())["origin"]["world"]
     assert json.loads((folder / "summary.json").read_text())["status"] == "done"
 
 
