@@ -21,6 +21,7 @@ from executive.behaviours.ask import ANSWERS, Answer
 from executive.behaviours.sense import Sense
 from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import ABORT, HELP, PAUSE, PAUSED, SAID, SPEED_LIMIT, STOP, Blackboard
+from executive.estop import EmergencyStop
 from executive.health import HealthMonitor
 from executive.jobs import BODY, OVER, UNLIMITED, Job, Limits
 from executive.journal import Journal
@@ -84,10 +85,13 @@ class Executive:
         self._context = replace(context, say=self._say, speed_limit=self._speed_limit)
         self._make = make
         self.stage = Stage(self.board, journal, self._make_skill)
+        self.estop = EmergencyStop()
         monitor = HealthMonitor(
             rates_hz,
             start_s=context.link.now_s(),
             motors=context.description.motor_names,
+            speed_m_s=context.description.walking.max_forward_m_s,
+            estop=self.estop,
         )
         sense = Sense(self.stage, context.link, monitor, holdings=context.holdings)
         self.tree = Tree(self.stage, sense)

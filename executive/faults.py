@@ -18,7 +18,7 @@ import signal
 from collections.abc import Callable, Mapping
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Protocol, cast
+from typing import Any, Protocol, cast, runtime_checkable
 
 import msgspec
 import numpy as np
@@ -116,6 +116,7 @@ def drawn(data: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     return {key: _draw(value, rng) for key, value in data.items()}
 
 
+@runtime_checkable
 class Injects(Protocol):
     """A runtime that can suffer faults."""
 

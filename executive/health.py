@@ -1,23 +1,34 @@
-"""How well the robot is, from the ages of its messages and from what they say.
+"""How well the robot is, from the ages and rates of its messages and from what they say.
 
-The promised rate of a topic (`robot.bus.topics`) says when it is late; `CONCERNS` says what a late
-topic means for the robot. Nothing here knows how messages travel: the newest stamps are arguments.
+Everything here is a table. The promised rate of a topic (`robot.bus.topics`) says when it is late
+or thin; `CONCERNS` says what that means for the robot; `GRADES` says from which value of a
+measurement on it has to go slower, to stand, or to end its task. Nothing here knows how messages travel: the
+newest stamps are arguments. docs/health.md is made of these tables.
 """
 
 from __future__ import annotations
 
+import math
+from collections import deque
 from collections.abc import Mapping, Sequence
 
 import msgspec
 
+from executive.estop import EmergencyStop
 from executive.ladder import Finding, Health, Level
 from robot.errors import failure
-from robot.messages import BodyState, WorldState
+from robot.messages import BodyState, LoopTiming, PowerState, WorldState
 
 START_UP_S = 10.0
 """How long the first message of a topic may take after the start."""
-FIX_LATE_S, FIX_LOST_S = 0.5, 1.5
-TEMPERATURE_WARM_C, TEMPERATURE_TRIP_C = 80.0, 100.0
+WINDOW_TICKS = 40
+"""Ticks over which the rate of a topic is judged: 2 s."""
+THIN = 0.6
+"""A topic that brings less than this part of what it promises is thin."""
+COOL_C = 70.0
+"""A motor that has tripped has to cool down to this before anything moves again."""
+JUMP_REST_S = 2.0
+"""How long the pose has to be steady after it has jumped."""
 
 
 class Concern(msgspec.Struct, frozen=True, kw_only=True):
@@ -52,11 +63,88 @@ CONCERNS: dict[str, Concern] = {
 """Topic name to what its silence means. Topics that are not listed are not missed."""
 
 
+class Grade(msgspec.Struct, frozen=True, kw_only=True):
+    """From which value on a measurement means a level, and what speed is left (part of the most).
+
+    `ends` is the part that is left where the next grade begins: in between it falls linearly.
+    """
+
+    at: float
+    level: Level
+    speed: float = 1.0
+    ends: float | None = None
+
+
+class Scale(msgspec.Struct, frozen=True, kw_only=True):
+    """The grades of one measurement, mild first; `falling` where less is worse."""
+
+    code: str
+    unit: str
+    grades: tuple[Grade, ...]
+    falling: bool = False
+
+    def grade(self, value: float) -> tuple[Level, float]:
+        """The level of a value, and the part of the speed that is left."""
+        sign = -1.0 if self.falling else 1.0
+        reached = [grade for grade in self.grades if sign * value >= sign * grade.at]
+        if not reached:
+            return Level.OK, 1.0
+        grade = reached[-1]
+        if grade.ends is None or len(reached) == len(self.grades):
+            return grade.level, grade.speed
+        following = self.grades[len(reached)]
+        share = (value - grade.at) / (following.at - grade.at)
+        return grade.level, grade.speed + share * (grade.ends - grade.speed)
+
+
+GRADES: dict[str, Scale] = {
+    "temperature": Scale(
+        code="overheated",
+        unit="°C",
+        grades=(
+            Grade(at=80.0, level=Level.DERATE, speed=1.0, ends=0.4),
+            Grade(at=100.0, level=Level.SIT),
+        ),
+    ),
+    "battery": Scale(
+        code="battery_low",
+        unit="of the charge",
+        falling=True,
+        grades=(
+            Grade(at=0.20, level=Level.WARN),
+            Grade(at=0.10, level=Level.DERATE, speed=0.5),
+            Grade(at=0.05, level=Level.SIT),
+        ),
+    ),
+    "fix": Scale(
+        code="localisation_lost",
+        unit="s old",
+        grades=(Grade(at=0.5, level=Level.WARN), Grade(at=1.5, level=Level.HOLD)),
+    ),
+    "lateness": Scale(
+        code="overloaded",
+        unit="of the controller's periods late",
+        grades=(
+            Grade(at=0.05, level=Level.WARN),
+            Grade(at=0.25, level=Level.DERATE, speed=0.5),
+            Grade(at=0.60, level=Level.HOLD),
+        ),
+    ),
+}
+"""Measurement to what its values mean."""
+
+
 class HealthMonitor:
     """Turns stamps and states into `Health`, once a tick."""
 
     def __init__(
-        self, rates_hz: Mapping[str, float], *, start_s: float, motors: Sequence[str] = ()
+        self,
+        rates_hz: Mapping[str, float],
+        *,
+        start_s: float,
+        motors: Sequence[str] = (),
+        speed_m_s: float = math.inf,
+        estop: EmergencyStop | None = None,
     ) -> None:
         """Watch those topics of `CONCERNS` that have a promised rate.
 
@@ -64,6 +152,8 @@ class HealthMonitor:
             rates_hz: topic name to promised rate.
             start_s: now.
             motors: names in motor order, for people.
+            speed_m_s: the robot's fastest walk, of which a part is left when it is unwell.
+            estop: the emergency stop.
         """
         self._concerns = {
             name: (CONCERNS[name], rate_hz)
@@ -72,6 +162,14 @@ class HealthMonitor:
         }
         self._start_s = start_s
         self._motors = motors
+        self._speed_m_s = speed_m_s
+        self._estop = estop or EmergencyStop()
+        self._flows = {name: _Flow(rate_hz) for name, (_, rate_hz) in self._concerns.items()}
+        self._tripped = False
+        self._jumps: int | None = None
+        self._jumped_s = -math.inf
+        self._timing: LoopTiming | None = None
+        self._late = 0.0
 
     def look(
         self,
@@ -80,6 +178,8 @@ class HealthMonitor:
         *,
         body: BodyState | None,
         world: WorldState | None,
+        power: PowerState | None = None,
+        timing: LoopTiming | None = None,
     ) -> Health:
         """Assess the robot.
 
@@ -88,6 +188,8 @@ class HealthMonitor:
             stamps_s: stamp of the newest message of each topic, None before the first.
             body: the newest body state.
             world: the newest world model.
+            power: the newest state of the battery.
+            timing: how well the controller keeps its time.
         """
         findings: list[Finding] = []
         ages_s: dict[str, float] = {}
@@ -95,14 +197,23 @@ class HealthMonitor:
             stamp_s = stamps_s.get(name)
             ages_s[name] = round(now_s - (self._start_s if stamp_s is None else stamp_s), 4)
             finding = self._silence(name, concern, rate_hz, ages_s[name], came=stamp_s is not None)
-            if finding is not None:
-                findings.append(finding)
+            thin = self._flows[name].judge(name, now_s, stamp_s)
+            findings += [one for one in (finding or thin,) if one is not None]
+        if self._estop.latched:
+            reason = failure("emergency_stop", self._estop.why)
+            findings.append(Finding(name="emergency stop", level=Level.SIT, failure=reason))
         if body is not None:
-            findings += _body_findings(body, self._motors)
+            findings += [*_fall(body), *self._heat(body)]
         if world is not None:
-            findings += _world_findings(world, now_s)
+            findings += [*_fix(world, now_s), *self._jump(world, now_s)]
+        if power is not None:
+            findings += _battery(power)
+        if timing is not None:
+            findings += self._lateness(timing)
         findings.sort(key=lambda finding: -finding.level)
-        return Health(findings=tuple(findings), ages_s=ages_s)
+        left = min((finding.speed for finding in findings), default=1.0)
+        speed_m_s = left * self._speed_m_s if left < 1.0 else math.inf
+        return Health(findings=tuple(findings), ages_s=ages_s, speed_m_s=speed_m_s)
 
     @staticmethod
     def _silence(
@@ -117,33 +228,100 @@ class HealthMonitor:
         reason = failure(concern.code, text, topic=name, age_s=age_s, promised_hz=rate_hz)
         return Finding(name=name, level=level, failure=reason)
 
+    def _heat(self, body: BodyState) -> list[Finding]:
+        """Hot motors; one that tripped has to cool down well below before it counts as well."""
+        hottest_c = max(body.temperature_c, default=0.0)
+        scale = GRADES["temperature"]
+        level, speed = scale.grade(hottest_c)
+        self._tripped = level is Level.SIT or (self._tripped and hottest_c > COOL_C)
+        if self._tripped:
+            level = Level.SIT
+        if level is Level.OK:
+            return []
+        index = body.temperature_c.index(hottest_c)
+        motor = self._motors[index] if index < len(self._motors) else f"motor {index}"
+        text = f"the {motor} motor is at {hottest_c:.0f} °C"
+        if self._tripped:
+            text += f", it has to cool down to {COOL_C:.0f} °C"
+        reason = failure(scale.code, text, motor=motor, temperature_c=round(hottest_c, 1))
+        return [Finding(name="temperature", level=level, failure=reason, speed=speed)]
 
-def _body_findings(body: BodyState, motors: Sequence[str]) -> list[Finding]:
-    """What the body's own state says: a fall, a failure of the controller, hot motors."""
-    findings: list[Finding] = []
+    def _jump(self, world: WorldState, now_s: float) -> list[Finding]:
+        """A pose that was thrown over is not walked on before it has been steady for a while."""
+        if self._jumps is not None and world.jumps > self._jumps:
+            self._jumped_s = now_s
+        self._jumps = world.jumps
+        if now_s - self._jumped_s >= JUMP_REST_S:
+            return []
+        text = "the robot's pose has jumped; waiting until it is steady"
+        reason = failure("localisation_lost", text, jumps=float(world.jumps))
+        return [Finding(name="jump", level=Level.HOLD, failure=reason)]
+
+    def _lateness(self, timing: LoopTiming) -> list[Finding]:
+        """The part of the controller's periods that were late since its last report."""
+        before, self._timing = self._timing, timing
+        if before is not None and timing.count > before.count:
+            self._late = (timing.late - before.late) / (timing.count - before.count)
+        text = f"{100.0 * self._late:.0f} % of the controller's periods are late"
+        return _graded("lateness", self._late, text)
+
+
+class _Flow:
+    """Whether a topic brings what it promises: the part of the ticks that see a new message."""
+
+    def __init__(self, rate_hz: float) -> None:
+        self._rate_hz = rate_hz
+        self._ticks: deque[tuple[float, bool]] = deque(maxlen=WINDOW_TICKS)
+        self._stamp_s: float | None = None
+
+    def judge(self, name: str, now_s: float, stamp_s: float | None) -> Finding | None:
+        """Look once a tick; None while all is well, or while it is too early to tell."""
+        self._ticks.append((now_s, stamp_s is not None and stamp_s != self._stamp_s))
+        self._stamp_s = stamp_s
+        if len(self._ticks) < WINDOW_TICKS:
+            return None
+        span_s = now_s - self._ticks[0][0]
+        seen = sum(new for _, new in self._ticks) - 1
+        wanted = min(span_s * self._rate_hz, len(self._ticks) - 1.0)
+        if seen >= THIN * wanted:
+            return None
+        text = f"{name} brings {max(0, seen)} messages where {wanted:.0f} are promised"
+        reason = failure(CONCERNS[name].code, text, topic=name, part=round(seen / wanted, 2))
+        return Finding(name=f"{name} rate", level=Level.DERATE, failure=reason, speed=THIN_SPEED)
+
+
+THIN_SPEED = 0.6
+
+
+def _graded(name: str, value: float, text: str, **evidence: float) -> list[Finding]:
+    """A finding out of the table, or none."""
+    scale = GRADES[name]
+    level, speed = scale.grade(value)
+    if level is Level.OK:
+        return []
+    reason = failure(scale.code, text, suggestion="", **evidence)
+    return [Finding(name=name, level=level, failure=reason, speed=speed)]
+
+
+def _fall(body: BodyState) -> list[Finding]:
+    """A fall, or a failure of the controller."""
     if body.mode == "fallen":
         reason = body.failure or failure("fallen", "the robot lies on the floor")
-        findings.append(Finding(name="fall", level=Level.DAMP, failure=reason))
-    elif body.failure is not None:
-        findings.append(Finding(name="controller", level=Level.SIT, failure=body.failure))
-    hottest_c = max(body.temperature_c, default=0.0)
-    if hottest_c >= TEMPERATURE_WARM_C:
-        tripped = hottest_c >= TEMPERATURE_TRIP_C
-        index = body.temperature_c.index(hottest_c)
-        motor = motors[index] if index < len(motors) else f"motor {index}"
-        text = f"the {motor} motor is at {hottest_c:.0f} °C"
-        reason = failure("overheated", text, motor=motor, temperature_c=round(hottest_c, 1))
-        level = Level.SIT if tripped else Level.WARN
-        findings.append(Finding(name="temperature", level=level, failure=reason))
-    return findings
+        return [Finding(name="fall", level=Level.DAMP, failure=reason)]
+    if body.failure is not None:
+        return [Finding(name="controller", level=Level.SIT, failure=body.failure)]
+    return []
 
 
-def _world_findings(world: WorldState, now_s: float) -> list[Finding]:
-    """What the world model says of itself: how old the last absolute fix of the pose is."""
+def _battery(power: PowerState) -> list[Finding]:
+    text = f"the battery is at {100.0 * power.charge:.0f} % ({power.source})"
+    charge, power_w = round(power.charge, 3), round(power.power_w, 0)
+    return _graded("battery", power.charge, text, charge=charge, power_w=power_w)
+
+
+def _fix(world: WorldState, now_s: float) -> list[Finding]:
+    """How old the last absolute fix of the pose is, as the world model says itself."""
     age_s = world.fix_age_s + max(0.0, now_s - world.stamp_s)
-    if age_s <= FIX_LATE_S:
-        return []
-    level = Level.HOLD if age_s > FIX_LOST_S else Level.WARN
     text = f"no fix of the robot's pose for {age_s:.1f} s"
-    reason = failure("localisation_lost", text, fix_age_s=round(age_s, 3))
-    return [Finding(name="localisation", level=level, failure=reason)]
+    found = _graded("fix", age_s, text, fix_age_s=round(age_s, 3))
+    return [msgspec.structs.replace(one, name="localisation") for one in found]

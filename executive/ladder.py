@@ -27,11 +27,15 @@ class Level(IntEnum):
 
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
-    """One thing that is not as it should be, how bad it is, and the failure it would be."""
+    """One thing that is not as it should be, how bad it is, and the failure it would be.
+
+    `speed` is the part of its fastest walk that the robot may still use.
+    """
 
     name: str
     level: Level
     failure: Failure
+    speed: float = 1.0
 
 
 class Health(msgspec.Struct, frozen=True, kw_only=True):

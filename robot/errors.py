@@ -144,9 +144,8 @@ CATALOGUE: dict[str, FailureKind] = {
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
     "overheated": FailureKind("a motor is too hot", "let it cool down"),
     "battery_low": FailureKind("the battery is nearly empty", "charge it"),
-    "emergency_stop": FailureKind(
-        "the emergency stop was pressed", "release it, then reset it"
-    ),
+    "emergency_stop": FailureKind("the emergency stop was pressed", "release it, then reset it"),
+    "overloaded": FailureKind("the computer does not keep up", "end other programs on it"),
     "controller_lost": FailureKind("the controller process died", "restart"),
     "plant_lost": FailureKind("the simulation died", "restart"),
     "timeout": FailureKind("it took longer than it may", "try again"),

@@ -12,6 +12,7 @@ from robot.messages import (
     BodyState,
     DepthImage,
     LidarScan,
+    LoopTiming,
     PowerState,
     WorldMap,
     WorldState,
@@ -57,9 +58,13 @@ class BodyLink(Protocol):
         """The newest state of the battery, None without one."""
         ...
 
+    def timing(self) -> LoopTiming | None:
+        """How well the controller keeps its time; None where time is simulated."""
+        ...
+
 
 class BusLink:
-    """A `BodyLink` over a bus; command ids grow from 1."""
+    """A `BodyLink` over a bus; command ids grow from 1, or from where somebody before ended."""
 
     def __init__(self, bus: Bus, clock: Clock) -> None:
         self._bus = bus
@@ -71,6 +76,7 @@ class BusLink:
         self._lidar = bus.subscribe(topics.LIDAR)
         self._depth = bus.subscribe(topics.DEPTH)
         self._power = bus.subscribe(topics.POWER)
+        self._timing = bus.subscribe(topics.CONTROLLER_TIMING)
 
     def send(self, command: BodyCommand) -> None:
         """Send one command. Raises BusError if the bus is closed."""
@@ -78,6 +84,8 @@ class BusLink:
 
     def next_id(self) -> int:
         """A fresh command id, growing."""
+        if not self._last_id and (body := self.body()) is not None:
+            self._last_id = max((one.id for one in body.activities.values()), default=0)
         self._last_id += 1
         return self._last_id
 
@@ -108,3 +116,7 @@ class BusLink:
     def power(self) -> PowerState | None:
         """The newest state of the battery, None without one."""
         return self._power.latest
+
+    def timing(self) -> LoopTiming | None:
+        """How well the controller keeps its time; None where time is simulated."""
+        return self._timing.latest

@@ -71,6 +71,37 @@ def variation(world: World, seed: int, *, on: str = "table") -> World:
     return placed(msgspec.structs.replace(world, objects=objects, start=start), rng)
 
 
+def nudged(
+    world: World,
+    seed: int,
+    *,
+    start: tuple[float, float, float] | None = None,
+    by_m: float = 0.03,
+    by_deg: float = 6.0,
+) -> World:
+    """The same world, begun a little otherwise: for many runs of one short mission.
+
+    Args:
+        world: what to vary.
+        seed: of the draw; the same seed gives the same world.
+        start: where the robot starts (x [m], y [m], heading [deg]) in place of the world's start.
+        by_m: how far the robot, and every object with a spot, may be moved.
+        by_deg: how far the robot may be turned; objects get any heading.
+    """
+    rng = np.random.default_rng(np.random.SeedSequence([seed, 0xD6E]))
+    x_m, y_m, yaw_deg = start or (*world.start.at_m, world.start.yaw_deg)
+    objects: list[Object] = []
+    for item in world.objects:
+        dx, dy, yaw = (float(value) for value in rng.uniform(-1.0, 1.0, 3))
+        if item.at_m is not None:
+            at_m = (item.at_m[0] + by_m * dx, item.at_m[1] + by_m * dy)
+            item = msgspec.structs.replace(item, at_m=at_m, yaw_deg=180.0 * yaw)  # noqa: PLW2901
+        objects.append(item)
+    dx, dy, turn = (float(value) for value in rng.uniform(-1.0, 1.0, 3))
+    begin = Start(at_m=(x_m + by_m * dx, y_m + by_m * dy), yaw_deg=yaw_deg + by_deg * turn)
+    return msgspec.structs.replace(world, objects=tuple(objects), start=begin)
+
+
 def clear_of(world: World, point: Point, radius_m: float) -> str | None:
     """What stands within `radius_m` of a point of the floor, None if nothing does."""
     for item in world.furniture:

@@ -11,6 +11,8 @@ from robot.errors import Failure, failure
 
 HOLD_LIMIT_S = 20.0
 """How long the robot may stand and wait in one task, all waits together."""
+START_S = 1.0
+"""How long it waits for its first messages also where nothing is to be recovered."""
 
 
 class EndTask(Behaviour):
@@ -67,8 +69,8 @@ class Hold(Behaviour):
         self._last_s = now_s
         worst = self._stage.board.read(HEALTH).failure
         self.feedback_message = worst.cause if worst else ""
-        out_of_patience = self._left_s < 0.0 or not self._stage.recovers
-        if out_of_patience and self._stage.board.read(ABORT) is None:
+        patience_s = 0.0 if self._stage.recovers else self._limit_s - START_S
+        if self._left_s < patience_s and self._stage.board.read(ABORT) is None:
             end_task(self._stage, self._guard, worst)
         return Status.RUNNING
 

@@ -61,6 +61,8 @@ class Sense(Behaviour):
             {name: read(link) for name, read in STAMPS.items()},
             body=link.body(),
             world=link.world(),
+            power=link.power(),
+            timing=link.timing(),
         )
         board.set(HEALTH, health)
         board.set(SPEED_LIMIT, health.speed_m_s)

@@ -99,7 +99,9 @@ class Stage:
             self.scope = before
 
     def record(self, event: str, **data: object) -> None:
-        """Write an event to the journal, stamped with this tick's time."""
+        """Write an event to the journal, with this tick's time and the job whose turn it is."""
+        if self.scope.number:
+            data.setdefault("job", self.scope.number)
         self.journal.write(self.now_s, event, **data)
 
     def conflict(self, skill: Skill) -> Resource | None:
@@ -133,15 +135,17 @@ class Stage:
 
     def leave(self, name: str, skill: Skill, scope: Scope) -> None:
         """Stop a skill whose leaf is not ticked any more; `wind_down` sees it through."""
-        self.record("stopping", step=name)
         entry = Stopping(name, skill, self.now_s, scope)
         self._stopping.append(entry)
-        self._step_to_rest(entry)
+        with self.turn(scope):
+            self.record("stopping", step=name)
+            self._step_to_rest(entry)
 
     def wind_down(self) -> bool:
         """Go on with every skill that is coming to rest; True when none is left."""
         for entry in list(self._stopping):
-            self._step_to_rest(entry)
+            with self.turn(entry.scope):
+                self._step_to_rest(entry)
         return not self._stopping
 
     def _step_to_rest(self, entry: Stopping) -> None:

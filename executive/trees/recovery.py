@@ -90,6 +90,7 @@ RULES: dict[str, Rule] = {
     "overheated": NONE,
     "battery_low": NONE,
     "emergency_stop": NONE,
+    "overloaded": Rule(remedy="wait", times=2),
     "controller_lost": NONE,
     "plant_lost": NONE,
     "timeout": Rule(remedy="retry", times=1),

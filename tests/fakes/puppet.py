@@ -92,6 +92,9 @@ class Puppet:
     def power(self) -> m.PowerState | None:
         return None
 
+    def timing(self) -> m.LoopTiming | None:
+        return None
+
     def world(self) -> m.WorldState:
         tracks = tuple(
             m.Track(id=t.id, X_WO=t.X_WO if t.known else None, seen_s=t.seen_s)

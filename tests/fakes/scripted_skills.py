@@ -109,3 +109,6 @@ class SilentLink:
 
     def power(self):
         return self.messages["power"]
+
+    def timing(self):
+        return self.messages["timing"]

@@ -3,9 +3,21 @@
 import pytest
 from msgspec.structs import replace
 
-from executive.health import CONCERNS, START_UP_S, HealthMonitor
+from executive.estop import EmergencyStop, StillPressed
+from executive.health import (
+    CONCERNS,
+    COOL_C,
+    GRADES,
+    JUMP_REST_S,
+    START_UP_S,
+    WINDOW_TICKS,
+    HealthMonitor,
+)
 from executive.ladder import Level
 from robot.bus.topics import TOPICS
+from robot.errors import CATALOGUE
+from robot.messages import LoopTiming, PowerState, WorldState
+from robot.se3 import SE3
 from tests.fakes.puppet import Puppet
 from tests.fakes.worlds import puppet
 
@@ -63,10 +75,117 @@ def test_a_fall_is_worst_of_all(robot):
     assert [finding.level for finding in health.findings] == [Level.DAMP, Level.HOLD]
 
 
-@pytest.mark.parametrize(("hot_c", "level"), [(79, Level.OK), (81, Level.WARN), (101, Level.SIT)])
+@pytest.mark.parametrize(("hot_c", "level"), [(79, Level.OK), (81, Level.DERATE), (101, Level.SIT)])
 def test_a_hot_motor_is_named(robot, hot_c, level):
     body = replace(robot.body(), temperature_c=(25.0, float(hot_c)))
     monitor = HealthMonitor({}, start_s=0.0, motors=("hip", "knee"))
     health = monitor.look(1.0, {}, body=body, world=None)
     assert health.level is level
     assert level is Level.OK or "knee" in health.failure.cause
+
+
+def monitor(**more):
+    return HealthMonitor({}, start_s=0.0, speed_m_s=0.5, **more)
+
+
+def test_grades_are_in_order_and_their_codes_are_known():
+    for scale in GRADES.values():
+        assert scale.code in CATALOGUE
+        levels = [grade.level for grade in scale.grades]
+        assert levels == sorted(levels)
+        at = [grade.at for grade in scale.grades]
+        assert at == sorted(at, reverse=scale.falling)
+
+
+def test_a_warm_motor_slows_the_walk_in_proportion(robot):
+    speeds = []
+    for hot_c in (79.0, 85.0, 90.0, 99.9):
+        body = replace(robot.body(), temperature_c=(hot_c,))
+        speeds.append(monitor().look(1.0, {}, body=body, world=None).speed_m_s)
+    assert speeds[0] == float("inf")
+    assert speeds[1:] == pytest.approx([0.425, 0.35, 0.2], abs=0.01)
+
+
+def test_a_motor_that_tripped_has_to_cool_down_first(robot):
+    watch = monitor(motors=("knee",))
+    levels = []
+    for hot_c in (101.0, 90.0, COOL_C + 1, COOL_C - 1, 79.0):
+        body = replace(robot.body(), temperature_c=(hot_c,))
+        levels.append(watch.look(1.0, {}, body=body, world=None).level)
+    assert levels == [Level.SIT, Level.SIT, Level.SIT, Level.OK, Level.OK]
+
+
+@pytest.mark.parametrize(
+    ("charge", "level", "speed_m_s"),
+    [
+        (0.5, Level.OK, float("inf")),
+        (0.2, Level.WARN, float("inf")),
+        (0.09, Level.DERATE, 0.25),
+        (0.05, Level.SIT, float("inf")),
+    ],
+)
+def test_a_battery_runs_down(charge, level, speed_m_s):
+    power = PowerState(stamp_s=1.0, charge=charge, power_w=100.0, source="emulated")
+    health = monitor().look(1.0, {}, body=None, world=None, power=power)
+    assert health.level is level
+    assert health.speed_m_s == speed_m_s
+
+
+def where(now_s, jumps):
+    return WorldState(stamp_s=now_s, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=(), jumps=jumps)
+
+
+def test_a_pose_that_jumped_has_to_be_steady_before_it_is_walked_on():
+    watch = monitor()
+    levels = {}
+    for n in range(100):
+        now_s = n / 20
+        jumps = 3 + (now_s > 1.0) + (now_s > 1.5)
+        levels[now_s] = watch.look(now_s, {}, body=None, world=where(now_s, jumps)).level
+    held = [now_s for now_s, level in levels.items() if level is Level.HOLD]
+    assert held[0] == pytest.approx(1.05)
+    assert held[-1] == pytest.approx(1.55 + JUMP_REST_S, abs=0.06)
+
+
+def test_lateness_is_of_late_not_of_all_time():
+    watch = monitor()
+    levels = []
+    for count, late in ((1000, 0), (2000, 40), (3000, 400), (4000, 1200), (5000, 1201)):
+        timing = LoopTiming(
+            stamp_s=0.0, process="controller", period_s=0.002, count=count, late=late,
+            p50_s=0.0, p99_s=0.0, p999_s=0.0, max_s=0.0,
+        )  # fmt: skip
+        levels.append(watch.look(1.0, {}, body=None, world=None, timing=timing).level)
+    assert levels == [Level.OK, Level.OK, Level.DERATE, Level.HOLD, Level.OK]
+
+
+def test_a_topic_that_thins_out_slows_the_robot_down():
+    watch = HealthMonitor({"sensors/lidar": 10.0}, start_s=0.0, speed_m_s=0.5)
+    levels = []
+    stamp_s = 0.0
+    for n in range(8 * WINDOW_TICKS):
+        now_s = n / 20
+        period_s = 0.1 if now_s < 6.0 else 0.3
+        if now_s - stamp_s >= period_s - 1e-9:
+            stamp_s = now_s
+        levels.append(watch.look(now_s, {"sensors/lidar": stamp_s}, body=None, world=None).level)
+    assert set(levels[:110]) == {Level.OK}
+    assert set(levels[200:]) == {Level.DERATE}
+
+
+def test_an_emergency_stop_is_latched_until_released_and_reset():
+    estop = EmergencyStop()
+    watch = monitor(estop=estop)
+
+    def level():
+        return watch.look(1.0, {}, body=None, world=None).level
+
+    assert level() is Level.OK
+    estop.press("a person shouted")
+    assert level() is Level.SIT
+    with pytest.raises(StillPressed):
+        estop.reset()
+    estop.release()
+    assert level() is Level.SIT
+    estop.reset()
+    assert level() is Level.OK

@@ -1,0 +1,47 @@
+"""The software's emergency stop: a latch. It is no replacement for a switch that cuts the power."""
+
+from __future__ import annotations
+
+from robot.errors import RobotError
+
+
+class StillPressed(RobotError):
+    """The emergency stop was to be reset while it is pressed."""
+
+
+class EmergencyStop:
+    """Pressed, it ends all jobs and keeps new ones from moving until it is released and reset.
+
+    Attributes:
+        why: who pressed it or why, in words; empty while nothing is latched.
+        pressed: whether it is held down now.
+    """
+
+    def __init__(self) -> None:
+        """Neither pressed nor latched."""
+        self.why = ""
+        self.pressed = False
+
+    @property
+    def latched(self) -> bool:
+        """Whether the robot has to stay at rest."""
+        return bool(self.why)
+
+    def press(self, why: str = "the emergency stop was pressed") -> None:
+        """Hold it down; from any thread."""
+        self.pressed = True
+        self.why = self.why or why or "the emergency stop was pressed"
+
+    def release(self) -> None:
+        """Let go of it; it stays latched."""
+        self.pressed = False
+
+    def reset(self) -> None:
+        """Allow motion again.
+
+        Raises:
+            StillPressed: while it is pressed.
+        """
+        if self.pressed:
+            raise StillPressed("the emergency stop is still pressed: release it, then reset")
+        self.why = ""

@@ -1,0 +1,1 @@
+"""Missions, seeds and faults, over and over: how often it works, and what recovery brings."""

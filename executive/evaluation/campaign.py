@@ -1,0 +1,145 @@
+"""What is evaluated: cases out of a YAML file, and the runs that they make.
+
+A case is a short mission, the faults that strike in it, and the outcome that is expected, written
+down before anything is run.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from executive import faults
+from robot import config
+from robot.bringup import entry
+from robot.errors import CATALOGUE, ConfigError, Problem
+from robot.model import description
+
+READ_CHECKS = "sim.judge:read"
+SHIPPED = Path(__file__).parent / "campaign.yaml"
+RECOVERED = "recovered"
+
+
+class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One row of the table.
+
+    Attributes:
+        name: unique in its campaign.
+        mission: a sentence, or the path of a mission file.
+        world: by name or path.
+        start: where the robot starts (x [m], y [m], heading [deg]); the world's start by default.
+        faults: what strikes, and when (`executive.faults`).
+        expect: "recovered", or the codes of failure with which it may end safely.
+        damped: whether the motors may damp at the end, and the robot lie.
+        truth: what has to be so in the simulator at the end of a run that recovered (`sim.judge`).
+        limit_s: simulated time after which a run is ended as hanging.
+        why: what the robot is expected to do about it, in words.
+    """
+
+    name: str
+    mission: str
+    world: str = "bench"
+    start: tuple[float, float, float] | None = None
+    faults: tuple[dict[str, Any], ...] = ()
+    expect: str | tuple[str, ...] = RECOVERED
+    damped: bool = False
+    truth: tuple[dict[str, Any], ...] = ()
+    limit_s: float = 150.0
+    why: str = ""
+
+    @property
+    def recovers(self) -> bool:
+        """Whether it is expected to be done in spite of the fault."""
+        return self.expect == RECOVERED
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """The codes that it is expected to fail with, none if it is to recover."""
+        return () if isinstance(self.expect, str) else self.expect
+
+
+class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A file of cases."""
+
+    cases: tuple[Case, ...]
+
+
+class Run(msgspec.Struct, frozen=True, kw_only=True):
+    """One run of a case: all that a worker needs to know."""
+
+    case: Case
+    seed: int
+    recovery: bool = True
+    robot: str = "juno"
+
+    @property
+    def key(self) -> str:
+        """Unique in a campaign."""
+        return f"{self.case.name}/{self.seed}" + ("" if self.recovery else "/no-recovery")
+
+
+def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
+    """Read a campaign, and check every word of it before anything is run.
+
+    Raises:
+        ConfigError: with file, line and the nearest valid name.
+    """
+    node = config.read_yaml(path)
+    cases = config.convert(node, Campaign, file=str(path)).cases
+    problems = [
+        Problem(
+            f"{case.name}: {text}", file=str(path), line=config.line_of(node, f"$.cases[{index}]")
+        )
+        for index, case in enumerate(cases)
+        for text in problems_of(case, robot=robot)
+    ]
+    names = [case.name for case in cases]
+    problems += [
+        Problem(f"there are two cases {name!r}", file=str(path))
+        for name in sorted({name for name in names if names.count(name) > 1})
+    ]
+    if problems:
+        raise ConfigError(problems)
+    return cases
+
+
+def problems_of(case: Case, *, robot: str) -> list[str]:
+    """Everything wrong with a case that can be found without running it."""
+    found = [
+        f"unknown failure code {code!r}; {config.nearest(code, list(CATALOGUE))}"
+        for code in case.codes
+        if code not in CATALOGUE
+    ]
+    if isinstance(case.expect, str) and case.expect != RECOVERED:
+        found.append(f"expect is {RECOVERED!r} or a list of codes, not {case.expect!r}")
+    if not 0.0 < case.limit_s < math.inf:
+        found.append("limit_s is a time above 0")
+    try:
+        world, body = entry.world(case.world), description.load(robot)
+        entry.attribute(READ_CHECKS)(case.truth, world)
+        for data in case.faults:
+            faults.verify(faults.plan(data).fault, world, body)
+    except ConfigError as error:
+        found += [str(problem) for problem in error.problems]
+    return found
+
+
+def runs(cases: tuple[Case, ...], *, seeds: int, without_too: bool, robot: str) -> list[Run]:
+    """Every case with every seed, the seeds outermost, so that all cases get on evenly.
+
+    Args:
+        cases: what to run.
+        seeds: how many of each, from 0.
+        without_too: whether to run everything a second time without recovery.
+        robot: who does it.
+    """
+    ways = (True, False) if without_too else (True,)
+    return [
+        Run(case=case, seed=seed, recovery=recovery, robot=robot)
+        for seed in range(seeds)
+        for case in cases
+        for recovery in ways
+    ]

@@ -1,0 +1,64 @@
+"""Where runs are done: in a few processes of this machine, or on the machines of a Ray cluster."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from typing import Any
+
+from executive.evaluation.campaign import Run
+from executive.evaluation.record import Record
+from executive.evaluation.single import perform
+from robot.errors import ConfigError
+
+
+def in_processes(runs: Sequence[Run], *, processes: int) -> Iterator[Record]:
+    """Records as they come, from worker processes of this machine.
+
+    A worker that dies (out of memory, for example) costs the runs that were under way; they have
+    no record, and are tried again when the campaign is resumed.
+    """
+    if not runs:
+        return
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(min(processes, len(runs)), mp_context=context) as pool:
+        waiting: set[Future[Record]] = {pool.submit(perform, run) for run in runs}
+        try:
+            while waiting:
+                over, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+                for future in over:
+                    yield future.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def on_ray(runs: Sequence[Run], *, address: str | None = None) -> Iterator[Record]:
+    """Records as they come, from a Ray cluster, one run a CPU.
+
+    Args:
+        runs: what to do; every machine has this package installed.
+        address: of the cluster; None starts or finds a local one.
+
+    Raises:
+        ConfigError: if Ray is not installed.
+    """
+    try:
+        ray: Any = importlib.import_module("ray")
+    except ImportError:
+        cure = "pip install 'humanoid-executive[ray]'"
+        raise ConfigError(f"Ray is not installed: {cure}") from None
+    started_here = not ray.is_initialized()
+    if started_here:
+        ray.init(address=address, include_dashboard=False, log_to_driver=False)
+    try:
+        remote = ray.remote(num_cpus=1, max_retries=2)(perform)
+        waiting = [remote.remote(run) for run in runs]
+        while waiting:
+            over, waiting = ray.wait(waiting, num_returns=1)
+            yield from ray.get(over)
+    finally:
+        if started_here:
+            ray.shutdown()

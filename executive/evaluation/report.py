@@ -1,0 +1,152 @@
+"""What came out of a campaign: a table for people, JSON for machines, and whether it is enough."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from statistics import median
+
+import msgspec
+from rich.table import Table
+
+from executive.evaluation.campaign import Case
+from executive.evaluation.record import Record
+
+
+class Score(msgspec.Struct, frozen=True, kw_only=True):
+    """One way of running a case: with recovery, or without."""
+
+    runs: int
+    ok: int
+    unsafe: int
+    median_s: float
+    recoveries: float
+    wrong: dict[str, int]
+    """Code (or "done, but" what the truth objects to) of the runs that are not as expected."""
+
+    @property
+    def share(self) -> float:
+        """Of the runs that ended as expected."""
+        return self.ok / self.runs if self.runs else 0.0
+
+
+class Row(msgspec.Struct, frozen=True, kw_only=True):
+    """One case: what is expected of it, and how it went."""
+
+    case: str
+    expect: str
+    with_recovery: Score
+    without: Score | None = None
+    seeds_wrong: tuple[int, ...] = ()
+
+
+class Report(msgspec.Struct, frozen=True, kw_only=True):
+    """A whole campaign. `worst` is the lowest share of any case, with recovery."""
+
+    rows: tuple[Row, ...]
+    runs: int
+    worst: float
+    unsafe: int
+    without_code: int
+    judged_by: str = "oracle"
+
+
+def report(cases: Sequence[Case], records: Iterable[Record]) -> Report:
+    """Sum a campaign up."""
+    all_records = list(records)
+    rows: list[Row] = []
+    for case in cases:
+        ours = [record for record in all_records if record.case == case.name]
+        on = [record for record in ours if record.recovery]
+        off = [record for record in ours if not record.recovery]
+        expect = case.expect if isinstance(case.expect, str) else " or ".join(case.expect)
+        wrong = tuple(sorted(record.seed for record in on if not record.ok))
+        without = _score(off) if off else None
+        rows.append(
+            Row(
+                case=case.name,
+                expect=expect,
+                with_recovery=_score(on),
+                without=without,
+                seeds_wrong=wrong,
+            )
+        )
+    known = {case.name for case in cases}
+    counted = [record for record in all_records if record.case in known]
+    return Report(
+        rows=tuple(rows),
+        runs=len(counted),
+        worst=min((row.with_recovery.share for row in rows), default=0.0),
+        unsafe=sum(record.unsafe for record in counted if record.recovery),
+        without_code=sum(record.code in ("", "exception") for record in counted),
+    )
+
+
+def table(found: Report) -> Table:
+    """For the terminal."""
+    drawn = Table(title="", caption=_caption(found), header_style="bold", pad_edge=False)
+    for name in (
+        "case",
+        "expected",
+        "with recovery",
+        "without",
+        "robot time",
+        "what else happened",
+    ):
+        drawn.add_column(name, overflow="fold")
+    for row in found.rows:
+        style = "" if row.with_recovery.share >= 0.95 else "red"
+        drawn.add_row(*_cells(row), style=style)
+    return drawn
+
+
+def markdown(found: Report) -> str:
+    """For a page."""
+    head = ["case", "expected", "with recovery", "without", "robot time", "what else happened"]
+    lines = [head, ["---"] * len(head), *(_cells(row) for row in found.rows)]
+    rows = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    return f"{rows}\n\n{_caption(found)}\n"
+
+
+def _caption(found: Report) -> str:
+    return (
+        f"{found.runs} runs, judged by the simulator's truth ({found.judged_by}); "
+        f"{found.unsafe} unsafe ends, {found.without_code} ends without a code"
+    )
+
+
+def _cells(row: Row) -> list[str]:
+    on, off = row.with_recovery, row.without
+    wrong = ", ".join(f"{code} ×{count}" for code, count in on.wrong.items())
+    seeds = f" (seeds {', '.join(map(str, row.seeds_wrong[:6]))})" if wrong else ""
+    return [
+        row.case,
+        row.expect,
+        _share(on),
+        _share(off) if off else "-",
+        f"{on.median_s:.0f} s" if on.runs else "-",
+        wrong + seeds,
+    ]
+
+
+def _share(score: Score) -> str:
+    return f"{score.ok}/{score.runs}" if score.runs else "-"
+
+
+def _score(records: list[Record]) -> Score:
+    wrong = Counter(_wrong(record) for record in records if not record.ok)
+    return Score(
+        runs=len(records),
+        ok=sum(record.ok for record in records),
+        unsafe=sum(record.unsafe for record in records),
+        median_s=median([record.took_s for record in records]) if records else 0.0,
+        recoveries=sum(r.recoveries for r in records) / len(records) if records else 0.0,
+        wrong=dict(wrong.most_common()),
+    )
+
+
+def _wrong(record: Record) -> str:
+    unsafe = ", unsafe" if record.unsafe else ""
+    if record.code == "done":
+        return f"done, but {record.cause or 'it was to fail'}{unsafe}"
+    return record.code + unsafe

@@ -1,0 +1,173 @@
+"""One run of an evaluation, in `--fast`, from its case to its record."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+import traceback
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from executive import faults, loop, request, runtimes
+from executive.app import Executive
+from executive.evaluation.campaign import Run
+from executive.evaluation.record import Record
+from executive.journal import Journal
+from executive.resources import needed_by
+from executive.session import RATES_HZ
+from executive.skills.context import SkillContext
+from executive.trees.build import build, finished
+from executive.trees.parts import errands
+from robot.bringup import entry
+from robot.errors import ConfigError, Failure, failure
+
+NUDGED, JUDGE = "sim.world:nudged", "sim.judge:judge"
+SETTLE_S = 2.0
+"""Let pass before the judge looks: a robot that falls has to hit the floor."""
+RESTART_S = 3.0
+"""How long an executive that was killed is away before the next one goes on."""
+
+
+def perform(run: Run) -> Record:
+    """Do a run to its end, whatever that is; never raises."""
+    begin_s = time.perf_counter()
+    try:
+        with tempfile.TemporaryDirectory(prefix="humanoid-eval-") as folder:
+            record = _Trial(run, Path(folder)).carry_out()
+    except Exception as error:  # a run that breaks is a result as well
+        text = traceback.format_exception_only(error)[-1].strip()
+        record = Record(
+            key=run.key, case=run.case.name, seed=run.seed, recovery=run.recovery, ok=False,
+            code="exception", cause=text, unsafe=True,
+        )  # fmt: skip
+    return msgspec.structs.replace(record, wall_s=round(time.perf_counter() - begin_s, 2))
+
+
+class _Trial:
+    """A robot in its world, an executive that may die, and a judge."""
+
+    def __init__(self, run: Run, folder: Path) -> None:
+        self.run, self.folder = run, folder
+        case, seed = run.case, run.seed
+        where = request.setting(case.world, run.robot)
+        world = entry.attribute(NUDGED)(where.world, seed, start=case.start)
+        self.where = msgspec.structs.replace(where, world=world)
+        understood = request.request(case.mission, self.where)
+        if isinstance(understood, request.Refused):
+            raise ConfigError(f"{case.mission!r}: {understood.reason}")
+        self.understood = understood
+        self.codes: list[str] = []
+        self.recoveries = 0
+        self.killed = False
+
+    def carry_out(self) -> Record:
+        """The run, and what became of it."""
+        run, where = self.run, self.where
+        with ExitStack() as stack:
+            runtime, planner = stack.enter_context(
+                runtimes.opened("fast", where, seed=run.seed, folder=None)
+            )
+            journal = stack.enter_context(Journal(self.folder))
+            journal.listen(lambda event: self._note(event.event, event.data))
+            assert isinstance(runtime, faults.Injects)
+            slow = faults.SlowPlanner(planner)
+            injector = faults.Injector(
+                tuple(faults.plan(data) for data in run.case.faults),
+                runtime,
+                journal,
+                begin_s=runtime.clock.now_s(),
+                seed=run.seed,
+                planner=slow,
+                kill=self._kill,
+            )
+            stack.callback(injector.close)
+            context = SkillContext(
+                link=runtime.link, planner=slow, description=where.description, seed=run.seed
+            )
+            reason = self._work(runtime, context, journal, injector)
+            took_s = runtime.clock.now_s()
+            runtime.advance(SETTLE_S)
+            return self._record(runtime, reason, took_s=took_s, struck=len(injector.struck))
+
+    def _work(
+        self,
+        runtime: loop.Runtime,
+        context: SkillContext,
+        journal: Journal,
+        injector: faults.Injector,
+    ) -> Failure | None:
+        """Executives one after the other until one of them comes to an end."""
+        end_s = runtime.clock.now_s() + self.run.case.limit_s
+        while True:
+            executive = self._executive(context, journal)
+
+            def over(of: Executive = executive) -> bool:
+                late = runtime.clock.now_s() > end_s
+                return self.killed or late or of.outcome is not None
+
+            def strike() -> None:
+                injector.tick(runtime.clock.now_s())
+
+            loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=strike, until=over)
+            if executive.outcome is not None:
+                return executive.outcome.failure
+            if not self.killed:
+                return failure("timeout", f"hanging after {self.run.case.limit_s:g} s")
+            self.killed = False
+            if not self.run.recovery:
+                return failure("internal", "the executive was killed")
+            runtime.advance(RESTART_S)
+
+    def _executive(self, context: SkillContext, journal: Journal) -> Executive:
+        """An executive with the task, less what the journal says is done."""
+        done = finished({"event": e.event, **e.data} for e in journal.recent)
+        executive = Executive(context, journal, rates_hz=RATES_HZ)
+        executive.stage.recovers = self.run.recovery
+        task = self.understood.task
+        executive.submit(
+            lambda stage: build(task, stage, done=done),
+            text=self.understood.text,
+            resources=needed_by(errand.params for errand in errands(task)),
+        )
+        return executive
+
+    def _kill(self) -> None:
+        self.killed = True
+
+    def _note(self, event: str, data: dict[str, Any]) -> None:
+        if event == "failure":
+            self.codes.append(str(data["code"]))
+        self.recoveries += event in ("recovery", "hold")
+
+    def _record(
+        self, runtime: Any, reason: Failure | None, *, took_s: float, struck: int
+    ) -> Record:
+        """Judge by the simulator's truth."""
+        run, case = self.run, self.run.case
+        verdict = entry.attribute(JUDGE)(runtime.plant, case.truth)
+        safe = verdict.upright or (case.damped and verdict.damped)
+        code, cause = (reason.code, reason.cause) if reason else ("done", "")
+        wrong = verdict.wrong if code == "done" else ()
+        as_expected = code == "done" and not wrong if case.recovers else code in case.codes
+        return Record(
+            key=run.key,
+            case=case.name,
+            seed=run.seed,
+            recovery=run.recovery,
+            ok=as_expected and safe,
+            code=code,
+            cause=cause or "; ".join(wrong),
+            unsafe=not safe,
+            recoveries=self.recoveries,
+            codes=tuple(self.codes),
+            took_s=round(took_s, 2),
+            struck=struck,
+            source=verdict.source,
+        )
+
+
+Perform = Callable[[Run], Record]
