@@ -43,19 +43,24 @@ class BodySensors:
         self._qpos, self._qvel = data.qpos, data.qvel
         self._force, self._sensordata = data.actuator_force, data.sensordata
         self._addresses = _addresses(model, description)
-        self._signs: Array = np.repeat([1.0, -1.0], [6, 24])  # MuJoCo's wrench: parent on child
         self._sigma = _sigma(model, description, motors)
         self._truth: Array = np.empty(len(self._sigma))
+        n = motors.count
+        self._q, self._qd = self._truth[:n], self._truth[n : 2 * n]
+        self._tau, self._rest = self._truth[2 * n : 3 * n], self._truth[3 * n :]
+        self._wrenches = self._rest[6:]
         self._noise: Array = np.empty((0, len(self._sigma)))
         self._drawn = 0
 
     def measure(self, stamp_s: float) -> MotorState:
         """Measure everything; forces and accelerations are those of the last physics step."""
-        n, truth, motors = self._motors.count, self._truth, self._motors
-        truth[:n] = self._qpos[motors.q_index]
-        truth[n : 2 * n] = self._qvel[motors.qd_index]
-        truth[2 * n : 3 * n] = self._force
-        np.multiply(self._sensordata[self._addresses], self._signs, out=truth[3 * n :])
+        truth, motors = self._truth, self._motors
+        n = motors.count
+        self._qpos.take(motors.q_index, out=self._q, mode="clip")
+        self._qvel.take(motors.qd_index, out=self._qd, mode="clip")
+        self._tau[:] = self._force
+        self._sensordata.take(self._addresses, out=self._rest, mode="clip")
+        np.negative(self._wrenches, out=self._wrenches)  # MuJoCo's wrench: parent on child
         values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
         rest = values[3 * n :]
         return MotorState(

@@ -9,6 +9,7 @@ implicitly (no instability from a stiff gain), and `forcerange` is the torque li
 from __future__ import annotations
 
 import math
+import operator
 
 import mujoco
 import numpy as np
@@ -97,12 +98,16 @@ class Motors:
         bias = model.actuator_biasprm
         self._bias_kp, self._bias_kd = bias[:, 1], bias[:, 2]
         self._command: Array = np.empty((5, self.count))
+        self._flat, self._rows = self._command.reshape(-1), tuple(self._command)
+        self._sent = self._rows
+        self._product: Array = np.empty(self.count)
+        self._taken: tuple[Array, ...] = ()
         bounds = np.empty((5, self.count))
         bounds[0], bounds[1], bounds[2] = MAX_Q_RAD, MAX_QD_RAD_S, self.limit_nm
         bounds[3], bounds[4] = MAX_KP, MAX_KD
-        self._upper = bounds
-        self._lower = -bounds
-        self._lower[3:] = 0.0
+        self._upper: Array = bounds.reshape(-1)
+        self._lower: Array = -self._upper
+        self._lower[3 * self.count :] = 0.0
         self.damp()
 
     def write(self, command: MotorCommand) -> MotorCommand:
@@ -112,33 +117,44 @@ class Motors:
             DriverError: if a value is not finite or a shape is wrong; then nothing changes.
         """
         fields = (command.q_des, command.qd_des, command.tau_ff, command.kp, command.kd)
+        if not self._taken or not all(map(operator.is_, fields, self._taken)):
+            self._take(fields)
+        self.command_stamp_s = command.stamp_s
+        self.watchdog = False
+        return MotorCommand(command.stamp_s, *self._sent)
+
+    def _take(self, fields: tuple[Array, ...]) -> None:
+        """Put a new command in force; sent again, it is still (senders change no sent arrays)."""
         shape = self.limit_nm.shape
         for field in fields:
             if field.shape != shape:
                 raise DriverError(f"a command has shape {field.shape}, motors want {shape}")
-        sent = np.empty(self._upper.shape)
-        for row, field in enumerate(fields):
-            sent[row] = field
-        if not math.isfinite(float(sent.sum())):
-            raise DriverError(f"a command is not finite: {_not_finite(sent)}")
-        np.minimum(sent, self._upper, out=sent)
-        np.maximum(sent, self._lower, out=sent)
-        self._command[:] = sent
-        self.command_stamp_s = command.stamp_s
-        self.watchdog = False
+        flat = np.concatenate(fields)
+        if not math.isfinite(np.add.reduce(flat)):
+            raise DriverError(f"a command is not finite: {_not_finite(flat.reshape(5, -1))}")
+        np.minimum(flat, self._upper, out=flat)
+        np.maximum(flat, self._lower, out=flat)
+        self._flat[:] = flat
         self._apply()
-        return MotorCommand(command.stamp_s, *sent)
+        self._taken, self._sent = fields, tuple(flat.reshape(5, -1))
 
     def damp(self) -> None:
         """What the watchdog does: no stiffness, velocity target zero."""
         self.watchdog = True
+        self._taken = ()
         self._command[:4] = 0.0
         self._command[4] = self._damping
         self._apply()
 
+    @property
+    def stiff(self) -> bool:
+        """Whether any motor holds a position."""
+        return bool(self._command[3].any())
+
     def set_off(self, motor: int, *, off: bool) -> None:
         """Let one motor (by index) damp whatever it is told, or obey again."""
         self._off = sorted({*self._off, motor} if off else {*self._off} - {motor})
+        self._taken = ()
 
     def heat(self, duration_s: float) -> None:
         """Let the windings take the losses of the last torques for `duration_s`."""
@@ -151,10 +167,11 @@ class Motors:
         if self._off:
             self._command[:4, self._off] = 0.0
             self._command[4, self._off] = self._damping[self._off]
-        q_des, qd_des, tau_ff, kp, kd = self._command
+        q_des, qd_des, tau_ff, kp, kd = self._rows
         ctrl = self._ctrl
         np.multiply(kp, q_des, out=ctrl)
-        ctrl += kd * qd_des
+        np.multiply(kd, qd_des, out=self._product)
+        ctrl += self._product
         ctrl += tau_ff
         np.negative(kp, out=self._bias_kp)
         np.negative(kd, out=self._bias_kd)

@@ -32,15 +32,21 @@ class Limits:
         self.tripped = ""
         self._in_a_row = 0
         self._last_good: MotorCommand | None = None
+        self._measured: MotorCommand | None = None
         self._middle: Array = 0.5 * (body.lower_rad + body.upper_rad)
         half = 0.5 * (body.upper_rad - body.lower_rad)
-        limits = (half, body.velocity_limit_rad_s, body.torque_limit_nm)
-        self._inverse: Array = 1.0 / np.array(limits)
-        self._share: Array = np.zeros_like(self._inverse)
-        self._overspeed: Array = 1.0 / (OVERSPEED * body.velocity_limit_rad_s)
+        overspeed = 1.0 / (OVERSPEED * body.velocity_limit_rad_s)
         names = body.description.motor_names
         for hand in body.description.hands.values():
-            self._overspeed[names.index(hand.motor)] = 0.0  # fingers snap shut harmlessly
+            overspeed[names.index(hand.motor)] = 0.0  # fingers snap shut harmlessly
+        bounds = np.array((half, body.velocity_limit_rad_s, body.torque_limit_nm))
+        self._inverse: Array = np.vstack([1.0 / bounds, overspeed])
+        # Rows: target position from the middle, target velocity, torque, measured velocity, each
+        # as a share of its limit. The last two change while a command is repeated.
+        self._share: Array = np.zeros_like(self._inverse)
+        self._moving = self._share[2:], self._inverse[2:]
+        self._drive: Array = np.zeros(body.count)  # what the measured command gives at rest at 0
+        self._product: Array = np.zeros(body.count)
         self._fast_in_a_row = 0
 
     def reset(self) -> None:
@@ -50,32 +56,57 @@ class Limits:
         self._fast_in_a_row = 0
 
     def apply(self, command: MotorCommand, state: MotorState) -> MotorCommand:
-        """What may be sent: the command clamped, the last good one, or damping."""
+        """What may be sent: the command clamped, the last good one, or damping.
+
+        A command that came out of here may come in again; what it wants is not checked anew, what
+        it gives for the newest state is.
+        """
         body = self.body
-        self._check_speed(state)
         if self.tripped:
             return MotorCommand.damping(body.count, command.stamp_s, body.kd)
-        share = self._share
-        feedback = command.kp * (command.q_des - state.q) + command.kd * (command.qd_des - state.qd)
-        share[0] = command.q_des - self._middle
-        share[1] = command.qd_des
-        share[2] = feedback + command.tau_ff
-        share *= self._inverse
-        np.abs(share, out=share)
-        worst = float(share.max())
-        if not math.isfinite(worst):
-            return self._refuse(command)
-        if command is not self._last_good:  # a repeated command says nothing of newer ones
-            self._in_a_row = 0
-        if worst > 1.0:
+        worst = self._measure(command, state)
+        if worst <= 1.0:
+            self._fast_in_a_row = 0
+        else:
+            self._check_speed(state)
+            if self.tripped:
+                return MotorCommand.damping(body.count, command.stamp_s, body.kd)
+            if not math.isfinite(worst):
+                return self._refuse(command)
             self._clamp(command, state)
-        self._last_good = command
+            self._measured = None
+        if command is not self._last_good:
+            self._in_a_row = 0  # a repeated command says nothing of newer ones
+            self._last_good = command
         return command
+
+    def _measure(self, command: MotorCommand, state: MotorState) -> float:
+        """The largest share of a limit that command and state take; not finite if either is not."""
+        targets, drive, product = self._share, self._drive, self._product
+        again = command is self._measured
+        if not again:
+            self._measured = command
+            np.subtract(command.q_des, self._middle, out=targets[0])
+            targets[1] = command.qd_des
+            np.multiply(command.kp, command.q_des, out=drive)
+            np.multiply(command.kd, command.qd_des, out=product)
+            drive += product
+            drive += command.tau_ff
+        share, inverse = self._moving if again else (targets, self._inverse)
+        torque = targets[2]
+        np.multiply(command.kp, state.q, out=torque)
+        np.multiply(command.kd, state.qd, out=product)
+        torque += product
+        torque -= drive
+        targets[3] = state.qd
+        np.multiply(share, inverse, out=share)
+        np.abs(share, out=share)
+        return float(np.maximum.reduce(share, axis=None))
 
     def _check_speed(self, state: MotorState) -> None:
         """A joint far over its speed for a few cycles means that something broke: damp."""
-        share = np.abs(state.qd) * self._overspeed
-        if float(share.max()) < 1.0:
+        share = self._share[3]
+        if float(np.maximum.reduce(share)) < 1.0:
             self._fast_in_a_row = 0
             return
         self._fast_in_a_row += 1

@@ -22,6 +22,8 @@ from robot.se3 import Array
 class MotorCommand:
     """One command to every motor, in the description's motor order; arrays of shape (n,).
 
+    Once sent, its arrays are changed no more: a driver may keep them, and know them again.
+
     Units: rad, rad/s, N m, N m/rad, N m s/rad for joints; m, m/s, N ... for fingers.
     """
 

@@ -83,6 +83,30 @@ def test_what_is_no_number_is_refused_and_changes_nothing(plant, hold, field, va
     assert plant.read().command_stamp_s == 0.0
 
 
+def test_a_command_sent_again_is_in_force_again(plant, hold):
+    command = hold(0.0)
+    plant.write(command)
+    driven = plant.data.ctrl.copy()
+    assert driven.any()
+    plant.motors.damp()
+    assert not plant.data.ctrl.any()
+    command.stamp_s = 0.002
+    assert plant.write(command).stamp_s == 0.002
+    np.testing.assert_array_equal(plant.data.ctrl, driven)
+    assert not plant.read().watchdog
+
+
+def test_a_motor_that_is_off_damps_a_command_sent_again(plant, hold):
+    command = hold(0.0)
+    plant.write(command)
+    plant.motors.set_off(3, off=True)
+    plant.write(command)
+    assert plant.model.actuator_biasprm[3, 1] == 0.0
+    plant.motors.set_off(3, off=False)
+    plant.write(command)
+    assert plant.model.actuator_biasprm[3, 1] == -command.kp[3]
+
+
 def test_a_wrong_shape_is_refused(plant, hold):
     command = hold(0.0)
     command.kp = command.kp[:-1]

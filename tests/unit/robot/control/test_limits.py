@@ -150,3 +150,27 @@ def test_fast_but_allowed_does_not_trip(body, limits):
     state.qd = 0.99 * OVERSPEED * body.velocity_limit_rad_s
     limits.apply(hold(body, state), state)
     assert not limits.tripped
+
+
+def test_a_repeated_command_is_clamped_for_the_newest_state(body, limits):
+    state = at_rest(body)
+    command = limits.apply(hold(body, state), state)
+    assert limits.clamped == 0
+    moved = at_rest(body)
+    moved.q = state.q + 3.0  # where the springs would pull harder than the motors can
+    out = limits.apply(command, moved)
+    assert limits.clamped > 0
+    assert (np.abs(torque(out, moved)) <= body.torque_limit_nm * (1.0 + 1e-9)).all()
+
+
+def test_the_command_held_after_a_refusal_is_clamped_for_the_newest_state(body, limits):
+    state = at_rest(body)
+    limits.apply(hold(body, state), state)
+    bad = hold(body, state)
+    bad.tau_ff[0] = np.nan
+    held = limits.apply(bad, state)
+    moved = at_rest(body)
+    moved.q = state.q + 3.0
+    out = limits.apply(held, moved)
+    assert np.isfinite(torque(out, moved)).all()
+    assert (np.abs(torque(out, moved)) <= body.torque_limit_nm * (1.0 + 1e-9)).all()
