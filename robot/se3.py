@@ -67,7 +67,7 @@ class SE3(msgspec.Struct, frozen=True):
     @staticmethod
     def from_rotation(rotation: ArrayLike, position: ArrayLike) -> SE3:
         """Pose from a rotation matrix, shape (3, 3), and a position, shape (3,)."""
-        x, y, z = (float(value) for value in np.asarray(position).reshape(3))
+        x, y, z = np.asarray(position, dtype=np.float64).reshape(3).tolist()
         return SE3((x, y, z), matrix_to_quat(np.asarray(rotation, dtype=np.float64)))
 
     @staticmethod
@@ -125,26 +125,25 @@ def quat_to_matrix(quat_wxyz: Quaternion) -> Array:
 
 def matrix_to_quat(rotation: Array) -> Quaternion:
     """Unit quaternion of a rotation matrix, w >= 0 (Shepperd's method)."""
-    r = rotation
-    diagonal = (float(r[0, 0]), float(r[1, 1]), float(r[2, 2]))
-    trace = sum(diagonal)
+    r = rotation.tolist()
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = r
+    trace = xx + yy + zz
     if trace > 0.0:
         s = 2.0 * math.sqrt(trace + 1.0)
-        quat = [0.25 * s, (r[2, 1] - r[1, 2]) / s, (r[0, 2] - r[2, 0]) / s, (r[1, 0] - r[0, 1]) / s]
+        quat = [0.25 * s, (zy - yz) / s, (xz - zx) / s, (yx - xy) / s]
     else:
+        diagonal = (xx, yy, zz)
         i = diagonal.index(max(diagonal))
         j, k = (i + 1) % 3, (i + 2) % 3
         s = 2.0 * math.sqrt(max(1e-12, 1.0 + diagonal[i] - diagonal[j] - diagonal[k]))
         quat = [0.0] * 4
-        quat[0] = (r[k, j] - r[j, k]) / s
+        quat[0] = (r[k][j] - r[j][k]) / s
         quat[1 + i] = 0.25 * s
-        quat[1 + j] = (r[j, i] + r[i, j]) / s
-        quat[1 + k] = (r[k, i] + r[i, k]) / s
-    if quat[0] < 0.0:
-        quat = [-value for value in quat]
-    norm = math.sqrt(sum(float(value) ** 2 for value in quat))
-    w, x, y, z = (float(value) / norm for value in quat)
-    return (w, x, y, z)
+        quat[1 + j] = (r[j][i] + r[i][j]) / s
+        quat[1 + k] = (r[k][i] + r[i][k]) / s
+    w, x, y, z = quat
+    norm = math.copysign(math.sqrt(w * w + x * x + y * y + z * z), w)
+    return (w / norm, x / norm, y / norm, z / norm)
 
 
 def wrap_angle(angle_rad: float) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 from robot.kinematics.dynamics import Dynamics
 from robot.kinematics.spline import ClampedSpline
 from robot.messages import Activity, MoveArm, MoveHand, Side
-from robot.model.body import BodyModel
+from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array
 
 DAMPING = 0.03
@@ -42,12 +42,12 @@ class Arm:
         """Hold the posture it starts in."""
         self.body = body
         self.side: Side = side
-        self.motors = np.array(body.description.indices(f"{side}_arm"))
-        self.dofs = body.dof_of[self.motors]
+        self.motors = as_index(np.array(body.description.indices(f"{side}_arm")))
+        self.dofs = as_index(body.dof_of[self.motors])
         self.lower, self.upper = body.lower_rad[self.motors], body.upper_rad[self.motors]
         self.q: Array = q_start[self.motors].copy()
-        self.qd: Array = np.zeros(len(self.motors))
-        self.qdd: Array = np.zeros(len(self.motors))
+        self.qd: Array = np.zeros(len(self.q))
+        self.qdd: Array = np.zeros(len(self.q))
         self.activity = Activity(id=0, status="done")
         self._time_s = 0.0
         self._spline: ClampedSpline | None = None
@@ -74,8 +74,8 @@ class Arm:
         self.activity = Activity(id=command.id, status="running")
 
     def _problem(self, times: Array, positions: Array) -> str:
-        if positions.ndim != 2 or positions.shape[1] != len(self.motors):
-            return f"positions must have {len(self.motors)} columns"
+        if positions.ndim != 2 or positions.shape[1] != len(self.q):
+            return f"positions must have {len(self.q)} columns"
         if len(times) != len(positions) or len(times) == 0 or times[-1] <= 0.0:
             return "times and positions must be as many, and end after now"
         if not np.isfinite(times).all() or (np.diff(times) <= 0.0).any() or times[0] < 0.0:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
@@ -49,8 +51,7 @@ class HandControl:
         `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
         """
         self._time_s += dt_s
-        force = state.wrist_wrench[self.row, :3]
-        load = -float(rotation_NW[2] @ force) - self._weight_n
+        load = -float(np.dot(rotation_NW[2], state.wrist_wrench[self.row, :3])) - self._weight_n
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
         step = CLOSE_RATE_M_S * dt_s

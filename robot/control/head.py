@@ -8,7 +8,7 @@ import numpy as np
 
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, Look
-from robot.model.body import BodyModel
+from robot.model.body import BodyModel, as_index
 from robot.se3 import Array
 
 RATE_RAD_S = 2.5
@@ -21,8 +21,9 @@ class Head:
     def __init__(self, body: BodyModel, q_start: Array) -> None:
         """Hold the posture it starts in."""
         self.body = body
-        self.motors = np.array(body.description.indices("head"))
-        self.lower, self.upper = body.lower_rad[self.motors], body.upper_rad[self.motors]
+        self.motors = as_index(np.array(body.description.indices("head")))
+        self._lower = body.lower_rad[self.motors].tolist()
+        self._upper = body.upper_rad[self.motors].tolist()
         self.q: Array = q_start[self.motors].copy()
         self._point: Array | None = None
         self._camera = body.site_id(body.description.sensors.camera.site)
@@ -39,11 +40,12 @@ class Head:
             return
         data = dynamics.data
         rotation = data.xmat[self.body.torso_body].reshape(3, 3)
-        x, y, z = rotation.T @ (self._point - data.site_xpos[self._camera])
-        wanted = np.array([math.atan2(y, x), -math.atan2(z, math.hypot(x, y))])
-        wanted = np.minimum(np.maximum(wanted, self.lower), self.upper)
-        step = RATE_RAD_S * dt_s
-        self.q = self.q + np.minimum(np.maximum(wanted - self.q, -step), step)
-        arrived = float(np.abs(wanted - measured).max()) < DONE_RAD
+        x, y, z = ((self._point - data.site_xpos[self._camera]) @ rotation).tolist()
+        step, arrived = RATE_RAD_S * dt_s, True
+        for k, angle in enumerate((math.atan2(y, x), -math.atan2(z, math.hypot(x, y)))):
+            wanted = max(self._lower[k], min(self._upper[k], angle))
+            before = float(self.q[k])
+            self.q[k] = before + max(-step, min(step, wanted - before))
+            arrived = arrived and abs(wanted - float(measured[k])) < DONE_RAD
         if arrived and self.activity.status == "running":
             self.activity = Activity(id=self.activity.id, status="done")

@@ -7,6 +7,7 @@ import math
 import mujoco
 import numpy as np
 
+from robot.control.walking.dcm import Point
 from robot.control.walking.footsteps import Sole, Target, Twist
 from robot.control.walking.gait import Gait, Reference
 from robot.control.whole_body import Task, WholeBody
@@ -52,7 +53,12 @@ class Legs:
         self.height_m = height_m
         self._height_goal_m = self.description.walking.base_height_m
         self._height_rate_m_s = 0.0
-        self._waist = np.zeros(len(self.description.groups["waist"]))
+        count = whole.active_count
+        self._posture: Array = np.zeros(count)  # of the active joints; only the waist's counts
+        self._waist = self._posture[whole.waist]
+        self._posture_kp: Array = np.zeros(count)
+        self._posture_kd: Array = np.full(count, POSTURE_DAMPING_1_S)
+        self._posture_kp[whole.waist], self._posture_kd[whole.waist] = WAIST_GAINS
         self._waist_goal = self._waist.copy()
         self._waist_moves = False
         self._whole = whole
@@ -126,7 +132,7 @@ class Legs:
                 goal[k] = yaw_rad
             elif name.endswith("pitch"):
                 goal[k] = pitch_rad
-        motors = self._whole.active_motors[self._whole.waist]
+        motors = self.description.indices("waist")
         lower, upper = self.body.lower_rad[motors], self.body.upper_rad[motors]
         return np.minimum(np.maximum(goal, lower), upper)
 
@@ -138,15 +144,14 @@ class Legs:
         """The task of this tick and the gait's reference behind it."""
         self._now_s += dt_s
         self._ramp(dt_s)
-        com, velocity = dynamics.com, dynamics.com_velocity
-        height = max(0.2, float(com[2]))
-        omega = math.sqrt(GRAVITY_M_S2 / height)
+        (x, y, z), (vx, vy, _) = dynamics.com.tolist(), dynamics.com_velocity.tolist()
+        omega = math.sqrt(GRAVITY_M_S2 / max(0.2, z))
         self.gait.omega_1_s = omega
-        xi = (float(com[0] + velocity[0] / omega), float(com[1] + velocity[1] / omega))
-        measured: dict[Side, Sole] = {side: self._sole(dynamics, side) for side in SIDES}
+        xi = (x + vx / omega, y + vy / omega)
+        measured: dict[Side, Sole] = {side: self._sole(dynamics, i) for i, side in enumerate(SIDES)}
         reference = self.gait.update(dt_s, xi, measured, load)
         self._report()
-        return self._task(dynamics, reference, omega, rest_acc), reference
+        return self._task(dynamics, reference, (x, y), omega, rest_acc=rest_acc), reference
 
     def _ramp(self, dt_s: float) -> None:
         """Move height, waist and twist towards their goals at bounded rates."""
@@ -187,68 +192,72 @@ class Legs:
                 self.gait.wish = None
                 self._end_walk()
 
-    def _sole(self, dynamics: Dynamics, side: Side) -> Sole:
-        site = self.body.sole_site[side]
-        data = dynamics.data
-        p, m = data.site_xpos[site], data.site_xmat[site]
-        return Sole(float(p[0]), float(p[1]), math.atan2(float(m[3]), float(m[0])))
+    def _sole(self, dynamics: Dynamics, i: int) -> Sole:
+        x, y, _ = dynamics.sole_position[i].tolist()
+        (cosine, _, _), (sine, _, _), _ = dynamics.sole_rotation[i].tolist()
+        return Sole(x, y, math.atan2(sine, cosine))
 
-    def _task(self, dynamics: Dynamics, ref: Reference, omega: float, rest_acc: Array) -> Task:
-        data, whole = dynamics.data, self._whole
-        acc = np.empty(3)
-        for k in (0, 1):
-            value = omega * omega * (float(dynamics.com[k]) - ref.zmp_command[k])
-            acc[k] = max(-MAX_COM_ACC_M_S2, min(MAX_COM_ACC_M_S2, value))
-        kp, kd = HEIGHT_GAINS
-        rate_error = self._height_rate_m_s - float(data.qvel[2])
-        acc[2] = kp * (self.height_m - float(data.qpos[2])) + kd * rate_error
-        q, qd = data.qpos[whole.active_qpos], data.qvel[whole.active_dofs]
-        posture = -POSTURE_DAMPING_1_S * qd
-        waist_kp, waist_kd = WAIST_GAINS
-        rows = whole.waist
-        posture[rows] = waist_kp * (self._waist - q[rows]) - waist_kd * qd[rows]
-        soles = [self._sole_acc(dynamics, ref, i) for i in range(2)]
+    def _task(
+        self, dynamics: Dynamics, ref: Reference, com: Point, omega: float, *, rest_acc: Array
+    ) -> Task:
+        velocity = dynamics.sole_velocity.tolist()
+        sole_acc = [a for i in (0, 1) for a in self._sole_acc(dynamics, ref, i, velocity)]
         weight_n = self.body.mass_kg * GRAVITY_M_S2
         return Task(
-            com_acc=acc,
-            pelvis_acc_B=self._pelvis_acc(dynamics, ref.heading_rad),
-            posture_acc=posture,
-            sole_acc=soles,
+            com_acc=np.array(self._com_acc(dynamics, ref.zmp_command, com, omega)),
+            own_acc=self._own_acc(dynamics, ref.heading_rad),
+            sole_acc=np.array(sole_acc),
             contact=ref.contact,
             max_force_n=[share * weight_n for share in ref.max_force_share],
             rest_acc=rest_acc,
         )
 
-    def _pelvis_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
-        """Upright, facing the heading of the feet."""
-        data = dynamics.data
+    def _com_acc(
+        self, dynamics: Dynamics, zmp: Point, com: Point, omega: float
+    ) -> tuple[float, float, float]:
+        """The pendulum's, about the commanded ZMP; up and down, the pelvis' height's."""
+        most, stiffness = MAX_COM_ACC_M_S2, omega * omega
+        x, y = (max(-most, min(most, stiffness * (com[k] - zmp[k]))) for k in (0, 1))
+        kp, kd = HEIGHT_GAINS
+        rate_error = self._height_rate_m_s - float(dynamics.data.qvel[2])
+        return x, y, kp * (self.height_m - float(dynamics.data.qpos[2])) + kd * rate_error
+
+    def _own_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
+        """Of the pelvis: upright, facing the heading of the feet; of the joints: the posture."""
+        data, whole = dynamics.data, self._whole
         half = 0.5 * heading_rad
         wanted, error = self._upright, self._tilt
         wanted[0], wanted[3] = math.cos(half), math.sin(half)
-        mujoco.mju_subQuat(error, wanted, data.qpos[3:7])
+        qpos, qvel = data.qpos, data.qvel
+        mujoco.mju_subQuat(error, wanted, qpos[3:7])
         kp, kd = PELVIS_GAINS
-        return kp * error - kd * data.qvel[3:6]
+        acc = np.empty(3 + whole.active_count)
+        acc[:3] = kp * error - kd * qvel[3:6]
+        posture = acc[3:]
+        np.subtract(self._posture, qpos[whole.active_qpos], out=posture)
+        posture *= self._posture_kp
+        posture -= self._posture_kd * qvel[whole.active_dofs]
+        return acc
 
-    def _sole_acc(self, dynamics: Dynamics, ref: Reference, i: int) -> Array:
-        """Still on the floor, or along the swing."""
-        velocity = dynamics.jac_sole[i] @ dynamics.data.qvel
-        if ref.contact[i] or ref.swing is None:
-            return -STANCE_DAMPING * velocity
-        swing, data = ref.swing, dynamics.data
-        site = self.body.sole_site[SIDES[i]]
+    def _sole_acc(
+        self, dynamics: Dynamics, ref: Reference, i: int, velocity: list[float]
+    ) -> list[float]:
+        """Still on the floor, or along the swing; `velocity` of both soles, 12 values."""
+        swing, v = ref.swing, velocity[6 * i : 6 * i + 6]
+        if ref.contact[i] or swing is None:
+            return [-STANCE_DAMPING * value for value in v]
         kp, kd = SWING_GAINS
         x, y, yaw = swing.position
-        wanted = np.array([x, y, swing.z])
-        rate = np.array([swing.velocity[0], swing.velocity[1], swing.vz])
-        acc = np.empty(6)
-        feed = (swing.acceleration[0], swing.acceleration[1], swing.az)
-        acc[:3] = feed + kp * (wanted - data.site_xpos[site]) + kd * (rate - velocity[:3])
+        wanted, rate = (x, y, swing.z), (*swing.velocity[:2], swing.vz)
+        feed = (*swing.acceleration[:2], swing.az)
+        p = dynamics.sole_position[i].tolist()
+        acc = [feed[k] + kp * (wanted[k] - p[k]) + kd * (rate[k] - v[k]) for k in range(3)]
         turn_kp, turn_kd = SWING_TURN_GAINS
-        m = data.site_xmat[site].reshape(3, 3)
-        yaw_error = wrap_angle(float(yaw) - math.atan2(float(m[1, 0]), float(m[0, 0])))
-        tilt = np.array([m[1, 2], -m[0, 2], yaw_error])  # z x (sole's z) levels the sole
-        acc[3:] = turn_kp * tilt - turn_kd * velocity[3:]
-        acc[5] += turn_kd * float(swing.velocity[2]) + float(swing.acceleration[2])
+        (cosine, _, tilt_y), (sine, _, tilt_x), _ = dynamics.sole_rotation[i].tolist()
+        yaw_error = wrap_angle(yaw - math.atan2(sine, cosine))
+        tilt = (tilt_x, -tilt_y, yaw_error)  # z x (sole's z) levels the sole
+        acc += [turn_kp * tilt[k] - turn_kd * v[3 + k] for k in range(3)]
+        acc[5] += turn_kd * swing.velocity[2] + swing.acceleration[2]
         return acc
 
 

@@ -102,8 +102,8 @@ class ControlLoop:
         self.hands: dict[Side, HandControl] = {
             side: HandControl(body, side, state.q) for side in self.description.hands
         }
-        self._wrist_site = {
-            side: int(body.model.sensor(hand.force_sensor).objid[0])
+        self._wrist_rotation = {
+            side: data.site_xmat[int(body.model.sensor(hand.force_sensor).objid[0])].reshape(3, 3)
             for side, hand in self.description.hands.items()
         }
         self.head = Head(body, state.q)
@@ -254,15 +254,15 @@ class ControlLoop:
         self._gyro[:] = 0.0
         self._accel[:] = 0.0
         self._samples = 0
-        data.qpos[:3] = estimator.p
-        data.qpos[3:7] = estimator.quat_wxyz
-        data.qvel[:3] = estimator.v
-        data.qvel[3:6] = estimator.w_B
+        qpos, qvel = data.qpos, data.qvel
+        qpos[:3], qpos[3:7] = estimator.p, estimator.quat_wxyz
+        qvel[:3], qvel[3:6] = estimator.v, estimator.w_B
         body.write_joints(data, state.q, state.qd)
         dynamics.kinematics()
-        jac_sole = [jac[:3] for jac in dynamics.jac_sole]
-        estimator.correct(dt_s, data, jac_sole, state.ankle_wrench[:, 2])
-        data.qvel[:3] = estimator.v
+        shift_v = estimator.correct(
+            dt_s, dynamics.sole_position, dynamics.sole_velocity, state.ankle_wrench[:, 2]
+        )
+        dynamics.shift_base_velocity(shift_v)
         dynamics.dynamics()
         self._update_mode()
         if self.mode in ("damping", "fallen"):
@@ -271,7 +271,7 @@ class ControlLoop:
         self._command = self._compute(dt_s, state)
 
     def _compute(self, dt_s: float, state: MotorState) -> MotorCommand:
-        body, dynamics, data = self.body, self.dynamics, self.dynamics.data
+        body, dynamics = self.body, self.dynamics
         standing = self.legs.gait.phase == "stand"
         rest_acc = np.zeros(body.model.nv)
         q_des, qd_des = state.q.copy(), np.zeros(body.count)
@@ -281,8 +281,7 @@ class ControlLoop:
             q_des[arm.motors], qd_des[arm.motors] = arm.q, arm.qd
             rest_acc[arm.dofs] = arm.qdd
         for side, hand in self.hands.items():
-            rotation = data.site_xmat[self._wrist_site[side]].reshape(3, 3)
-            q_des[hand.motor] = hand.update(dt_s, state, rotation)
+            q_des[hand.motor] = hand.update(dt_s, state, self._wrist_rotation[side])
         self.head.update(dt_s, dynamics, state.q[self.head.motors])
         q_des[self.head.motors] = self.head.q
         task, self._reference = self.legs.update(dt_s, dynamics, self.estimator.load, rest_acc)
@@ -294,14 +293,13 @@ class ControlLoop:
             self._command.stamp_s = state.stamp_s
             return self._command
         active = self.whole.active_motors
-        acc = solution.acc[body.dof_of[active]]
-        qd = state.qd[active]
-        q_des[active] = state.q[active] + 0.5 * dt_s * qd
-        qd_des[active] = qd + 0.5 * dt_s * acc
+        half_s, qd = 0.5 * dt_s, state.qd[active]
+        q_des[active] += half_s * qd
+        qd_des[active] = qd + half_s * solution.acc[self.whole.active_dofs]
         tau = solution.tau[body.dof_of]
         for hand in self.hands.values():
             tau[hand.motor] = 0.0
-        return MotorCommand(state.stamp_s, q_des, qd_des, tau, body.kp.copy(), body.kd.copy())
+        return MotorCommand(state.stamp_s, q_des, qd_des, tau, body.kp, body.kd)
 
     def _tilt(self) -> float:
         """Angle between the base's z axis and the vertical [rad]."""

@@ -2,8 +2,8 @@
 
 Inverse dynamics with contact wrenches (Herzog et al., "Momentum control with hierarchical inverse
 dynamics on a torque-controlled humanoid", 2016; here weighted, not hierarchical). Unknowns are the
-accelerations of base, legs and waist and a wrench [N, N m] at each sole in contact, in the sole's
-own axes. Arms and head follow prescribed accelerations; their coupling enters as known terms.
+accelerations of base, legs and waist and a wrench [N, N m] at each sole in contact, in the axes of
+N. Arms and head follow prescribed accelerations; their coupling enters as known terms.
 
     minimise   sum_i w_i |A_i x - b_i|^2
     subject to the six rows of the base's dynamics, torque limits, friction pyramid, centre of
@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.kinematics.dynamics import Dynamics
-from robot.model.body import SIDES, BodyModel
+from robot.model.body import SIDES, BodyModel, as_index
 from robot.se3 import Array
 
 STANCE_WEIGHT = 2000.0
@@ -36,6 +36,8 @@ FRICTION = 0.6
 YAW_FRICTION_M = 0.04
 COP_MARGIN_M = 0.005
 CONE_ROWS = 11
+EQUALITY = 5  # DAQP's mark of a row that is always active
+KEEP_EQUALITIES = -1  # DAQP eliminates none of them first, which for six costs more than it saves
 
 
 @dataclass(slots=True)
@@ -44,19 +46,18 @@ class Task:
 
     Attributes:
         com_acc: of the centre of mass [m/s2], shape (3,).
-        pelvis_acc_B: angular, in B [rad/s2], shape (3,).
-        posture_acc: of every active joint [rad/s2], shape (active joints,).
-        sole_acc: linear over angular of each sole [m/s2, rad/s2], each (6,): what keeps a foot in
-            contact still, or moves a swinging one.
+        own_acc: of the pelvis [rad/s2], angular, in B, then of every active joint [rad/s2], shape
+            (3 + active joints,).
+        sole_acc: linear over angular of the left, then the right sole [m/s2, rad/s2], shape (12,):
+            what keeps a foot in contact still, or moves a swinging one.
         contact: which feet bear on the floor.
         max_force_n: cap on each foot's normal force.
-        rest_acc: of the joints that are not active, by dof, shape (nv,).
+        rest_acc: of the joints that are not active, by dof, shape (nv,); 0 for those that are.
     """
 
     com_acc: Array
-    pelvis_acc_B: Array
-    posture_acc: Array
-    sole_acc: list[Array]
+    own_acc: Array
+    sole_acc: Array
     contact: list[bool]
     max_force_n: list[float]
     rest_acc: Array
@@ -64,12 +65,33 @@ class Task:
 
 @dataclass(slots=True)
 class Solution:
-    """Torques and accelerations by dof, shape (nv,); wrenches of the soles; solver's flag."""
+    """Torques and accelerations by dof, shape (nv,); wrenches at the soles in N; solver's flag."""
 
     tau: Array
     acc: Array
     wrench: list[Array] = field(default_factory=lambda: [np.zeros(6), np.zeros(6)])
     ok: bool = True
+
+
+@dataclass(slots=True)
+class _Programme:
+    """The matrices for one set of feet in contact, and views of the blocks that change."""
+
+    feet: list[int]
+    H: Array
+    H_own: Array
+    diagonal: Array
+    g: Array
+    A: Array
+    A_mass: Array
+    A_wrench: Array
+    A_cone: list[Array]
+    cap_rows: list[int]
+    lower: Array
+    upper: Array
+    sense: NDArray[np.int32]
+    jac_rows: slice
+    weight: Array
 
 
 class WholeBody:
@@ -82,29 +104,27 @@ class WholeBody:
         active = [
             i for group in ("left_leg", "right_leg", "waist") for i in description.indices(group)
         ]
-        self.active_motors = np.array(active)
+        self.active_motors = as_index(np.array(active))
         self.dofs: NDArray[np.int64] = np.concatenate([np.arange(6), body.dof_of[active]])
         self.active_qpos = as_index(body.qpos_of[active])
         self.active_dofs = as_index(body.dof_of[active])
+        self.active_count = len(active)
         self.waist = slice(len(active) - len(description.groups["waist"]), len(active))
-        self.torque_limit = 0.95 * body.torque_limit_nm[active]
         self.size = len(self.dofs)
-        weights = np.full(len(active), POSTURE_WEIGHT)
-        weights[self.waist] = WAIST_WEIGHT
-        self._posture_weight = weights
-        self._cones = [self._cone(i) for i in range(2)]
-        self._programmes = {n: self._allocate(n) for n in (0, 1, 2)}
+        limit = 0.95 * body.torque_limit_nm[active]
+        self._upper: Array = np.concatenate([np.zeros(6), limit])
+        self._lower: Array = -self._upper
+        joint_weights = np.full(len(active), POSTURE_WEIGHT)
+        joint_weights[self.waist] = WAIST_WEIGHT
+        self._own_weight: Array = np.concatenate([np.full(3, PELVIS_WEIGHT), joint_weights])
+        self._regular: Array = np.concatenate([np.full(3, 1e-6), self._own_weight])
+        self._cones = [self._cone(i).reshape(-1, 3) for i in range(2)]
         self._own = as_index(self.dofs)
-        own = set(self.dofs.tolist())
-        self._rest = as_index(np.array([dof for dof in range(body.model.nv) if dof not in own]))
-        self._sites = [body.sole_site[side] for side in SIDES]
+        patterns = [(True, True), (True, False), (False, True), (False, False)]
+        self._programmes = {pattern: self._allocate(pattern) for pattern in patterns}
         self._rows: Array = np.zeros((15, self.size))
+        self._weighted: Array = np.zeros((15, self.size))
         self._b: Array = np.zeros(15)
-        self._w: Array = np.full(15, COM_WEIGHT)
-        self._local: list[Array] = [np.zeros((6, self.size)) for _ in SIDES]
-        self._regular: Array = np.concatenate(
-            [np.full(3, 1e-6), np.full(3, PELVIS_WEIGHT), weights]
-        )
 
     def _cone(self, foot: int) -> Array:
         """Rows C with C w <= 0 for a wrench w = (fx, fy, fz, tx, ty, tz) in the sole's axes."""
@@ -120,134 +140,121 @@ class WholeBody:
         rows.append([0, 0, 1, 0, 0, 0])  # the cap: its bound is set every tick
         return np.array(rows)
 
-    def _allocate(self, feet: int) -> dict[str, Any]:
-        """Matrices for `feet` feet in contact; constant rows filled in."""
-        n, joints = self.size + 6 * feet, self.size - 6
-        rows = 6 + joints + CONE_ROWS * feet
-        lower = np.full(rows, -1e30)
-        upper = np.full(rows, 1e30)
-        upper[6 + joints :] = 0.0
+    def _allocate(self, contact: tuple[bool, bool]) -> _Programme:
+        """Matrices for these feet in contact; constant entries filled in."""
+        feet = [i for i in range(2) if contact[i]]
+        size = self.size
+        n, rows = size + 6 * len(feet), size + CONE_ROWS * len(feet)
+        lower, upper = np.full(rows, -1e30), np.zeros(rows)
         sense = np.zeros(rows, dtype=np.int32)
-        sense[:6] = 5  # equalities
-        H = np.zeros((n, n))
+        sense[:6] = EQUALITY
+        H, A = np.zeros((n, n)), np.zeros((rows, n))
         diagonal = np.einsum("ii->i", H)
-        diagonal[self.size :] = FORCE_WEIGHT
-        return {
-            "H": H,
-            "H_own": H[: self.size, : self.size],
-            "diagonal": diagonal,
-            "g": np.zeros(n),
-            "A": np.zeros((rows, n)),
-            "lower": lower,
-            "upper": upper,
-            "sense": sense,
-        }
+        diagonal[size:] = FORCE_WEIGHT
+        starts = [size + CONE_ROWS * k for k in range(len(feet))]
+        sole_weights = [STANCE_WEIGHT if bears else SWING_WEIGHT for bears in contact]
+        return _Programme(
+            feet=feet,
+            H=H,
+            H_own=H[:size, :size],
+            diagonal=diagonal[:size],
+            g=np.zeros(n),
+            A=A,
+            A_mass=A[:size, :size],
+            A_wrench=A[:size, size:],
+            A_cone=[
+                A[start : start + CONE_ROWS, size + 6 * k : size + 6 * k + 6]
+                for k, start in enumerate(starts)
+            ],
+            cap_rows=[start + CONE_ROWS - 1 for start in starts],
+            lower=lower,
+            upper=upper,
+            sense=sense,
+            jac_rows=slice(6 * min(feet, default=0), 6 * (max(feet, default=-1) + 1)),
+            weight=np.repeat([COM_WEIGHT, *sole_weights], [3, 6, 6]).reshape(-1, 1),
+        )
 
     def solve(self, dynamics: Dynamics, task: Task) -> Solution:
         """Solve for this tick; `ok` is False where the programme has no solution."""
-        feet = [i for i in range(2) if task.contact[i]]
-        programme = self._programmes[len(feet)]
-        own, rest, size = self._own, self._rest, self.size
-        M_own, h = dynamics.M[own], dynamics.h
-        M = M_own[:, own]
-        known = h[own] + M_own[:, rest] @ task.rest_acc[rest]
-        jac = [dynamics.jac_sole[i][:, own] for i in range(2)]
-        self._objective(programme, task, bias=dynamics.bias_sole, jac=jac, M=M, known=known)
-        contact_jac: list[Array] = []
-        for i in feet:
-            rotation = dynamics.data.site_xmat[self._sites[i]].reshape(3, 3).T
-            local = self._local[i]
-            np.matmul(rotation, jac[i][:3], out=local[:3])
-            np.matmul(rotation, jac[i][3:], out=local[3:])
-            contact_jac.append(local)
-        self._constraints(programme, task, feet=feet, M=M, known=known, contact_jac=contact_jac)
+        left, right = task.contact
+        programme = self._programmes[left, right]
+        own, size = self._own, self.size
+        M_own = dynamics.M[own]
+        known = np.dot(M_own, task.rest_acc)
+        known += dynamics.h[own]
+        M, jac = M_own[:, own], dynamics.jac[:, own]
+        self._objective(programme, task, bias=dynamics.bias, jac=jac, M=M, known=known)
+        self._constraints(programme, task, dynamics, jac=jac, M=M, known=known)
         result = cast(
             "tuple[Array, float, int, Any]",
             daqp.solve(  # pyright: ignore
-                programme["H"],
-                programme["g"],
-                programme["A"],
-                programme["upper"],
-                programme["lower"],
-                programme["sense"],
+                programme.H,
+                programme.g,
+                programme.A,
+                programme.upper,
+                programme.lower,
+                programme.sense,
+                eq_reduction=KEEP_EQUALITIES,
             ),
         )
         x = result[0]
-        solution = Solution(np.zeros_like(h), task.rest_acc.copy())
-        if result[2] <= 0 or not math.isfinite(float(x.sum())):
-            solution.ok = False
-            return solution
-        solution.acc[own] = x[:size]
-        tau = M @ x[:size] + known
-        for k, i in enumerate(feet):
-            wrench = x[size + 6 * k : size + 6 * k + 6]
-            tau -= wrench @ contact_jac[k]
-            solution.wrench[i] = wrench
-        solution.tau[own] = tau
-        solution.tau[:6] = 0.0
-        solution.tau[rest] = dynamics.M[rest] @ solution.acc + h[rest]
+        if result[2] <= 0 or not math.isfinite(np.add.reduce(x)):
+            return Solution(np.zeros_like(dynamics.h), task.rest_acc.copy(), ok=False)
+        acc = task.rest_acc.copy()
+        acc[own] = x[:size]
+        tau = np.dot(dynamics.M, acc)
+        tau += dynamics.h
+        tau[own] = np.dot(programme.A[:size], x) + known
+        tau[:6] = 0.0
+        solution = Solution(tau, acc)
+        for k, i in enumerate(programme.feet):
+            solution.wrench[i] = x[size + 6 * k : size + 6 * k + 6]
         return solution
 
     def _objective(
         self,
-        programme: dict[str, Any],
+        programme: _Programme,
         task: Task,
         *,
-        bias: list[Array],
-        jac: list[Array],
+        bias: Array,
+        jac: Array,
         M: Array,
         known: Array,
     ) -> None:
-        """Fill H and g with the weighted tasks."""
+        """Fill H and g with the weighted tasks: rows x = -b."""
         size, mass = self.size, self.body.mass_kg
-        g, rows, target, weight = programme["g"], self._rows, self._b, self._w
+        rows, weighted, b = self._rows, self._weighted, self._b
         np.divide(M[:3], mass, out=rows[:3])
-        target[:3] = task.com_acc - known[:3] / mass
-        target[2] += GRAVITY_M_S2
-        for i in range(2):
-            start = 3 + 6 * i
-            rows[start : start + 6] = jac[i]
-            target[start : start + 6] = task.sole_acc[i] - bias[i]
-            weight[start : start + 6] = STANCE_WEIGHT if task.contact[i] else SWING_WEIGHT
-        weighted = rows.T * weight
-        np.matmul(weighted, rows, out=programme["H_own"])
-        gradient = weighted @ target
-        diagonal = programme["diagonal"]
-        diagonal[:size] += self._regular
-        gradient[3:6] += PELVIS_WEIGHT * task.pelvis_acc_B
-        gradient[6:] += self._posture_weight * task.posture_acc
-        np.negative(gradient, out=g[:size])
+        rows[3:] = jac
+        np.divide(known[:3], mass, out=b[:3])
+        b[2] -= GRAVITY_M_S2
+        b[:3] -= task.com_acc
+        np.subtract(bias, task.sole_acc, out=b[3:])
+        np.multiply(rows, programme.weight, out=weighted)
+        np.matmul(weighted.T, rows, out=programme.H_own)
+        diagonal = programme.diagonal
+        diagonal += self._regular
+        gradient = programme.g[:size]
+        np.dot(b, weighted, out=gradient)
+        gradient[3:] -= self._own_weight * task.own_acc
 
     def _constraints(
         self,
-        programme: dict[str, Any],
+        programme: _Programme,
         task: Task,
+        dynamics: Dynamics,
         *,
-        feet: list[int],
+        jac: Array,
         M: Array,
         known: Array,
-        contact_jac: list[Array],
     ) -> None:
         """Fill A and its bounds: dynamics, torques, cones, and the cap on normal forces."""
-        size = self.size
-        joints = size - 6
-        A, lower, upper = programme["A"], programme["lower"], programme["upper"]
-        A[: 6 + joints, :size] = M
-        for k, local in enumerate(contact_jac):
-            column = size + 6 * k
-            A[: 6 + joints, column : column + 6] = -local.T
-            row = 6 + joints + CONE_ROWS * k
-            A[row : row + CONE_ROWS, column : column + 6] = self._cones[feet[k]]
-            upper[row + CONE_ROWS - 1] = task.max_force_n[feet[k]]
-        lower[:6] = upper[:6] = -known[:6]
-        limit = self.torque_limit
-        lower[6 : 6 + joints] = -limit - known[6:]
-        upper[6 : 6 + joints] = limit - known[6:]
-
-
-def as_index(indices: NDArray[np.int64]) -> slice | NDArray[np.int64]:
-    """A slice where the indices run on without a gap (views instead of copies), else themselves."""
-    first, last = int(indices[0]), int(indices[-1])
-    if np.array_equal(indices, np.arange(first, last + 1)):
-        return slice(first, last + 1)
-    return indices
+        size, lower, upper = self.size, programme.lower, programme.upper
+        programme.A_mass[:] = M
+        np.negative(jac[programme.jac_rows].T, out=programme.A_wrench)
+        for k, i in enumerate(programme.feet):
+            cone = np.dot(self._cones[i], dynamics.sole_rotation[i].T)
+            programme.A_cone[k][:] = cone.reshape(CONE_ROWS, 6)
+            upper[programme.cap_rows[k]] = task.max_force_n[i]
+        np.subtract(self._lower, known, out=lower[:size])
+        np.subtract(self._upper, known, out=upper[:size])

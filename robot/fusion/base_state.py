@@ -10,12 +10,11 @@ for legged robots", RSS 2012, with constant gains). Soles are taken to stand on 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import mujoco
 import numpy as np
 
-from robot.model.body import SIDES, BodyModel
+from robot.model.body import BodyModel
 from robot.se3 import SE3, Array, Quaternion, multiply, rotate
 
 GRAVITY_M_S2 = 9.81
@@ -28,7 +27,7 @@ SURE_LOAD = 0.5  # and below which its anchor follows the foot
 
 
 class BaseStateEstimator:
-    """Keeps X_NB and v_NB; works on the caller's MjData so that kinematics are computed once.
+    """Keeps X_NB and v_NB; the caller computes kinematics, once for all that need them.
 
     Attributes:
         p: p_NB [m], shape (3,).
@@ -46,7 +45,7 @@ class BaseStateEstimator:
         self.quat_wxyz: Quaternion = X_NB.quat_wxyz
         self.w_B: Array = np.zeros(3)
         self.load = [0.0, 0.0]
-        self._anchor: list[Array | None] = [None, None]
+        self._anchor: list[list[float] | None] = [None, None]
         site = body.site_id(body.description.sensors.imu.site)
         rotation = np.zeros(9)
         mujoco.mju_quat2Mat(rotation, body.model.site_quat[site])
@@ -55,14 +54,12 @@ class BaseStateEstimator:
 
     def predict(self, dt_s: float, gyro_rad_s: Array, accel_m_s2: Array) -> None:
         """Integrate the IMU over `dt_s`; readings in the IMU's frame, shape (3,)."""
-        w = self._R_BI @ gyro_rad_s
-        a = self._R_BI @ accel_m_s2
-        self.w_B = w
+        self.w_B = self._R_BI @ gyro_rad_s
+        wx, wy, wz = self.w_B.tolist()
+        ax, ay, az = (self._R_BI @ accel_m_s2).tolist()
         qw, qx, qy, qz = self.quat_wxyz
         up = (2 * (qx * qz - qw * qy), 2 * (qy * qz + qw * qx), 1 - 2 * (qx * qx + qy * qy))
-        ax, ay, az = float(a[0]), float(a[1]), float(a[2])
         norm = math.sqrt(ax * ax + ay * ay + az * az)
-        wx, wy, wz = float(w[0]), float(w[1]), float(w[2])
         if abs(norm - GRAVITY_M_S2) < 2.0:
             gain = TILT_GAIN_1_S / norm
             wx += gain * (ay * up[2] - az * up[1])
@@ -72,58 +69,66 @@ class BaseStateEstimator:
         self.quat_wxyz = multiply(self.quat_wxyz, (1.0, half * wx, half * wy, half * wz))
         x, y, z = rotate(self.quat_wxyz, (ax, ay, az))
         z -= GRAVITY_M_S2
-        self.p[0] += dt_s * (self.v[0] + half * x)
-        self.p[1] += dt_s * (self.v[1] + half * y)
-        self.p[2] += dt_s * (self.v[2] + half * z)
-        self.v[0] += dt_s * x
-        self.v[1] += dt_s * y
-        self.v[2] += dt_s * z
+        (px, py, pz), (vx, vy, vz) = self.p.tolist(), self.v.tolist()
+        self.p[:] = (
+            px + dt_s * (vx + half * x),
+            py + dt_s * (vy + half * y),
+            pz + dt_s * (vz + half * z),
+        )
+        self.v[:] = vx + dt_s * x, vy + dt_s * y, vz + dt_s * z
 
-    def correct(self, dt_s: float, data: Any, jac_sole: list[Array], ankle_force_z: Array) -> None:
-        """Use the feet.
+    def correct(
+        self, dt_s: float, soles: list[Array], sole_velocity: Array, ankle_force_z: Array
+    ) -> tuple[float, float, float]:
+        """Use the feet; returns by how much that moved `v`.
 
-        `data` has kinematics for the predicted base and measured joints, and qvel set; `jac_sole`
-        are the soles' translational Jacobians, each (3, nv); `ankle_force_z` [N], shape (2,).
+        Args:
+            dt_s: time since the last correction.
+            soles: left and right, in N, of the predicted base and measured joints, each (3,).
+            sole_velocity: theirs, linear over angular, left over right, shape (12,).
+            ankle_force_z: upward force on each ankle [N], shape (2,).
         """
-        total_gain_v = dt_s / VELOCITY_TIME_S
-        total_gain_p = dt_s / POSITION_TIME_S
-        weights = [0.0, 0.0]
-        for i, side in enumerate(SIDES):
-            load = float(ankle_force_z[i]) / self._weight_n
-            self.load[i] = load
-            sole = data.site_xpos[self.body.sole_site[side]]
-            if load > TAKE_LOAD and self._anchor[i] is None:
-                self._anchor[i] = np.array([sole[0], sole[1], 0.0])
-            elif load < RELEASE_LOAD:
-                self._anchor[i] = None
-            if self._anchor[i] is not None:
-                weights[i] = max(0.0, min(1.0, (load - 0.05) / 0.3))
+        positions, velocity = [sole.tolist() for sole in soles], sole_velocity.tolist()
+        weights = [
+            self._trust(i, force_n / self._weight_n, positions[i])
+            for i, force_n in enumerate(ankle_force_z.tolist())
+        ]
         total = sum(weights)
         if total <= 0.0:
-            return
+            return 0.0, 0.0, 0.0
         scale = min(1.0, total) / total
-        shift_p, shift_v = np.zeros(3), np.zeros(3)
-        for i, side in enumerate(SIDES):
+        shift_p, shift_v = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        for i, weight in enumerate(weights):
             anchor = self._anchor[i]
-            if anchor is None or weights[i] == 0.0:
+            if anchor is None or weight == 0.0:
                 continue
-            share = scale * weights[i]
-            sole = data.site_xpos[self.body.sole_site[side]]
-            slip = jac_sole[i] @ data.qvel
-            shift_v -= share * total_gain_v * slip
-            shift_p += share * total_gain_p * (anchor - sole)
+            gain_p = scale * weight * dt_s / POSITION_TIME_S
+            gain_v = scale * weight * dt_s / VELOCITY_TIME_S
+            for k in range(3):
+                shift_v[k] -= gain_v * velocity[6 * i + k]
+                shift_p[k] += gain_p * (anchor[k] - positions[i][k])
         self.v += shift_v
         self.p += shift_p
-        self._settle_anchors(dt_s, data, shift_p)
+        self._settle_anchors(dt_s, positions, shift_p)
+        return shift_v[0], shift_v[1], shift_v[2]
 
-    def _settle_anchors(self, dt_s: float, data: Any, shift_p: Array) -> None:
+    def _trust(self, i: int, load: float, sole: list[float]) -> float:
+        """Note a foot's load, drop or lift its anchor; how much its standing still counts."""
+        self.load[i] = load
+        if load > TAKE_LOAD and self._anchor[i] is None:
+            self._anchor[i] = [sole[0], sole[1], 0.0]
+        elif load < RELEASE_LOAD:
+            self._anchor[i] = None
+        return 0.0 if self._anchor[i] is None else max(0.0, min(1.0, (load - 0.05) / 0.3))
+
+    def _settle_anchors(self, dt_s: float, soles: list[list[float]], shift_p: list[float]) -> None:
         """Let a lightly loaded foot's anchor follow the foot, so that rolling does not pull."""
-        for i, side in enumerate(SIDES):
+        for i, sole in enumerate(soles):
             anchor = self._anchor[i]
             if anchor is not None and self.load[i] < SURE_LOAD:
-                sole = data.site_xpos[self.body.sole_site[side]]
                 rate = min(1.0, dt_s / 0.02) * (1.0 - self.load[i] / SURE_LOAD)
-                anchor[:2] += rate * (sole[:2] + shift_p[:2] - anchor[:2])
+                for k in (0, 1):
+                    anchor[k] += rate * (sole[k] + shift_p[k] - anchor[k])
 
     def X_NB(self) -> SE3:
         """Pose of the base in N."""

@@ -18,8 +18,11 @@ class Dynamics:
         M: mass matrix with armature, shape (nv, nv).
         h: Coriolis, centrifugal and gravity forces less passive forces, shape (nv,):
             M qdd + h = S^T tau + sum J_c^T f_c.
-        jac_sole: translation over rotation of each sole, in N, each (6, nv).
-        bias_sole: Jdot qd of each sole, each (6,).
+        jac: of the soles in N, left over right, each translation over rotation, shape (12, nv).
+        jac_sole: the same a sole, views of shape (6, nv).
+        bias: Jdot qd of the soles, shape (12,).
+        sole_velocity: of the soles, linear over angular, in N, shape (12,).
+        sole_position, sole_rotation: of each sole in N, views of shape (3,), (3, 3).
         com, com_velocity: of the whole robot in N, shape (3,).
     """
 
@@ -30,35 +33,53 @@ class Dynamics:
         nv = body.model.nv
         self.M: Array = np.zeros((nv, nv))
         self.h: Array = np.zeros(nv)
-        self.jac_sole: list[Array] = [np.zeros((6, nv)) for _ in SIDES]
-        self.bias_sole: list[Array] = [np.zeros(6) for _ in SIDES]
-        self._jac_dot: Array = np.zeros((6, nv))
+        self.jac: Array = np.zeros((12, nv))
+        self.jac_sole: list[Array] = [self.jac[:6], self.jac[6:]]
+        self._jac_rows = [self.jac[k : k + 3] for k in (0, 3, 6, 9)]
+        self._jac_dot: Array = np.zeros((12, nv))
+        self._jac_dot_rows = [self._jac_dot[k : k + 3] for k in (0, 3, 6, 9)]
+        self.bias: Array = np.zeros(12)
+        self.sole_velocity: Array = np.zeros(12)
         self._sites = [body.sole_site[side] for side in SIDES]
         self._feet = [body.foot_body[side] for side in SIDES]
-        self.com: Array = np.zeros(3)
+        self.sole_position: list[Array] = [self.data.site_xpos[site] for site in self._sites]
+        self.sole_rotation: list[Array] = [
+            self.data.site_xmat[site].reshape(3, 3) for site in self._sites
+        ]
+        self.com: Array = self.data.subtree_com[body.base_body]
         self.com_velocity: Array = np.zeros(3)
+        self._qvel: Array = self.data.qvel
+        self._damping: Array = np.array(body.model.dof_damping)
 
     def kinematics(self) -> None:
-        """After base, joints and velocities were written: poses and sole Jacobians."""
+        """After base, joints and velocities were written: poses, sole Jacobians and velocities."""
         model, data = self.body.model, self.data
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        for i, site in enumerate(self._sites):
-            jac = self.jac_sole[i]
-            mujoco.mj_jacSite(model, data, jac[:3], jac[3:], site)
+        left_p, left_r, right_p, right_r = self._jac_rows
+        left, right = self._sites
+        mujoco.mj_jacSite(model, data, left_p, left_r, left)
+        mujoco.mj_jacSite(model, data, right_p, right_r, right)
+        np.dot(self.jac, self._qvel, out=self.sole_velocity)
+
+    def shift_base_velocity(self, shift_m_s: tuple[float, float, float]) -> None:
+        """Add to the base's linear velocity, after `kinematics`."""
+        self._qvel[:3] += shift_m_s
+        self.sole_velocity[:3] += shift_m_s
+        self.sole_velocity[6:9] += shift_m_s
 
     def dynamics(self) -> None:
         """After `kinematics` and the base velocity: mass matrix, bias, Jdot qd, CoM velocity."""
-        model, data = self.body.model, self.data
+        model, data, qvel = self.body.model, self.data, self._qvel
         mujoco.mj_crb(model, data)
         mujoco.mj_fullM(model, data, self.M)
         mujoco.mj_comVel(model, data)
         mujoco.mj_rne(model, data, 0, self.h)
-        self.h += model.dof_damping * data.qvel
-        for i, site in enumerate(self._sites):
-            jac = self._jac_dot
-            point = data.site_xpos[site]
-            mujoco.mj_jacDot(model, data, jac[:3], jac[3:], point, self._feet[i])
-            np.dot(jac, data.qvel, out=self.bias_sole[i])
-        self.com = data.subtree_com[self.body.base_body]
-        self.com_velocity = self.M[:3] @ data.qvel / self.body.mass_kg
+        self.h += self._damping * qvel
+        left_p, left_r, right_p, right_r = self._jac_dot_rows
+        left, right = self.sole_position
+        mujoco.mj_jacDot(model, data, left_p, left_r, left, self._feet[0])
+        mujoco.mj_jacDot(model, data, right_p, right_r, right, self._feet[1])
+        np.dot(self._jac_dot, qvel, out=self.bias)
+        np.dot(self.M[:3], qvel, out=self.com_velocity)
+        self.com_velocity /= self.body.mass_kg

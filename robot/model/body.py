@@ -67,7 +67,11 @@ class BodyModel:
             side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
         }
         couplings = self._couplings()
-        self._coupled_qpos, self._coupled_dof, self._couple_to, self._couple_gain = couplings
+        order = np.argsort(np.concatenate([self.qpos_of, couplings[0]]))
+        self._joint_qpos = as_index(np.concatenate([self.qpos_of, couplings[0]])[order])
+        self._joint_dof = as_index(np.concatenate([self.dof_of, couplings[1]])[order])
+        self._joint_motor = np.concatenate([np.arange(self.count), couplings[2]])[order]
+        self._joint_gain: Array = np.concatenate([np.ones(self.count), couplings[3]])[order]
 
     def _check_names(self) -> None:
         """Every name of the description must be in the MJCF."""
@@ -133,11 +137,9 @@ class BodyModel:
 
     def write_joints(self, data: Any, q: Array, qd: Array | None = None) -> None:
         """Put motor positions (and velocities), shape (n,), into a MjData, coupled joints too."""
-        data.qpos[self.qpos_of] = q
-        data.qpos[self._coupled_qpos] = self._couple_gain * q[self._couple_to]
+        data.qpos[self._joint_qpos] = self._joint_gain * q[self._joint_motor]
         if qd is not None:
-            data.qvel[self.dof_of] = qd
-            data.qvel[self._coupled_dof] = self._couple_gain * qd[self._couple_to]
+            data.qvel[self._joint_dof] = self._joint_gain * qd[self._joint_motor]
 
     def write_base(self, data: Any, X_NB: SE3) -> None:
         """Put the base pose into a MjData."""
@@ -147,3 +149,11 @@ class BodyModel:
     def site_pose(self, data: Any, site: int) -> SE3:
         """Pose of a site in the frame that the base pose was given in."""
         return SE3.from_rotation(data.site_xmat[site].reshape(3, 3), data.site_xpos[site])
+
+
+def as_index(indices: NDArray[np.int64]) -> slice | NDArray[np.int64]:
+    """A slice where the indices run on without a gap (views instead of copies), else themselves."""
+    first, last = int(indices[0]), int(indices[-1])
+    if np.array_equal(indices, np.arange(first, last + 1)):
+        return slice(first, last + 1)
+    return indices

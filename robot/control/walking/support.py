@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from robot.control.walking.footsteps import Sole
-from robot.se3 import Array
 
 Point = tuple[float, float]
 
@@ -28,18 +25,18 @@ class SupportPolygon:
         self.vertices: list[Point] = convex_hull(corners)
         n = len(self.vertices)
         edges = [(self.vertices[i], self.vertices[(i + 1) % n]) for i in range(n)]
-        self.planes: Array = np.array([_outside(start, end) for start, end in edges])
+        self.planes = [_outside(start, end) for start, end in edges]
 
     def margin_m(self, point: Point) -> float:
         """Distance to the nearest edge, positive inside."""
-        planes = self.planes
-        return -float((planes[:, :2] @ np.array(point) + planes[:, 2]).max())
+        x, y = point
+        return -max(a * x + b * y + c for a, b, c in self.planes)
 
     def clip(self, point: Point) -> Point:
         """The nearest point inside."""
         x, y = point
         inside = True
-        for a, b, c in self.planes.tolist():
+        for a, b, c in self.planes:
             if a * x + b * y + c > 1e-9:
                 inside = False
                 break

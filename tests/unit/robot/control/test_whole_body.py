@@ -4,16 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from robot.control.whole_body import (
-    COP_MARGIN_M,
-    FRICTION,
-    YAW_FRICTION_M,
-    Task,
-    WholeBody,
-    as_index,
-)
+from robot.control.whole_body import COP_MARGIN_M, FRICTION, YAW_FRICTION_M, Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
-from robot.model.body import SIDES
+from robot.model.body import SIDES, as_index
 from robot.se3 import SE3
 
 TOLERANCE = 1e-4
@@ -47,9 +40,8 @@ def random_task(body, whole, rng, contact):
     rest[arms] = rng.uniform(-5.0, 5.0, len(arms))
     return Task(
         com_acc=rng.uniform(-2.0, 2.0, 3),
-        pelvis_acc_B=rng.uniform(-5.0, 5.0, 3),
-        posture_acc=rng.uniform(-10.0, 10.0, len(whole.active_motors)),
-        sole_acc=[rng.uniform(-3.0, 3.0, 6) for _ in SIDES],
+        own_acc=rng.uniform(-8.0, 8.0, 3 + whole.active_count),
+        sole_acc=rng.uniform(-3.0, 3.0, 12),
         contact=contact,
         max_force_n=[float(rng.uniform(0.8, 2.0)) * weight_n for _ in SIDES],
         rest_acc=rest,
@@ -65,9 +57,9 @@ def solved(body, whole, seed, contact):
     return dynamics, task, solution
 
 
-def world_wrench(body, dynamics, solution, i):
-    """The sole's wrench [N, N m] about the sole, in N."""
-    rotation = dynamics.data.site_xmat[body.sole_site[SIDES[i]]].reshape(3, 3)
+def sole_wrench(dynamics, solution, i):
+    """The wrench [N, N m] about the sole in the sole's own axes."""
+    rotation = dynamics.sole_rotation[i].T
     wrench = solution.wrench[i]
     return np.concatenate([rotation @ wrench[:3], rotation @ wrench[3:]])
 
@@ -82,7 +74,7 @@ def test_mujoco_moves_as_the_solution_says(body, whole, seed, contact):
     free.qpos[:], free.qvel[:] = data.qpos, data.qvel
     free.qfrc_applied[:] = solution.tau
     for i in range(2):
-        free.qfrc_applied[:] += dynamics.jac_sole[i].T @ world_wrench(body, dynamics, solution, i)
+        free.qfrc_applied[:] += dynamics.jac_sole[i].T @ solution.wrench[i]
     before = int(model.opt.disableflags)
     bit = mujoco.mjtDisableBit
     try:
@@ -97,9 +89,9 @@ def test_mujoco_moves_as_the_solution_says(body, whole, seed, contact):
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("seed", range(6))
 def test_wrenches_are_ones_that_a_floor_can_give(body, whole, seed, contact):
-    _, task, solution = solved(body, whole, seed, contact)
+    dynamics, task, solution = solved(body, whole, seed, contact)
     for i, side in enumerate(SIDES):
-        fx, fy, fz, tx, ty, tz = solution.wrench[i]
+        fx, fy, fz, tx, ty, tz = sole_wrench(dynamics, solution, i)
         if not contact[i]:
             assert not solution.wrench[i].any()
             continue
@@ -134,8 +126,8 @@ def test_standing_still_carries_its_weight_evenly_and_stays(body, whole, dynamic
     zero = np.zeros(3)
     weight_n = body.mass_kg * 9.81
     task = Task(
-        com_acc=zero, pelvis_acc_B=zero, posture_acc=np.zeros(len(whole.active_motors)),
-        sole_acc=[np.zeros(6), np.zeros(6)], contact=[True, True],
+        com_acc=zero, own_acc=np.zeros(3 + whole.active_count),
+        sole_acc=np.zeros(12), contact=[True, True],
         max_force_n=[2.0 * weight_n, 2.0 * weight_n], rest_acc=np.zeros(body.model.nv),
     )  # fmt: skip
     solution = whole.solve(dynamics, task)
@@ -148,12 +140,12 @@ def test_standing_still_carries_its_weight_evenly_and_stays(body, whole, dynamic
 def test_a_planted_sole_does_not_accelerate_and_a_swinging_one_does(body, whole, dynamics):
     wanted = np.array([0.5, 0.0, 1.0, 0.0, 0.0, 0.0])
     task = Task(
-        com_acc=np.zeros(3), pelvis_acc_B=np.zeros(3),
-        posture_acc=np.zeros(len(whole.active_motors)), sole_acc=[np.zeros(6), wanted],
+        com_acc=np.zeros(3), own_acc=np.zeros(3 + whole.active_count),
+        sole_acc=np.concatenate([np.zeros(6), wanted]),
         contact=[True, False], max_force_n=[1000.0, 1000.0], rest_acc=np.zeros(body.model.nv),
     )  # fmt: skip
     solution = whole.solve(dynamics, task)
-    soles = [dynamics.jac_sole[i] @ solution.acc + dynamics.bias_sole[i] for i in range(2)]
+    soles = (dynamics.jac @ solution.acc + dynamics.bias).reshape(2, 6)
     # friction and the small foot leave the rest to the weights: planted outweighs swinging by 100
     assert np.abs(soles[0]).max() < 0.1 * np.abs(soles[1]).max()
     assert soles[1][2] > 0.5 * wanted[2]

@@ -57,8 +57,9 @@ class Bench:
         body.write_joints(data, self.q, np.zeros(body.count))
         self.seen.kinematics()
         weight = body.mass_kg * 9.81
-        jac = [one[:3] for one in self.seen.jac_sole]
-        estimator.correct(DT_S, data, jac, weight * np.array(load))
+        force_n = weight * np.array(load)
+        soles, velocity = self.seen.sole_position, self.seen.sole_velocity
+        self.shift_v = estimator.correct(DT_S, soles, velocity, force_n)
 
     def error_m(self):
         return math.dist(self.estimator.X_NB().p, self.X_NB.p)
