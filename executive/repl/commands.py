@@ -98,7 +98,7 @@ def table(shell: Shell) -> tuple[Command, ...]:
         Command(
             name="inject", usage="inject FAULT [KEY=VALUE ...]",
             summary="let something go wrong (simulation only)",
-            run=steering.inject, accepts=_begins(*faults.names()), choices=faults.names,
+            run=steering.inject, accepts=anything, choices=faults.names,
         ),
         Command(
             name="save", usage="save mission FILE", summary="keep what was done as a mission",

@@ -41,7 +41,7 @@ class LineCompleter(Completer):
                         command.name, -len(first), display=command.usage,
                         display_meta=command.summary,
                     )  # fmt: skip
-            yield from _prefixed(OPENINGS, text)
+        yield from _prefixed(OPENINGS, text)
         command = self._commands.get(first.casefold())
         if command is not None and space:
             yield from _prefixed(tuple(command.choices()), rest)

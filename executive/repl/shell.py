@@ -35,7 +35,7 @@ class Shell:
         out: says a line to people.
         folder: of this run.
         leaving: whether the person wants to go.
-        said: the sentences that became jobs, by number.
+        said: what became jobs, by number.
         refused: how many lines led to nothing, because they could not be meant.
     """
 
@@ -48,7 +48,7 @@ class Shell:
         self.folder = folder
         self.leaving = False
         self.refused = 0
-        self.said: dict[int, str] = {}
+        self.said: dict[int, Understood] = {}
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary())
         self._holds: tuple[str, ...] = ()
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
@@ -101,7 +101,7 @@ class Shell:
     def submit(self, understood: Understood, *, urgent: bool = False) -> None:
         """Queue a task, and say where it stands."""
         number = self.robot.submit(understood, urgent=urgent)
-        self.said[number] = understood.text
+        self.said[number] = understood
         self._holds = understood.holds
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)

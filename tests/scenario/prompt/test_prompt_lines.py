@@ -1,0 +1,182 @@
+"""Lines of all kinds, given to a robot in the fast runtime."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from executive import request, runtimes
+from executive.repl.robot import Robot
+from executive.repl.shell import Shell
+from robot.clock import WallClock
+from tests.fakes.waiting import eventually
+
+
+@contextmanager
+def shell_in(folder: Path, world: str = "kitchen") -> Iterator[Shell]:
+    where = request.setting(world, "juno")
+    robot = Robot(
+        lambda: runtimes.opened("fast", where, seed=0, folder=folder),
+        where=where,
+        seed=0,
+        folder=folder,
+        wall=WallClock(),
+        time_of_day=lambda: 0.0,
+        idles=False,
+    )
+    with robot:
+        yield Shell(robot, Said(), folder=folder)
+
+
+class Said(list[str]):
+    """What the shell says."""
+
+    __call__ = list[str].append
+
+    @property
+    def text(self) -> str:
+        return "\n".join(self)
+
+
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Shell]:
+    with shell_in(tmp_path_factory.mktemp("run")) as shell:
+        yield shell
+
+
+@pytest.fixture
+def shell(shared: Shell) -> Shell:
+    shared.robot.wait()
+    shared.out.clear()
+    shared.refused = 0
+    shared.dialogue.forget()
+    return shared
+
+
+def test_a_sentence_is_done(shell: Shell):
+    shell.line("say good morning")
+    shell.robot.wait()
+    job = shell.robot.executive.jobs[-1]
+    assert (job.text, job.state) == ("say good morning", "done")
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("bring the moon to the table", "Not understood"),
+        ("asdf qwer", "Not understood"),
+        ("pick up the cup", "Which"),
+        ("goals drop 99", "there is no job 99"),
+        ("goals drop x", "no job's number"),
+        ("goals move 1 0", "there is no waiting job 1"),
+        ("cancel 99", "there is no job 99"),
+        ("cancel", "Nothing is under way"),
+        ("inject meteor", "unknown fault"),
+        ("save mission", "save it where?"),
+        ("save mission /nowhere/at/all.yaml", "cannot be written"),
+    ],
+)
+def test_what_cannot_be_meant_is_said_and_nothing_moves(shell: Shell, line: str, words: str):
+    before = len(shell.robot.executive.jobs)
+    shell.line(line)
+    assert words in shell.out.text
+    assert len(shell.robot.executive.jobs) == before
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["step back half a metre", "watch the table", "help me", "status quo", "history of the world"],
+)
+def test_a_sentence_that_begins_like_a_command_is_a_sentence(shell: Shell, line: str):
+    first, _, rest = line.partition(" ")
+    assert not shell.commands[first].accepts(rest)
+
+
+def test_every_command_explains_itself(shell: Shell):
+    shell.line("help")
+    for command in shell.commands.values():
+        assert command.usage in shell.out.text
+        assert command.usage.startswith(command.name)
+        assert not command.summary.endswith(".")
+        shell.line(f"help {command.name}")
+
+
+def test_a_question_is_open_until_it_is_answered(shell: Shell):
+    shell.line("look at the cup")
+    assert "Which cup" in shell.out.text
+    shell.line("the blue one")
+    assert shell.robot.executive.jobs[-1].text == "the blue one"
+    shell.line("stop")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "cancelled"
+
+
+def test_questions_about_the_robot_are_answered_without_a_job(shell: Shell):
+    before = len(shell.robot.executive.jobs)
+    for line in (
+        "what are you holding?",
+        "where are you?",
+        "what can you do?",
+        "why did you stop?",
+    ):
+        shell.out.clear()
+        shell.line(line)
+        assert shell.out
+    assert len(shell.robot.executive.jobs) == before
+
+
+def test_the_queue_can_be_reordered_and_cut(shell: Shell):
+    executive = shell.robot.executive
+    executive.break_at("*")
+    first = len(executive.jobs)
+    for seconds in (31, 32, 33):
+        shell.line(f"squat for {seconds} seconds")
+    one, two, three = (job.number for job in executive.jobs[first:])
+    assert eventually(lambda: executive.held)
+    shell.line(f"goals move {three} 0")
+    assert eventually(lambda: [job.number for job in executive.jobs][-3:] == [one, three, two])
+    shell.line(f"goals drop {two}")
+    state_of = lambda number: next(j.state for j in executive.jobs if j.number == number)  # noqa: E731
+    assert eventually(lambda: state_of(two) == "cancelled")
+    shell.line("goals")
+    assert "squat for 33 seconds" in shell.out.text
+    shell.line("break off")
+    shell.line("stop")
+    shell.robot.wait()
+    assert {state_of(one), state_of(three)} == {"cancelled"}
+
+
+def test_why_and_status_and_history_tell_of_the_run(shell: Shell):
+    shell.line("say hello")
+    shell.robot.wait()
+    for line in ("why", "status", "history", "tree"):
+        shell.out.clear()
+        shell.line(line)
+        assert shell.out.text
+    assert "say hello" in shell.out.text
+
+
+def test_leaving_in_mid_work_stops_first(tmp_path: Path):
+    with shell_in(tmp_path, "empty") as shell:
+        shell.line("walk one metre forward")
+        assert eventually(lambda: shell.robot.view.mode == "walk", within_s=20.0)
+    job = shell.robot.executive.jobs[-1]
+    assert job.state == "cancelled"
+    assert shell.robot.view.mode == "stand"
+
+
+def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
+    shell.line("say good evening")
+    shell.line("look at the cup")
+    shell.line("the red one")
+    shell.line("stop")
+    shell.robot.wait()
+    path = tmp_path / "evening.yaml"
+    shell.line(f"save mission {path}")
+    text = path.read_text()
+    assert "name: evening" in text
+    assert "- say good evening" in text
+    assert "the red one" not in text  # it was stopped, and says nothing by itself
+    shell.line(f"save mission {path}")
+    assert "is there already" in shell.out.text
