@@ -14,6 +14,7 @@ from typing import Annotated, NoReturn
 import msgspec
 import typer
 
+from executive.evaluation.cli import evaluate
 from executive.history import cli as history
 from robot.errors import ConfigError, RobotError
 
@@ -31,6 +32,7 @@ app = typer.Typer(
 
 model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
 app.add_typer(model_app, name="model")
+app.command(name="eval")(evaluate)
 history.register(app)
 
 World = Annotated[
