@@ -168,6 +168,7 @@ def test_leaving_in_mid_work_stops_first(tmp_path: Path):
 
 def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
     shell.line("say good evening")
+    shell.robot.wait()
     shell.line("look at the cup")
     shell.line("the red one")
     shell.line("stop")
