@@ -14,6 +14,7 @@ from typing import Annotated, NoReturn
 import msgspec
 import typer
 
+from executive.dumps import cli as dumps
 from executive.evaluation.cli import evaluate
 from executive.history import cli as history
 from robot.errors import ConfigError, RobotError
@@ -34,6 +35,7 @@ model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other
 app.add_typer(model_app, name="model")
 app.command(name="eval")(evaluate)
 history.register(app)
+dumps.register(app)
 
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
@@ -120,6 +122,9 @@ def do(
     as_json: AsJson = False,
     vary: Vary = False,
     run_dir: RunDir = None,
+    dump: dumps.Dump = None,
+    dump_on: dumps.DumpOn = "end",
+    dump_format: dumps.DumpFormat = "html",
 ) -> None:
     """Do what a sentence says.
 
@@ -144,6 +149,9 @@ def do(
         vary=vary,
         folder=run_dir,
         as_json=as_json,
+        dump=dump,
+        dump_on=dump_on,
+        dump_format=dump_format,
     )
     raise typer.Exit(commands.do(options))
 

@@ -14,6 +14,7 @@ from rich.markup import escape
 from executive import doctor as examination
 from executive import doing, request, runs, runtimes, walking
 from executive.app import Executive
+from executive.dumps.writer import along
 from executive.loop import Interrupts
 from executive.progress import Lines, LiveTree, Progress, Silent
 from intents.outcomes import Question
@@ -35,6 +36,9 @@ class Do(msgspec.Struct, frozen=True, kw_only=True):
     vary: bool
     folder: Path | None
     as_json: bool
+    dump: Path | None = None
+    dump_on: str = "end"
+    dump_format: str = "html"
 
 
 class Walk(msgspec.Struct, frozen=True, kw_only=True):
@@ -61,6 +65,12 @@ def do(options: Do) -> int:
     if isinstance(understood, request.Refused):
         return refuse(understood, as_json=options.as_json)
     kind: runtimes.Kind = "fast" if options.fast else "live"
+    show = along(
+        _silent if options.as_json else _on_screen,
+        options.dump,
+        on=options.dump_on,
+        formats=options.dump_format,
+    )
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for(options.text, stamp=stamp)
     runs.check_free(folder)
@@ -80,7 +90,7 @@ def do(options: Do) -> int:
             job,
             runtime,
             planner,
-            show=_silent if options.as_json else _on_screen,
+            show=show,
             wall=WallClock(),
             time_of_day=lambda: datetime.now().astimezone().timestamp(),
             interrupts=interrupts,

@@ -6,7 +6,8 @@ import sys
 from pathlib import Path
 
 from executive.runs import BROKEN
-from executive.trees.recovery import PER_STEP, PER_TASK, REMEDIES, RULES
+from executive.trees.recovery import PER_STEP, PER_TASK, RULES
+from executive.trees.remedies import REMEDIES
 from robot.errors import CATALOGUE
 
 HEAD = f"""# Failures
@@ -36,11 +37,11 @@ def page() -> str:
 
 
 def _remedy(code: str) -> str:
-    rule = RULES[code]
-    if rule.remedy == "none":
-        return "-"
-    times = "once" if rule.times == 1 else f"{rule.times} times"
-    return f"{REMEDIES[rule.remedy][0]}: {times}"
+    tries = [
+        f"{REMEDIES[remedy][0]}: {'once' if times == 1 else f'{times} times'}"
+        for remedy, times in RULES[code].tries
+    ]
+    return "; ".join(tries) or "-"
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from executive.dumps.layout import (
 from executive.dumps.snapshot import Shown
 from executive.dumps.svg import mark
 
-MAX_PIXELS = 60_000_000
+MAX_PIXELS = 16_000_000
 """A larger picture is drawn smaller."""
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
@@ -37,7 +37,7 @@ def png(roots: Sequence[Shown], *, scale: float = 2.0) -> bytes:
     pen = _Pen(min(scale, (MAX_PIXELS / area) ** 0.5))
     image = pen.draw(picture)
     file = io.BytesIO()
-    image.save(file, format="PNG", optimize=True)
+    image.save(file, format="PNG")
     return file.getvalue()
 
 

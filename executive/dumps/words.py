@@ -41,6 +41,9 @@ def sentence(kind: str, data: Mapping[str, Any]) -> str:
         level = str(data.get("level", ""))
         well = f"{data.get('name', '')} is well again"
         return well if level == "OK" else f"{level.lower()}: {data.get('cause', '')}"
+    if kind == "fault":
+        keys = [f"{key} {value}" for key, value in data.items() if key != "fault"]
+        return ", ".join([f"fault injected: {data.get('fault', '')}", *keys])
     pattern = SENTENCES.get(kind)
     if pattern is not None:
         try:

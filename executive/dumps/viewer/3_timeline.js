@@ -105,7 +105,7 @@ function drawBars(pen, row, y, width) {
       pen.fillStyle = paint(pen, how);
       pen.fillRect(x0, y + 4, wide, ROW - 8);
       drawn = x0 + wide;
-      label(pen, node, begin, x0, Math.min(x1, width), y, how);
+      if (x1 - x0 > 30) label(pen, node, begin, end, width, y, how);
       if (how === "failed") cross(pen, x1, y + ROW / 2);
       else if (how === "running" && run.endings === undefined) arrow(pen, x1, y + ROW / 2);
     } else {
@@ -121,15 +121,26 @@ function drawBars(pen, row, y, width) {
   pen.globalAlpha = 1;
 }
 
-/** What a leaf says of itself inside its bar, as far as there is room. */
-function label(pen, node, begin, x0, x1, y, how) {
-  if (x1 - Math.max(x0, 0) < 46 || how === "failed" || how === "stopped") return;
+/** What a node says of itself inside its bar, phase by phase, as far as there is room. */
+function label(pen, node, begin, end, width, y, how) {
+  if (how === "failed" || how === "stopped") return;
   pen.font = "11px system-ui, sans-serif";
-  pen.fillStyle = "#ffffff";
-  const dark = document.documentElement.dataset.theme === "dark";
-  if (dark) pen.fillStyle = "#0c1118";
-  const room = x1 - Math.max(x0, 0) - 8;
-  pen.fillText(fitted(pen, node.label, room), Math.max(x0, 0) + 4, y + ROW / 2 + 4);
+  const ink = document.documentElement.dataset.theme === "dark" ? "#0c1118" : "#ffffff";
+  let i = lastBefore(node.changes, begin);
+  let t = begin;
+  while (t < end - 1e-9) {
+    const next = node.changes[i + 1], until = Math.min(next ? next[0] : end, end);
+    const x0 = Math.max(xOf(t, width), 0), x1 = Math.min(xOf(until, width), width);
+    pen.fillStyle = colours.ground;
+    if (t > begin && x0 > 0) pen.fillRect(x0, y + 4, 1, ROW - 8);
+    if (x1 - x0 > 34) {
+      pen.fillStyle = ink;
+      pen.fillText(fitted(pen, node.changes[i]?.[2] || node.label, x1 - x0 - 8), x0 + 4, y + ROW / 2 + 4);
+    }
+    if (x0 > width) break;
+    t = until;
+    i += 1;
+  }
 }
 
 function tick(pen, state, x, y) {

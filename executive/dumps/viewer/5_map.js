@@ -34,8 +34,12 @@ function drawMap() {
   pen.font = "11px system-ui, sans-serif";
   pen.textAlign = "center";
   for (const room of list(plan?.rooms)) area(pen, room.outline_m.map(at), colours.room, colours.line);
-  for (const spot of list(plan?.spots)) named(pen, area(pen, spot.outline_m.map(at), null, colours.line, [3, 3]), spot.name);
-  for (const piece of list(plan?.furniture)) furniture(pen, piece, at);
+  const names = [];
+  for (const spot of list(plan?.spots)) names.push([area(pen, spot.outline_m.map(at), null, colours.line, [3, 3]), spot.name]);
+  for (const piece of list(plan?.furniture)) {
+    names.push([area(pen, piece.outline_m.map(at), colours.furniture, colours.waiting), piece.name.includes("wall") ? "" : piece.name]);
+  }
+  for (const [place, name] of names) named(pen, place, name, width);
   for (const [, outlines] of Object.entries(run.unmapped || {})) {
     const outline = outlines[lastBefore(outlines, now)];
     if (outline && outline[1].length) area(pen, outline[1].map(at), null, colours.warn, [2, 2]);
@@ -46,8 +50,11 @@ function drawMap() {
     const pose = poses[lastBefore(poses, trouble.t_s)];
     if (pose) { const [x, y] = at([pose[1], pose[2]]); cross(pen, x, y); }
   }
-  for (const [id, sights] of Object.entries(run.things || {})) thing(pen, id, sights, at);
-  robot(pen, at, scale);
+  const here = robot(pen, at, scale), held = Object.entries(boardAt(now).get("held")?.[0] || {});
+  for (const [id, sights] of Object.entries(run.things || {})) {
+    const hand = held.find(([, name]) => name === id)?.[0];
+    thing(pen, id, sights, at, hand && here ? inHand(here, hand) : null);
+  }
   ruler(pen, width, height, scale);
 }
 
@@ -66,15 +73,10 @@ function area(pen, corners, fill, line, dash = []) {
   return [mean(0), mean(1), wide];
 }
 
-function named(pen, [x, y, wide], name) {
-  const text = fitted(pen, name, Math.max(wide - 4, 60));
+function named(pen, [x, y, wide], name, width) {
+  const text = fitted(pen, name, Math.max(wide - 4, 60)), half = pen.measureText(text).width / 2 + 3;
   pen.fillStyle = colours.dim;
-  if (text) pen.fillText(text, x, y + 4);
-}
-
-function furniture(pen, piece, at) {
-  const place = area(pen, piece.outline_m.map(at), colours.furniture, colours.waiting);
-  if (!piece.name.includes("wall")) named(pen, place, piece.name);
+  if (text) pen.fillText(text, Math.min(Math.max(x, half), width - half), y + 4);
 }
 
 function someone(pen, person, at, scale) {
@@ -109,11 +111,17 @@ function way(pen, at) {
   stroke(Math.min(recent, Math.max(here, 0)), here, 1, 2.5);
 }
 
-function thing(pen, id, sights, at) {
+/** Where the thing in a hand is drawn: before the robot, on that side. */
+function inHand([x, y, yaw, r], hand) {
+  const angle = yaw + (hand === "left" ? 0.6 : -0.6);
+  return [x + 1.15 * r * Math.cos(angle), y - 1.15 * r * Math.sin(angle)];
+}
+
+function thing(pen, id, sights, at, carried) {
   const sight = sights[lastBefore(sights, now)];
   if (!sight) return;
-  const known = things.get(id), [x, y] = at([sight[1], sight[2]]);
-  const held = sight[4], missing = sight[5];
+  const known = things.get(id), [x, y] = carried || at([sight[1], sight[2]]);
+  const held = sight[4] || carried, missing = sight[5];
   pen.beginPath();
   pen.arc(x, y, 4.5, 0, 2 * Math.PI);
   pen.fillStyle = NAMED[known?.color] || colours.warn;
@@ -137,7 +145,7 @@ function thing(pen, id, sights, at) {
 
 function robot(pen, at, scale) {
   const index = lastBefore(poses, now);
-  if (index < 0) return;
+  if (index < 0) return null;
   const [t0, x0, y0, a0] = poses[index], next = poses[index + 1];
   let [x, y, yaw] = [x0, y0, a0];
   if (next && next[0] - t0 < 2) { // between two poses, unless it stood still
@@ -156,6 +164,7 @@ function robot(pen, at, scale) {
   pen.strokeStyle = colours.ground;
   pen.lineWidth = 1.5;
   pen.stroke();
+  return [px, py, yaw, r];
 }
 
 function ruler(pen, width, height, scale) {

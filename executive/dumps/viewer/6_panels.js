@@ -72,7 +72,7 @@ function nowPanel() {
   if (words_.length) facts.push(["said", words_[words_.length - 1][2].replace(/^says: /, "")]);
   parts.push(heading("The robot"), table(facts));
   const board = [...boardAt(now)].map(([key, [value, since]]) => [key, words(value), since]);
-  parts.push(heading("Blackboard"), table(board, (since) => now - since < 0.5));
+  if (board.length) parts.push(heading("Blackboard"), table(board, (since) => now - since < 0.5));
   return parts;
 }
 

@@ -23,13 +23,18 @@ function draw() {
   $("slider").setAttribute("aria-valuetext", clock(now));
 }
 
-function setNow(t, { follow = false } = {}) {
+/** Show the deepest node that is running. */
+function follow() {
+  reveal(order.findLast((node) => !node.inner && inView(node, now) && stateAt(node, now) === "running"));
+}
+
+function setNow(t, { follow: follow_ = false } = {}) {
   now = Math.min(Math.max(t, BEGIN), END);
   if (now < view.from || now > view.to) {
     const wide = view.to - view.from;
-    setView(now - wide * (follow ? 0.5 : now < view.from ? 0.05 : 0.95), now + wide * (follow ? 0.5 : now < view.from ? 0.95 : 0.05));
+    setView(now - wide * (follow_ ? 0.5 : now < view.from ? 0.05 : 0.95), now + wide * (follow_ ? 0.5 : now < view.from ? 0.95 : 0.05));
   }
-  if (follow) reveal(order.findLast((node) => !node.inner && inView(node, now) && stateAt(node, now) === "running"));
+  if (follow_) follow();
   remember();
   redraw();
 }
@@ -191,7 +196,8 @@ function listen() {
   $("scroller").addEventListener("scroll", () => drawRows());
   $("panel").addEventListener("scroll", () => long?.render());
   document.addEventListener("keydown", onKey);
-  new ResizeObserver(redraw).observe($("main"));
+  const resized = new ResizeObserver(redraw);
+  for (const id of ["scroller", "map", "bars", "overview"]) resized.observe($(id));
   addEventListener("hashchange", () => { recall(); drawTabs(); redraw(); });
   let before = "";
   addEventListener("beforeprint", () => { before = theme(); printing = true; setTheme("light"); draw(); });
@@ -208,3 +214,4 @@ head();
 listen();
 drawTabs();
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+requestAnimationFrame(() => { if (now < END || !run.endings) follow(); redraw(); });
