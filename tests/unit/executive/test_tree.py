@@ -19,7 +19,8 @@ from executive.skills.parameters import (
 )
 from executive.trees.build import build
 from executive.trees.parts import Branch
-from executive.trees.recovery import PER_STEP, PER_TASK, REMEDIES, RULES, Errand
+from executive.trees.recovery import PER_STEP, PER_TASK, RULES, Errand
+from executive.trees.remedies import REMEDIES
 from robot.errors import CATALOGUE, Failure
 from robot.messages import LidarScan
 from tests.fakes.rig import PICK, PUT, TICK_S, WAIT, WALK, Rig
@@ -50,7 +51,7 @@ def test_a_failure_without_a_remedy_ends_the_task_with_its_code():
     assert rig.troupe.names() == ["navigate", "pick"]
 
 
-def test_a_missed_grasp_is_looked_for_and_tried_again_at_most_twice():
+def test_a_missed_grasp_is_looked_for_twice_then_tried_from_elsewhere_then_help_is_asked():
     rig = Rig({PickParams: [Script(code="grasp_missed"), Script()]})
     assert rig.begin(PICK, WAIT).run() is True
     assert rig.troupe.names() == ["pick", "search", "pick", "wait"]
@@ -59,7 +60,9 @@ def test_a_missed_grasp_is_looked_for_and_tried_again_at_most_twice():
     rig = Rig({PickParams: [Script(code="grasp_missed")]})
     verdict = rig.begin(PICK).run()
     assert verdict.code == "grasp_missed"
-    assert rig.troupe.names() == ["pick", "search", "pick", "search", "pick"]
+    looked = ["pick", "search", "pick", "search", "pick"]
+    assert rig.troupe.names() == [*looked, "navigate", "search", "pick"]
+    assert rig.events("help", "answer") == ["help", "answer"]  # nobody was there
 
 
 def test_what_is_dropped_on_the_way_is_fetched_again():
@@ -83,8 +86,7 @@ def test_a_remedy_that_fails_is_recovered_from_within_the_same_budget():
 @pytest.mark.parametrize("code", sorted(CATALOGUE))
 def test_every_code_has_a_rule_and_a_finite_number_of_tries(code):
     rule = RULES[code]
-    assert rule.remedy == "none" or rule.remedy in REMEDIES
-    assert (rule.times > 0) == (rule.remedy != "none")
+    assert {remedy for remedy, _ in rule.tries} <= set(REMEDIES)
     assert rule.times <= PER_STEP
     # Whatever is asked of the robot, if all of it goes on failing like that, it ends with the code.
     kinds = (PickParams, PlaceParams, NavigateParams, SearchParams)

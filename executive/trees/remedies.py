@@ -1,0 +1,100 @@
+"""What can be done about a failure before the step is tried again, and what people are asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal
+
+from executive.skills.parameters import (
+    BalanceParams,
+    NavigateParams,
+    PickParams,
+    SearchParams,
+    Step,
+)
+from executive.trees.parts import Errand
+from robot.errors import Failure
+
+Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "ask"]
+
+WAIT_S = 3.0
+STEP_BACK_M = 0.3
+
+
+def _retry(_errand: Errand) -> tuple[Errand, ...]:
+    return ()
+
+
+def _wait(_errand: Errand) -> tuple[Errand, ...]:
+    params = BalanceParams(mode="stand", duration_s=WAIT_S)
+    return (Errand(name="stand and wait", params=params),)
+
+
+def _step_back(errand: Errand) -> tuple[Errand, ...]:
+    params = NavigateParams(by=Step(forward_m=-STEP_BACK_M))
+    return (Errand(name="step back", params=params), *_look_again(errand))
+
+
+def _look_again(errand: Errand) -> tuple[Errand, ...]:
+    if errand.object_id is None or errand.carries:
+        return ()
+    params = SearchParams(object_id=errand.object_id)
+    return (Errand(name=f"look for {errand.object_name}", params=params),)
+
+
+def _fetch_again(errand: Errand) -> tuple[Errand, ...]:
+    if errand.object_id is None or not errand.carries:
+        return _look_again(errand)
+    search = SearchParams(object_id=errand.object_id)
+    pick = PickParams(object_id=errand.object_id)
+    return (
+        Errand(name=f"look for {errand.object_name}", params=search),
+        Errand(name=f"pick up {errand.object_name} again", params=pick),
+    )
+
+
+REMEDIES: dict[Remedy, tuple[str, Callable[[Errand], tuple[Errand, ...]]]] = {
+    "retry": ("try again", _retry),
+    "wait": ("wait, then try again", _wait),
+    "look_again": ("look again, then retry", _look_again),
+    "fetch_again": ("fetch it again, then retry", _fetch_again),
+    "step_back": ("step back, then retry", _step_back),
+    "ask": ("ask for help, then retry", _retry),
+}
+"""Remedy to its name for people and the steps that come before the next attempt."""
+
+_SHOW = "please put {it} upright where I can see and reach it"
+_CLEAR = "please clear the way"
+
+HELP: dict[str, str] = {
+    "no_path": _CLEAR,
+    "path_blocked": _CLEAR + "{where}",
+    "walk_stalled": "please free me from what holds me",
+    "start_in_collision": "please take away what I touch",
+    "goal_in_collision": "please make room around {it}",
+    "no_stance": "please clear the floor in front of {it}",
+    "no_free_spot": "please make room where {it} is to go",
+    "no_grasp": _SHOW,
+    "out_of_reach": _SHOW,
+    "grasp_missed": _SHOW,
+    "object_dropped": _SHOW,
+    "object_not_seen": _SHOW,
+    "on_the_floor": _SHOW,
+    "place_missed": _SHOW,
+    "arm_stalled": "please clear the way of my arm",
+    "not_taken": "please take {it} out of my hand",
+    "person_near": "please step back from me",
+    "person_not_seen": "please stand where I can see you",
+    "localisation_lost": "please see that I can find out where I am",
+    "sensor_silent": "please check my sensors",
+    "hands_full": "please take something out of my hands",
+}
+"""Failure code to what a person is asked to do; `{it}` is what the step is about."""
+
+
+def question(reason: Failure, errand: Errand) -> str:
+    """What a person is asked: "please move ..., then say continue"."""
+    x_m, y_m = reason.evidence.get("x_m"), reason.evidence.get("y_m")
+    where = f" at ({x_m}, {y_m}) m" if x_m is not None and y_m is not None else ""
+    wish = HELP[reason.code].format(it=errand.object_name or "it", where=where)
+    return f"{reason.cause}; {wish}, then say continue"
