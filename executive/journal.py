@@ -52,6 +52,7 @@ class Journal:
         capacity: int = RING_LINES,
         background: bool = False,
         first: int = 0,
+        lines: Lines | None = None,
     ) -> None:
         """Keep a journal.
 
@@ -61,11 +62,12 @@ class Journal:
             capacity: how many lines may wait for a disk that is full or stalled.
             background: write in a thread, so that a stalled disk cannot stop the caller.
             first: number of the first event, when a journal is gone on with.
+            lines: where the lines go in place of a file in `folder`.
         """
         kind = BackgroundFile if background else LineFile
-        self._lines: Lines | None = None
+        self._lines = lines
         self._wall: Lines | None = None
-        if folder is not None:
+        if folder is not None and lines is None:
             self._lines = kind(folder / FILE, capacity=capacity)
         if folder is not None and wall_s is not None:
             self._wall = kind(folder / WALL_FILE, capacity=capacity)

@@ -47,6 +47,19 @@ class Lines(Protocol):
         ...
 
 
+class Nowhere:
+    """Takes lines and keeps none."""
+
+    waiting = dropped = 0
+    problem = ""
+
+    def append(self, line: bytes) -> None:
+        """Forget it."""
+
+    def close(self) -> None:
+        """Nothing to close."""
+
+
 class LineFile:
     """Writes in the caller's thread."""
 

@@ -19,6 +19,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a run was started with: enough to start it again (`run.json`).
 
     What was asked for stands here as `text` for people; what jobs are made of, in the journal.
+    `attended`: a person was there, to ask for more and to inject faults.
     """
 
     text: str
@@ -27,10 +28,11 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     seed: int
     runtime: str
     varied: bool = False
+    attended: bool = False
     origin: Origin | None = None
 
 
-def header(where: Setting, *, text: str, seed: int, runtime: str) -> Header:
+def header(where: Setting, *, text: str, seed: int, runtime: str, attended: bool = False) -> Header:
     """The header of a run that starts now."""
     return Header(
         text=text,
@@ -39,6 +41,7 @@ def header(where: Setting, *, text: str, seed: int, runtime: str) -> Header:
         seed=seed,
         runtime=runtime,
         varied=where.vary_seed is not None,
+        attended=attended,
         origin=origin.of(where.world, where.description),
     )
 

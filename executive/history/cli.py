@@ -16,6 +16,7 @@ def register(app: typer.Typer) -> None:
     """Add the commands to the command line."""
     app.command()(why)
     app.command()(history)
+    app.command()(replay)
 
 
 def why(run: Run = None, *, as_json: AsJson = False) -> None:
@@ -42,3 +43,19 @@ def history(
     from executive.history import showing
 
     raise typer.Exit(showing.history(count=10**9 if everything else count, as_json=as_json))
+
+
+def replay(run: Run = None, *, as_json: AsJson = False) -> None:
+    """Do a --fast run again and prove it identical, or show the first difference.
+
+    Requests of a person (pause, stop, more jobs) are made again at the same ticks.
+
+    [bold]Example[/bold]
+
+      humanoid replay 20261121-134158
+
+    Exit status: 0 identical, 1 different, 2 it cannot be replayed.
+    """
+    from executive.history import showing
+
+    raise typer.Exit(showing.replay(run, as_json=as_json))

@@ -1,20 +1,25 @@
-"""`humanoid why` and `humanoid history`: what they print."""
+"""`humanoid why`, `history` and `replay`: what they print."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
 
 import msgspec
 import typer
 from rich.console import Console
 from rich.markup import escape
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from executive import journal
 from executive.history import past
+from executive.history import replay as again
+from executive.history.checked import Difference
 from executive.history.past import Past
 from executive.history.why import why as explain
+from executive.journal import Event
 
 PIPE_WIDTH = 160
 _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
@@ -50,6 +55,64 @@ def history(*, count: int, as_json: bool) -> int:
     if len(known) > len(shown):
         typer.echo(f"{len(known) - len(shown)} older ones: humanoid history --all")
     return 0
+
+
+def replay(run: str | None, *, as_json: bool) -> int:
+    """Do a run again and compare; returns the exit status, 1 where it differs."""
+    folder = past.find(run)
+    with _progress(f"replaying {folder.name}", quiet=as_json) as follow:
+        result = again.replay(folder, follow=follow)
+    status = 1 if result.difference else 0
+    if as_json:
+        typer.echo(msgspec.json.encode({"exit_status": status, **msgspec.to_builtins(result)}))
+        return status
+    if result.difference is None:
+        what = "what there is of it (it was cut off)" if result.cut else "it"
+        typer.echo(
+            f"Identical: {what} repeats byte for byte, {result.events} events "
+            f"in {result.simulated_s:.1f} s of robot time."
+        )
+    else:
+        typer.echo("\n".join(_differs(result.difference)))
+    for change in result.changed:
+        typer.echo(f"  note: {change}, since it was recorded")
+    if result.difference is not None and result.changed:
+        typer.echo("What to do: that is why it differs, most likely; replay with what it had then.")
+    elif result.difference is not None:
+        typer.echo("What to do: nothing changed that is known of; report it with the run folder.")
+    return status
+
+
+def _differs(difference: Difference) -> list[str]:
+    """The first difference, with what led up to it."""
+    lines = [f"Not the same: event {difference.number} is the first that differs."]
+    lines += [f"    {event.t_s:9.3f} s  {_short(event)}" for event in difference.before]
+    lines.append(f"  - {difference.recorded or 'nothing more was recorded'}")
+    lines.append(f"  + {difference.now or 'nothing more comes now'}")
+    if difference.recorded and difference.now:
+        for name, (then, now) in difference.fields.items():
+            lines.append(f"  {name}: recorded {then!r}, now {now!r}")
+    return lines
+
+
+def _short(event: Event) -> str:
+    text = " ".join(f"{key}={value!r}" for key, value in event.data.items())
+    return f"{event.event} {text}"[:100]
+
+
+@contextmanager
+def _progress(words: str, *, quiet: bool) -> Generator[again.Follow]:
+    """A bar over the run's time, on standard error."""
+    console = Console(stderr=True, quiet=quiet)
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(),
+               TimeRemainingColumn())  # fmt: skip
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(words, total=None)
+
+        def follow(now_s: float, last_s: float) -> None:
+            bar.update(task, completed=min(now_s, last_s), total=max(last_s, 0.001))
+
+        yield follow
 
 
 def _table(shown: Iterable[Past]) -> Table:

@@ -1,0 +1,119 @@
+"""A recorded run as something that can be done again: its setting, and what was asked when."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from executive import journal, origin, request
+from executive.journal import FILE, Event
+from executive.request import Refused, Setting, Understood
+from executive.runs import Header
+from intents import goals
+from robot.bringup import entry
+from robot.errors import ConfigError, Problem
+
+MISSIONS = "executive.missions.restoring:restore"
+
+Restore = Callable[[dict[str, Any], Path, Setting], Understood]
+
+
+class Recording(msgspec.Struct, frozen=True, kw_only=True):
+    """A run that was recorded.
+
+    Attributes:
+        folder: where.
+        header: what it was started with.
+        lines: of the journal, whole ones only, without their ends.
+        events: the same, read.
+        cut: bytes of a last line that was not finished.
+    """
+
+    folder: Path
+    header: Header
+    lines: list[bytes]
+    events: list[Event]
+    cut: int = 0
+
+    @property
+    def last_s(self) -> float:
+        """Time of the last event."""
+        return self.events[-1].t_s
+
+    @property
+    def ended(self) -> bool:
+        """Whether it came to an end by itself."""
+        for event in reversed(self.events):
+            if event.event in ("outcome", "request"):
+                return event.event == "outcome"
+        return False
+
+    @property
+    def inputs(self) -> list[Event]:
+        """What came from outside: requests, and faults that a person injected."""
+        kinds = {"request", "fault"} if self.header.attended else {"request"}
+        return [event for event in self.events if event.event in kinds]
+
+
+def load(folder: Path) -> Recording:
+    """Read a run.
+
+    Raises:
+        ConfigError: if it has no whole journal of this version.
+    """
+    try:
+        *lines, rest = (folder / FILE).read_bytes().split(b"\n")
+    except OSError as error:
+        raise ConfigError(f"{folder} holds no journal: {error.strerror}") from error
+    events = [journal.decode(line) for line in lines]
+    whole = [event for event in events if event is not None]
+    if not whole or len(whole) < len(lines) or [e.n for e in whole] != list(range(len(whole))):
+        cure = "the disk was full, or the file was changed: only a whole journal can be done again"
+        raise ConfigError([Problem(f"{folder}: events are missing", suggestion=cure)])
+    try:
+        header = msgspec.convert(whole[0].data, Header)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{folder}: the first event is no header: {error}") from None
+    if whole[0].event != "run" or header.origin is None:
+        cure = "do it again with this one"
+        problem = f"{folder} was recorded by an older version"
+        raise ConfigError([Problem(problem, suggestion=cure)])
+    return Recording(folder=folder, header=header, lines=lines, events=whole, cut=len(rest))
+
+
+def setting(recording: Recording) -> tuple[Setting, list[str]]:
+    """Robot and world of a recorded run, and what is not as it was.
+
+    Raises:
+        ConfigError: if a file is gone or wrong.
+    """
+    header = recording.header
+    where = request.setting(
+        header.world, header.robot, vary_seed=header.seed if header.varied else None
+    )
+    assert header.origin is not None
+    return where, origin.differences(header.origin, origin.of(where.world, where.description))
+
+
+def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
+    """The task of a job that was submitted, made again from what it was made from.
+
+    Raises:
+        ConfigError: if it cannot be made here and now.
+    """
+    made_from: dict[str, Any] = submitted.data.get("origin", {})
+    text = str(submitted.data.get("text", ""))
+    if "goals" not in made_from:
+        again: Restore = entry.attribute(MISSIONS)
+        return again(made_from, folder, where)
+    try:
+        asked = goals.from_builtins(made_from["goals"])
+    except (msgspec.ValidationError, ValueError) as error:
+        raise ConfigError(f"{folder}: the goals of {text!r} cannot be read: {error}") from None
+    meant = request.meant(text, asked, where, held=tuple(made_from.get("held", ())))
+    if isinstance(meant, Refused):
+        raise ConfigError([Problem(f"{text!r}: {meant.reason}", suggestion=meant.suggestion)])
+    return meant
