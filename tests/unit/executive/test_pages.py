@@ -1,0 +1,22 @@
+"""The pages on health and recovery say what the tables say."""
+
+from pathlib import Path
+
+import pytest
+
+from executive.pages import TABLES, filled
+
+DOCS = Path(__file__).parents[3] / "docs"
+
+
+@pytest.mark.parametrize("name", ["health.md", "recovery.md"])
+def test_a_page_is_up_to_date(name):
+    text = (DOCS / name).read_text(encoding="utf-8")
+    assert filled(text) == text, "python -m executive.pages docs"
+
+
+def test_every_table_has_its_place():
+    text = "".join(
+        (DOCS / name).read_text(encoding="utf-8") for name in ("health.md", "recovery.md")
+    )
+    assert all(f"<!-- table: {name} -->" in text for name in TABLES)
