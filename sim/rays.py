@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Generator
+from contextlib import contextmanager
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +13,7 @@ from numpy.typing import NDArray
 from robot.se3 import Array
 
 GROUPS = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # what is visible; 3 and up is hidden
+HIDDEN = 5  # a group that no ray meets
 STATIC = True  # hit what cannot move, too
 
 
@@ -19,6 +24,10 @@ class Rays:
         """Cast in one simulation, its positions as they are."""
         self._model, self._data, self.body = model, data, body
         self._geom_body = model.geom_bodyid
+        self._geom_group = model.geom_group
+        self._geom_position = data.geom_xpos
+        unbounded = model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
+        self._geom_radius: Array = np.where(unbounded, np.inf, model.geom_rbound)
 
     def cast(
         self, origin: Array, directions: Array, *, range_m: float
@@ -37,6 +46,34 @@ class Rays:
         beyond = distances > range_m
         distances[beyond], geoms[beyond] = -1.0, -1
         return distances, geoms
+
+    @contextmanager
+    def only_within(
+        self, origin: Array, axis: Array, *, half_angle_rad: float, range_m: float
+    ) -> Generator[None]:
+        """Let rays inside a cone not be tried against what lies outside it; hits are the same.
+
+        MuJoCo itself tries every ray against what is close to its origin: most of the robot. A
+        geom counts as outside if the sphere around it is.
+
+        Args:
+            origin: of the cone and of the rays [m], shape (3,).
+            axis: of the cone, a unit vector, shape (3,).
+            half_angle_rad: between the axis and the outermost ray, under a right angle.
+            range_m: of the rays.
+        """
+        offset = self._geom_position - origin
+        along = offset @ axis
+        distance = np.sqrt(np.einsum("ij,ij->i", offset, offset))
+        across = np.sqrt(np.maximum(distance * distance - along * along, 0.0))
+        beside = across * math.cos(half_angle_rad) - along * math.sin(half_angle_rad)
+        outside = (beside > self._geom_radius) | (distance - self._geom_radius > range_m)
+        groups = self._geom_group.copy()
+        self._geom_group[outside] = HIDDEN
+        try:
+            yield
+        finally:
+            self._geom_group[:] = groups
 
     def bodies_hit(self, origin: Array, vectors: Array) -> NDArray[np.int32]:
         """The body that each ray meets first, -1 for none; vectors of any length, shape (n, 3)."""

@@ -44,13 +44,18 @@ class DepthCamera:
         )
         rays_C = np.stack([u, v, np.ones_like(u)], axis=-1).reshape(-1, 3)
         self._rays_C = rays_C / np.linalg.norm(rays_C, axis=1, keepdims=True)
+        most_oblique = float(self._rays_C[:, 2].min())
+        self._reach_m, self._half_angle_rad = camera.range_m / most_oblique, math.acos(most_oblique)
         self.rays = Rays(model, data, body=int(model.site_bodyid[model.site(camera.site).id]))
 
     def capture(self, stamp_s: float) -> DepthImage:
         """One frame."""
-        directions = self._rays_C @ self._site.xmat.reshape(3, 3).T
-        reach_m = self._range_m / float(self._rays_C[:, 2].min())
-        distances, _ = self.rays.cast(self._site.xpos, directions, range_m=reach_m)
+        rotation, eye, reach_m = self._site.xmat.reshape(3, 3), self._site.xpos, self._reach_m
+        directions = self._rays_C @ rotation.T
+        with self.rays.only_within(
+            eye, rotation[:, 2], half_angle_rad=self._half_angle_rad, range_m=reach_m
+        ):
+            distances, _ = self.rays.cast(eye, directions, range_m=reach_m)
         depth = distances * self._rays_C[:, 2]
         noise = self._rng.standard_normal(len(depth), dtype=np.float32)
         depth += DEPTH_NOISE_PER_M * depth * depth * noise

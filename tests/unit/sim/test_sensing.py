@@ -143,3 +143,24 @@ def test_a_silent_sensor_says_nothing_for_its_time(standing):
         ]
         standing.step(10)
     assert heard == pytest.approx([0.4])
+
+
+def test_what_the_camera_cannot_see_need_not_be_tried_against(standing):
+    """Rays meet the same at the same distance, whichever way the head looks."""
+    rays, model = standing.sensing.camera.rays, standing.model
+    groups = model.geom_group.copy()
+    rng = np.random.default_rng(3)
+    eye = standing.data.site("head_camera").xpos
+    for _ in range(20):
+        axis = rng.standard_normal(3)
+        axis /= np.linalg.norm(axis)
+        near = axis + 0.4 * rng.uniform(-1.0, 1.0, (200, 3))
+        directions = near / np.linalg.norm(near, axis=1, keepdims=True)
+        half_angle_rad = math.acos(float((directions @ axis).min()))
+        expected = rays.cast(eye, directions, range_m=5.0)
+        with rays.only_within(eye, axis, half_angle_rad=half_angle_rad, range_m=5.0):
+            assert (model.geom_group != groups).any()
+            got = rays.cast(eye, directions, range_m=5.0)
+        for mine, theirs in zip(got, expected, strict=True):
+            np.testing.assert_array_equal(mine, theirs)
+        np.testing.assert_array_equal(model.geom_group, groups)
