@@ -43,7 +43,7 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = tuple(_part(goal, scene) for goal in asked)
+    parts = tuple(part_of(goal, scene) for goal in asked)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
     task = Series(name="task", parts=parts)
@@ -53,7 +53,12 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     return task
 
 
-def _part(goal: goals.Goal, scene: Scene) -> Part:
+def part_of(goal: goals.Goal, scene: Scene) -> Part:
+    """What it takes to do one goal.
+
+    Raises:
+        CannotMean: if it has no meaning here, or no skill does it.
+    """
     handler = HANDLERS.get(type(goal))
     name = type(goal).__name__.lower()
     if handler is None:
@@ -295,7 +300,7 @@ def _repeat(goal: goals.Repeat, scene: Scene) -> Part:
     if not 1 <= goal.times <= MAX_TIMES:
         raise cannot("invalid_goal", f"repeat {goal.times} times: 1 to {MAX_TIMES} are possible")
     parts = tuple(
-        Series(name=f"round {n + 1}", parts=tuple(_part(child, scene) for child in goal.goals))
+        Series(name=f"round {n + 1}", parts=tuple(part_of(child, scene) for child in goal.goals))
         for n in range(goal.times)
     )
     return Series(name=f"{goal.times} times", parts=parts)
@@ -306,7 +311,7 @@ def _for_each(goal: goals.ForEach, scene: Scene) -> Part:
     rounds: list[Part] = []
     for info in found:
         scene.spoken_of = info.id
-        parts = tuple(_part(_with_id(child, info), scene) for child in goal.goals)
+        parts = tuple(part_of(_with_id(child, info), scene) for child in goal.goals)
         rounds.append(Series(name=f"with {full_name(info)}", parts=parts))
     return Series(name="for each", parts=tuple(rounds))
 
@@ -321,17 +326,22 @@ def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:
 
 
 def _if(goal: goals.If, scene: Scene) -> Part:
-    question = _question(goal.condition, scene)
+    question = question_of(goal.condition, scene)
     held = list(scene.held)
-    then = Series(name="then", parts=tuple(_part(child, scene) for child in goal.then))
+    then = Series(name="then", parts=tuple(part_of(child, scene) for child in goal.then))
     after = list(scene.held)
     scene.held = held
-    otherwise = Series(name="else", parts=tuple(_part(child, scene) for child in goal.else_))
+    otherwise = Series(name="else", parts=tuple(part_of(child, scene) for child in goal.else_))
     scene.held = [object_id for object_id in after if object_id in scene.held]
     return Branch(name="if", question=question, then=then, otherwise=otherwise)
 
 
-def _question(condition: goals.Condition, scene: Scene) -> Predicate:
+def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
+    """The question to ask for a condition when its turn comes.
+
+    Raises:
+        CannotMean: if it has no meaning here, or this robot cannot find that out.
+    """
     if isinstance(condition, goals.State) or condition.object is None:
         raise cannot("unsupported", "this robot cannot find that out yet",
                      suggestion="ask whether an object is there, or held")  # fmt: skip

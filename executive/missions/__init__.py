@@ -1,0 +1,1 @@
+"""Missions: files that say what to do, checked whole before anything moves."""

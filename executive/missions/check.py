@@ -1,0 +1,159 @@
+"""A mission file to a task that can be done here, or to everything that is wrong in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+
+from executive import faults
+from executive.faults import FaultPlan
+from executive.missions.compiling import Compiler
+from executive.missions.load import Mission, load
+from executive.missions.names import Names
+from executive.missions.nodes import Node, parse, text_node
+from executive.missions.problems import Enough, Problems
+from executive.missions.values import Bound
+from executive.request import Setting, setting
+from executive.trees.build import before
+from executive.trees.parts import Part, Series, walk
+from robot.config import nearest
+from robot.errors import ConfigError, Problem
+
+
+class Options(msgspec.Struct, frozen=True, kw_only=True):
+    """What is said beside the file.
+
+    Attributes:
+        params: values of parameters, as typed.
+        world: in place of the file's.
+        robot: in place of the file's.
+        vary_seed: shuffles the world.
+        first: the path of the step to begin at; empty: at the beginning.
+        samples: whether something fitting stands in for parameters without a value.
+    """
+
+    params: Mapping[str, str] = {}
+    world: str = ""
+    robot: str = ""
+    vary_seed: int | None = None
+    first: str = ""
+    samples: bool = False
+
+
+class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
+    """A mission that can be done here.
+
+    Attributes:
+        mission: the file.
+        where: robot and world.
+        task: what is done.
+        done: what is left out because of `first` (`executive.trees.build`).
+        values: of the parameters.
+        faults: what goes wrong on purpose.
+    """
+
+    mission: Mission
+    where: Setting
+    task: Part
+    done: frozenset[str]
+    values: Mapping[str, Bound]
+    faults: tuple[FaultPlan, ...]
+
+
+def check(path: Path, options: Options | None = None) -> Checked:
+    """Check a mission file whole.
+
+    Raises:
+        ConfigError: with every mistake, each with file, line, column and cure.
+    """
+    problems = Problems()
+    checked = None
+    try:
+        checked = _check(path, options or Options(), problems)
+    except Enough:
+        pass
+    except ConfigError as error:
+        if len(problems) == 0:
+            raise
+        raise ConfigError(_merged(problems, error)) from None
+    problems.raise_any()
+    assert checked is not None
+    return checked
+
+
+def _merged(problems: Problems, error: ConfigError) -> list[Problem]:
+    found = dict.fromkeys(str(problem) for problem in problems.all)
+    return [*problems.all, *(p for p in error.problems if str(p) not in found)]
+
+
+def _check(path: Path, options: Options, problems: Problems) -> Checked | None:
+    mission = load(path, problems)
+    if mission is None:
+        return None
+    where = _setting(mission, options, problems)
+    if where is None:
+        return None
+    names = Names(where.knowledge)
+    compiler = Compiler(names, where.description, problems)
+    given = {name: _typed(name, text) for name, text in options.params.items()}
+    values = compiler.bound(
+        mission, given, where=mission.node.key("parameters"), samples=options.samples
+    )
+    task = compiler.mission(mission, values)
+    plans = _faults(mission, where, problems)
+    done = _done(task, options.first, problems)
+    return Checked(mission=mission, where=where, task=task, done=done, values=values, faults=plans)
+
+
+def _setting(mission: Mission, options: Options, problems: Problems) -> Setting | None:
+    world = options.world or mission.beside(mission.record.world)
+    robot = options.robot or mission.beside(mission.record.robot)
+    node = mission.node
+    try:
+        return setting(world, robot, vary_seed=options.vary_seed)
+    except ConfigError as error:
+        at = node.get("world") or node.get("robot") or node
+        for problem in error.problems:
+            if problem.file is None:
+                problems.add(at, problem.message, problem.suggestion or "")
+            else:
+                place = Node("text", problem.file, problem.line or 1, problem.column or 1)
+                problems.add(place, problem.message, problem.suggestion or "")
+        return None
+
+
+def _typed(name: str, text: str) -> Node:
+    """A value from the command line."""
+    file = f"--param {name}"
+    if text.startswith("["):
+        return parse(text, file)
+    return text_node(text, Node("text", file, 0, 0), plain=True)
+
+
+def _faults(mission: Mission, where: Setting, problems: Problems) -> tuple[FaultPlan, ...]:
+    """What goes wrong on purpose, each fault checked against the world and the robot."""
+    node = mission.node.get("faults")
+    plans: list[FaultPlan] = []
+    for item, data in zip(node.items if node else [], mission.record.faults, strict=True):
+        try:
+            plan = faults.plan(data)
+            faults.verify(plan.fault, where.world, where.description)
+        except ConfigError as error:
+            problems.take(error, item)
+            continue
+        plans.append(plan)
+    return tuple(plans)
+
+
+def _done(task: Part, first: str, problems: Problems) -> frozenset[str]:
+    if not first:
+        return frozenset()
+    done = before(task, first)
+    if done is None:
+        known = [path for path, part in walk(task) if path and not isinstance(part, Series)]
+        place = Node("text", "--from", 0, 0)
+        problems.add(place, f"there is no step {first!r} in this mission", nearest(first, known))
+        return frozenset()
+    return done

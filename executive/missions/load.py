@@ -1,0 +1,78 @@
+"""A mission file to its record: what is said once, before the steps are looked at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+from executive.missions.nodes import Node, parse, read_text, text_node
+from executive.missions.problems import Problems
+from executive.missions.reading import Reader
+from executive.missions.schema import MissionRecord
+
+SUFFIX = ".yaml"
+FOLDER = Path(__file__).resolve().parents[2] / "missions"
+"""The shipped missions."""
+
+
+class Mission(msgspec.Struct, frozen=True, kw_only=True, eq=False):
+    """A mission file that was read: its record, and its nodes for the places of what is wrong."""
+
+    path: Path
+    record: MissionRecord
+    node: Node
+
+    def beside(self, name: str) -> str:
+        """A name of a file beside this one as a path, other names as they are."""
+        if Path(name).suffix not in (".yaml", ".yml"):
+            return name
+        return str(self.path.parent / name)
+
+
+def find(name: str) -> Path:
+    """The file of a mission: a path, or the name of a shipped one."""
+    path = Path(name)
+    if path.exists() or path.suffix:
+        return path
+    shipped = FOLDER / f"{name}{SUFFIX}"
+    return shipped if shipped.exists() else path
+
+
+def shipped() -> list[Path]:
+    """The shipped missions."""
+    return sorted(FOLDER.glob(f"*{SUFFIX}"))
+
+
+def load(path: Path, problems: Problems) -> Mission | None:
+    """Read a mission file; None if nothing can be made of it, which is noted.
+
+    Raises:
+        ConfigError: it cannot be read at all.
+    """
+    node = parse(read_text(path), str(path))
+    if node.kind != "map":
+        problems.add(node, "a mission is a mapping", "begin with: name: ...")
+        return None
+    record = Reader(problems, _as_it_is).record(node, MissionRecord)
+    if record is None:
+        node = _sound(node)
+        record = Reader(Problems(), _as_it_is).record(node, MissionRecord)
+    return None if record is None else Mission(path=path, record=record, node=node)
+
+
+def _as_it_is(node: Node) -> Node:
+    return node
+
+
+def _sound(node: Node) -> Node:
+    """The outermost keys that can be read, so that the steps are looked at all the same."""
+    reader = Reader(Problems(), _as_it_is)
+    sound = Node("map", node.file, node.line, node.column)
+    sound.entries = {
+        key: entry for key, entry in node.entries.items() if reader.fits(node, MissionRecord, key)
+    }
+    if "parameters" in node.entries and "parameters" not in sound.entries:
+        return Node("map", node.file, node.line, node.column)
+    sound.entries.setdefault("name", (node, text_node("mission", node)))
+    return sound

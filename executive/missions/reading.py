@@ -1,0 +1,263 @@
+"""Nodes of a file to typed records, with every mistake noted where it stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import cache
+from typing import Any, TypeVar
+
+import msgspec
+from msgspec import inspect as types
+
+from executive.missions.nodes import Node
+from executive.missions.problems import Problems
+from executive.missions.schema import Record
+from robot.config import nearest
+
+T = TypeVar("T", bound=Record)
+
+Fill = Callable[[Node], "Node | None"]
+"""Puts the values of parameters into a text; None if that cannot be."""
+
+
+class Mistake(Exception):
+    """A value cannot be read; its problem is noted. Never leaves the reader."""
+
+
+class Reader:
+    """Reads records; what is wrong goes to `problems`."""
+
+    def __init__(self, problems: Problems, fill: Fill) -> None:
+        """Note problems in `problems`; texts go through `fill` first."""
+        self._problems = problems
+        self._fill = fill
+
+    def record(self, node: Node, kind: type[T]) -> T | None:
+        """A mapping as a record; None if anything in it is wrong."""
+        try:
+            return self._struct(node, _info(kind))
+        except Mistake:
+            return None
+
+    def fits(self, node: Node, kind: type[Record], key: str) -> bool:
+        """Whether one key of a mapping can be read."""
+        field = next((f for f in _info(kind).fields if f.encode_name == key), None)
+        entry = node.get(key)
+        if field is None or entry is None:
+            return False
+        try:
+            self._value(entry, field.type)
+        except Mistake:
+            return False
+        return True
+
+    def _value(self, node: Node, info: types.Type) -> Any:
+        if isinstance(info, types.CustomType):
+            return node
+        if isinstance(info, types.Metadata):
+            info = info.type
+        if node.kind == "text":
+            filled = self._fill(node) if "{{" in node.text else node
+            if filled is None:
+                raise Mistake
+            node = filled
+        if isinstance(info, types.UnionType):
+            info = self._choose(node, info)
+        match info:
+            case types.StructType():
+                return self._struct(node, info)
+            case types.VarTupleType() | types.ListType():
+                return self._list(node, info)
+            case types.DictType():
+                return self._dict(node, info)
+            case types.AnyType():
+                return node.plain_data
+            case _:
+                return self._scalar(node, info)
+
+    def _choose(self, node: Node, info: types.UnionType) -> types.Type:
+        """The member of a union that fits the shape of a node best."""
+        members = _members(info)
+        if node.kind == "map":
+            kinds = (types.StructType, types.DictType)
+        elif node.kind == "list":
+            kinds = (types.VarTupleType, types.ListType)
+        else:
+            kinds = _SCALARS.get(type(node.value), (types.StrType, types.LiteralType))
+        fitting = (t for kind in kinds for t in members if isinstance(t, kind))
+        found = next(fitting, None)
+        if found is not None:
+            return found
+        words = " or ".join(dict.fromkeys(_words(t) for t in members))
+        raise self._wrong(node, f"{_shape(node)} where {words} should be")
+
+    def _struct(self, node: Node, info: types.StructType) -> Any:
+        fields = _fields(info)
+        if node.kind != "map":
+            keys = ", ".join(fields)
+            raise self._wrong(node, f"{_shape(node)} where a mapping should be", f"keys: {keys}")
+        found: dict[str, Any] = {}
+        bad = False
+        for name, (key, value) in node.entries.items():
+            field = fields.get(name)
+            if field is None:
+                bad = True
+                self._problems.add(key, f"unknown key {name!r}", nearest(name, list(fields)))
+                continue
+            try:
+                found[field.name] = self._value(value, field.type)
+            except Mistake:
+                bad = True
+        for name, field in fields.items():
+            if field.required and name not in node.entries:
+                bad = True
+                self._problems.add(node, f"the key {name!r} is missing", "add it")
+        if bad:
+            raise Mistake
+        return info.cls(**found)
+
+    def _list(self, node: Node, info: types.VarTupleType | types.ListType) -> Any:
+        if node.kind != "list":
+            raise self._wrong(node, f"{_shape(node)} where a list should be", "begin it with -")
+        if len(node.items) < (info.min_length or 0):
+            raise self._wrong(node, f"a list of at least {info.min_length} should be here")
+        values: list[Any] = []
+        bad = False
+        for item in node.items:
+            try:
+                values.append(self._value(item, info.item_type))
+            except Mistake:
+                bad = True
+        if bad:
+            raise Mistake
+        return tuple(values)
+
+    def _dict(self, node: Node, info: types.DictType) -> Any:
+        if node.kind != "map":
+            raise self._wrong(node, f"{_shape(node)} where a mapping should be")
+        values: dict[str, Any] = {}
+        bad = False
+        for name, (_, value) in node.entries.items():
+            try:
+                values[name] = self._value(value, info.value_type)
+            except Mistake:
+                bad = True
+        if bad:
+            raise Mistake
+        return values
+
+    def _scalar(self, node: Node, info: types.Type) -> Any:
+        value = node.value if node.kind == "text" else None
+        match info:
+            case types.StrType() if node.kind == "text" and value is not None:
+                return self._text(node, info)
+            case types.BoolType() if isinstance(value, bool):
+                return value
+            case types.IntType() if isinstance(value, int) and not isinstance(value, bool):
+                return self._bounded(node, value, info)
+            case types.FloatType() if isinstance(value, int | float) and not isinstance(
+                value, bool
+            ):
+                return self._bounded(node, float(value), info)
+            case types.LiteralType():
+                if node.text in info.values:
+                    return node.text
+                valid = [str(v) for v in info.values]
+                raise self._wrong(
+                    node, f"{_shape(node)} is none of those", nearest(node.text, valid)
+                )
+            case _:
+                raise self._wrong(node, f"{_shape(node)} where {_words(info)} should be")
+
+    def _text(self, node: Node, info: types.StrType) -> str:
+        text = node.text
+        if not text.strip() or len(text) < (info.min_length or 0):
+            raise self._wrong(node, "an empty text")
+        if info.max_length is not None and len(text) > info.max_length:
+            raise self._wrong(node, f"a text of more than {info.max_length} characters")
+        if info.pattern is not None and not re.search(info.pattern, text):
+            cure = "lower case letters, digits and _, a letter first"
+            raise self._wrong(node, f"{text!r} is no name", cure)
+        return text
+
+    def _bounded(self, node: Node, value: float, info: types.IntType | types.FloatType) -> float:
+        if not -1e9 < value < 1e9:
+            raise self._wrong(node, f"{node.text} is beyond anything that can be meant")
+        if info.gt is not None and value <= info.gt:
+            raise self._wrong(node, f"{node.text} should be more than {info.gt:g}")
+        return value
+
+    def _wrong(self, node: Node, message: str, cure: str = "") -> Mistake:
+        self._problems.add(node, message, cure)
+        return Mistake()
+
+
+_SCALARS: dict[type, tuple[type[types.Type], ...]] = {
+    bool: (types.BoolType,),
+    int: (types.IntType, types.FloatType, types.StrType),
+    float: (types.FloatType, types.StrType),
+}
+
+
+@cache
+def _info(kind: type[Record]) -> types.StructType:
+    info = msgspec.inspect.type_info(kind)
+    assert isinstance(info, types.StructType)
+    return info
+
+
+def _fields(info: types.StructType) -> dict[str, types.Field]:
+    known = _FIELDS.get(id(info))
+    if known is None:
+        known = _FIELDS[id(info)] = {field.encode_name: field for field in info.fields}
+    return known
+
+
+_FIELDS: dict[int, dict[str, types.Field]] = {}
+
+
+def _members(info: types.UnionType) -> list[types.Type]:
+    """The members of a union, of unions inside it too, without the empty one."""
+    known = _MEMBERS.get(id(info))
+    if known is None:
+        known = _MEMBERS[id(info)] = []
+        for member in info.types:
+            bare = member.type if isinstance(member, types.Metadata) else member
+            if isinstance(bare, types.UnionType):
+                known += _members(bare)
+            elif not isinstance(bare, types.NoneType):
+                known.append(bare)
+    return known
+
+
+_MEMBERS: dict[int, list[types.Type]] = {}
+"""By the identity of the union; the types of records live as long as the program."""
+
+
+def _shape(node: Node) -> str:
+    """What stands there, for people."""
+    if node.kind != "text":
+        return "a list" if node.kind == "list" else "a mapping"
+    if node.value is None:
+        return "nothing"
+    return repr(node.text if len(node.text) <= 40 else node.text[:37] + "...")
+
+
+def _words(info: types.Type) -> str:
+    """What should stand there, for people."""
+    match info:
+        case types.StrType():
+            return "a text"
+        case types.BoolType():
+            return "true or false"
+        case types.IntType():
+            return "a whole number"
+        case types.FloatType():
+            return "a number"
+        case types.LiteralType():
+            return "one of " + ", ".join(str(value) for value in info.values)
+        case types.VarTupleType() | types.ListType():
+            return "a list"
+        case _:
+            return "a mapping"
