@@ -6,7 +6,9 @@ down before anything is run.
 
 from __future__ import annotations
 
+import functools
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -32,9 +34,10 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         world: by name or path.
         start: where the robot starts (x [m], y [m], heading [deg]); the world's start by default.
         faults: what strikes, and when (`executive.faults`).
-        expect: "recovered", or the codes of failure with which it may end safely.
+        expect: "recovered", or the codes of failure with which it may end safely; a run that is
+            done in truth all the same is better than expected.
         damped: whether the motors may damp at the end, and the robot lie.
-        truth: what has to be so in the simulator at the end of a run that recovered (`sim.judge`).
+        truth: what has to be so in the simulator at the end of a run that is done (`sim.judge`).
         limit_s: simulated time after which a run is ended as hanging.
         why: what the robot is expected to do about it, in words.
     """
@@ -89,12 +92,14 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     """
     node = config.read_yaml(path)
     cases = config.convert(node, Campaign, file=str(path)).cases
+    body = description.load(robot)
+    world = functools.cache(entry.world)
     problems = [
         Problem(
             f"{case.name}: {text}", file=str(path), line=config.line_of(node, f"$.cases[{index}]")
         )
         for index, case in enumerate(cases)
-        for text in problems_of(case, robot=robot)
+        for text in problems_of(case, world, body)
     ]
     names = [case.name for case in cases]
     problems += [
@@ -106,7 +111,7 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     return cases
 
 
-def problems_of(case: Case, *, robot: str) -> list[str]:
+def problems_of(case: Case, load_world: Callable[[str], Any], body: Any) -> list[str]:
     """Everything wrong with a case that can be found without running it."""
     found = [
         f"unknown failure code {code!r}; {config.nearest(code, list(CATALOGUE))}"
@@ -118,7 +123,7 @@ def problems_of(case: Case, *, robot: str) -> list[str]:
     if not 0.0 < case.limit_s < math.inf:
         found.append("limit_s is a time above 0")
     try:
-        world, body = entry.world(case.world), description.load(robot)
+        world = load_world(case.world)
         entry.attribute(READ_CHECKS)(case.truth, world)
         for data in case.faults:
             faults.verify(faults.plan(data).fault, world, body)

@@ -152,7 +152,8 @@ class _Trial:
         safe = verdict.upright or (case.damped and verdict.damped)
         code, cause = (reason.code, reason.cause) if reason else ("done", "")
         wrong = verdict.wrong if code == "done" else ()
-        as_expected = code == "done" and not wrong if case.recovers else code in case.codes
+        done = code == "done" and not wrong and (case.recovers or bool(case.truth))
+        as_expected = done or code in case.codes
         return Record(
             key=run.key,
             case=case.name,

@@ -1,0 +1,110 @@
+"""Campaigns are checked before they run, resumed after a kill, and summed up by the truth."""
+
+import json
+
+import pytest
+
+from executive.evaluation import campaign, report
+from executive.evaluation.campaign import Case
+from executive.evaluation.record import Record, Results, fingerprint
+from robot.errors import ConfigError
+
+FAULTS = (
+    "missed grasp", "object knocked over", "object dropped while carrying",
+    "object moved after it was seen", "object gone", "place occupied", "path blocked for a while",
+    "path blocked for good", "chair pushed into the way", "push while walking",
+    "push while reaching", "camera silent", "lidar silent", "localisation jump",
+    "controller killed", "executive killed", "planner over budget", "a person steps in front",
+    "hot motor", "low battery", "disk full",
+)  # fmt: skip
+
+
+def record(case="a", seed=0, *, ok=True, recovery=True, code="done", **more):
+    key = f"{case}/{seed}" + ("" if recovery else "/no-recovery")
+    return Record(key=key, case=case, seed=seed, recovery=recovery, ok=ok, code=code, **more)
+
+
+def test_the_shipped_campaign_is_sound_and_has_every_fault():
+    cases = campaign.load(campaign.SHIPPED)
+    assert set(FAULTS) <= {case.name for case in cases}
+    for case in cases:
+        assert case.why, case.name
+        assert bool(case.codes) != case.recovers
+        assert case.truth or not case.recovers
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("expect: [no_grip]", "did you mean 'no_grasp'"),
+        ("expect: fine", "'recovered' or a list"),
+        ("world: bensh", "did you mean 'bench'"),
+        ("faults: [{fault: remov, target: red_cup}]", "did you mean 'remove'"),
+        ("faults: [{fault: remove, target: red_cop}]", "did you mean 'red_cup'"),
+        ("truth: [{object: red_cap, held: true}]", "did you mean 'red_cup'"),
+        ("truth: [{object: red_cup}]", "a check is"),
+        ("fault: []", "did you mean 'faults'"),
+        ("limit_s: -3", "above 0"),
+    ],
+)
+def test_mistakes_are_found_before_anything_runs(tmp_path, change, message):
+    path = tmp_path / "mine.yaml"
+    path.write_text(f"cases:\n  - name: x\n    mission: pick up the red cup\n    {change}\n")
+    with pytest.raises(ConfigError, match=message) as error:
+        campaign.load(path)
+    assert all(problem.line for problem in error.value.problems)
+
+
+def test_runs_take_every_seed_of_all_cases_before_the_next():
+    cases = (Case(name="a", mission="stand"), Case(name="b", mission="stand"))
+    keys = [run.key for run in campaign.runs(cases, seeds=2, without_too=True, robot="juno")]
+    assert keys[:4] == ["a/0", "a/0/no-recovery", "b/0", "b/0/no-recovery"]
+    assert len(set(keys)) == 8
+
+
+def test_results_survive_a_kill_in_the_middle_of_a_line(tmp_path):
+    cases = (Case(name="a", mission="stand"),)
+    runs = campaign.runs(cases, seeds=3, without_too=False, robot="juno")
+    first = Results(tmp_path, fingerprint="x")
+    first.add(record(seed=0))
+    first.add(record(seed=1))
+    data = first.path.read_bytes()
+    first.path.write_bytes(data[:-20])
+    second = Results(tmp_path, fingerprint="x")
+    assert [run.key for run in second.left(runs)] == ["a/1", "a/2"]
+    second.add(record(seed=1))
+    third = Results(tmp_path, fingerprint="y")
+    assert [run.key for run in third.left(runs)] == ["a/2"]
+    assert (first.stale, third.stale) == (False, True)
+
+
+def test_the_table_tells_what_recovery_brings_and_what_went_wrong():
+    cases = (Case(name="a", mission="stand"), Case(name="b", mission="x", expect=("no_grasp",)))
+    records = [
+        *(record("a", seed) for seed in range(19)),
+        record("a", 19, ok=False, code="fallen", unsafe=True),
+        *(record("a", seed, recovery=False, ok=seed < 5, code="timeout") for seed in range(20)),
+        record("b", 0, code="no_grasp"),
+        record("b", 1, ok=False, code="exception", unsafe=True),
+    ]
+    found = report.report(cases, records)
+    a, b = found.rows
+    assert (a.with_recovery.ok, a.with_recovery.runs) == (19, 20)
+    assert a.without.ok == 5
+    assert a.with_recovery.wrong == {"fallen, unsafe": 1}
+    assert a.seeds_wrong == (19,)
+    assert b.expect == "no_grasp"
+    assert (found.worst, found.unsafe, found.without_code) == (0.5, 2, 1)
+    text = report.markdown(found)
+    assert "| a | recovered | 19/20 | 5/20 |" in text
+    assert "oracle" in text
+
+
+def test_the_fingerprint_follows_the_code(tmp_path):
+    (tmp_path / "sim").mkdir()
+    code = tmp_path / "sim" / "a.py"
+    code.write_text("1")
+    before = fingerprint(tmp_path)
+    code.write_text("2")
+    assert fingerprint(tmp_path) != before
+    assert json.dumps(before)
