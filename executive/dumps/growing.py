@@ -48,6 +48,11 @@ class Growth:
         self._statuses: dict[int, Status] = {}
         self._renewed: dict[int, float] = {}
         self._titles: list[str] = []
+        self._remedied_s = -1.0
+
+    def remedied(self, t_s: float) -> None:
+        """A remedy was chosen: the node that did so is about to fail, as it always does."""
+        self._remedied_s = t_s
 
     def begin(self, title: str) -> None:
         """A job is about to get its part of the tree: the next one under a node of kind `jobs`."""
@@ -74,10 +79,27 @@ class Growth:
         self._statuses[node.id] = told.status
         if told.status == "running" and before in ("success", "failure"):
             self._renew(t_s, node)
+        if node.kind == "check" and told.status in ("success", "failure"):
+            self._answer(t_s, node, told.status)
+            return node.id
         state = self._state(t_s, node, told.status)
         if state is not None:
             node.changes.append(Change(t_s, state, told.note))
         return node.id
+
+    def _answer(self, t_s: float, node: Node, status: Status) -> None:
+        """A question that is answered with no has not failed, nor has what asked it first."""
+        if status == "success":
+            node.changes.append(Change(t_s, "done", "yes"))
+            return
+        node.changes.append(Change(t_s, "waiting", "no"))
+        asks = self._nodes.get(node.parent)
+        if asks is None or asks.children[0] != node.id or not asks.changes:
+            return
+        if asks.changes[-1].state == "failed" and asks.changes[-1].t_s == t_s:
+            asks.changes.pop()
+            if _past(asks):
+                asks.changes.append(Change(t_s, "waiting"))
 
     def phase(self, t_s: float, step: str, text: str) -> None:
         """Take a ``phase`` event: a running skill of that name says something else of itself."""
@@ -165,6 +187,8 @@ class Growth:
 
     def _state(self, t_s: float, node: Node, status: Status) -> State | None:
         """What a new status is for people; None when it is nothing new."""
+        if node.kind == "recover" and status == "failure" and self._remedied_s == t_s:
+            return "done"
         if status != "invalid":
             return _STATES[status]
         if self._renewed.get(node.id) == t_s:

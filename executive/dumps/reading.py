@@ -65,7 +65,7 @@ class Reader:
             "board": self._board,
             "health": self._health,
             "failure": troubles.failure,
-            "recovery": troubles.recovery,
+            "recovery": self._recovery,
             "no recovery": troubles.no_recovery,
             "done": troubles.done,
             "outcome": troubles.outcome,
@@ -129,6 +129,10 @@ class Reader:
         number = self._growth.node(t_s, data)
         if data["status"] == "failure":
             self._troubles.node_failed(t_s, number)
+
+    def _recovery(self, t_s: float, data: Mapping[str, Any]) -> None:
+        self._troubles.recovery(t_s, data)
+        self._growth.remedied(t_s)
 
     def _phase(self, t_s: float, data: Mapping[str, Any]) -> None:
         self._growth.phase(t_s, str(data["step"]), str(data["phase"]))

@@ -14,10 +14,21 @@ function el(tag, options = {}, ...children) {
   return element;
 }
 
+/** Sizes in CSS pixels of what is drawn into, kept by an observer: asking costs a layout. */
+const sizes = {};
+function measureAll() {
+  for (const id of ["overview", "lane", "bars", "map", "scroller"]) sizes[id] = [$(id).clientWidth, $(id).clientHeight];
+}
+const heights = new Map();
+function setHeight(id, height) {
+  if (heights.get(id) === height) return;
+  heights.set(id, height);
+  $(id).style.height = `${height}px`;
+}
+
 /** The canvas's context, cleared, in CSS pixels; with its size. */
-function fresh(canvas, height) {
-  const ratio = window.devicePixelRatio || 1;
-  const width = canvas.clientWidth, tall = height ?? canvas.clientHeight;
+function fresh(canvas, tall = sizes[canvas.id][1]) {
+  const ratio = window.devicePixelRatio || 1, width = sizes[canvas.id][0];
   const [w, h] = [Math.round(width * ratio), Math.round(tall * ratio)];
   if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
   const pen = canvas.getContext("2d");
@@ -42,19 +53,16 @@ function hatch(pen, state) {
     const tile = document.createElement("canvas");
     tile.width = tile.height = 6;
     const t = tile.getContext("2d");
-    t.fillStyle = colours[state];
-    t.fillRect(0, 0, 6, 6);
-    t.strokeStyle = t.fillStyle = colours.ground;
+    t.strokeStyle = t.fillStyle = colours[state];
     t.lineWidth = 1.4;
     if (state === "failed") {
       t.beginPath(); t.moveTo(-1, 7); t.lineTo(7, -1); t.moveTo(-4, 4); t.lineTo(4, -4);
       t.moveTo(2, 10); t.lineTo(10, 2); t.stroke();
-    } else { t.fillRect(1, 2, 2, 2); t.fillRect(4, 5, 2, 1); }
+    } else { t.fillRect(1, 1, 2, 2); t.fillRect(4, 4, 2, 2); }
     hatches.set(state, pen.createPattern(tile, "repeat"));
   }
   return hatches.get(state);
 }
-const paint = (pen, state) => (state === "failed" || state === "stopped" ? hatch(pen, state) : colours[state]);
 
 /** Text cut to a width. */
 function fitted(pen, text, width) {

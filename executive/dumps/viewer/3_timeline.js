@@ -46,43 +46,70 @@ function layRows() {
   const parents = new Set();
   rows.forEach((row, i) => { if (rows[i + 1]?.depth > row.depth || folded.has(row.node.id)) parents.add(row.node.id); });
   for (const row of rows) row.folds = parents.has(row.node.id);
-  $("spacer").style.height = `${rows.length * ROW}px`;
+  setHeight("spacer", rows.length * ROW);
 }
 
-function drawName(row, top) {
-  const { node } = row, state = stateAt(node, now), there = inView(node, now);
-  const fold = row.folds
-    ? el("button", { class: "fold", textContent: folded.has(node.id) ? "▸" : "▾", tabIndex: -1,
-      title: "collapse or expand", onclick: (event) => { event.stopPropagation(); toggle(node); } })
-    : el("span", { class: "fold" });
-  const note = there && state === "running" ? noteAt(node, now) : there && state === "failed" ? noteAt(node, now) : "";
-  const element = el("div", {
-    class: `row ${there ? state : "waiting"}${there ? "" : " gone"}${row.aside ? " aside" : ""}${node.id === selected ? " selected" : ""}`,
-    role: "treeitem", "aria-level": row.depth + 1, "aria-selected": node.id === selected,
-    onclick: () => select(node.id), ondblclick: () => zoomTo(node),
-  }, fold,
-  el("span", { class: "mark", textContent: there ? MARKS[state] : " ", title: there ? state : "not in the tree now" }),
-  el("span", { class: "name", textContent: node.label, title: `${node.label} (${node.kind.replaceAll("_", " ")})` }),
-  el("span", { class: "note", textContent: note, title: note }));
-  element.style.top = `${top}px`;
-  element.style.paddingLeft = `${4 + row.depth * 14}px`;
-  return element;
+/** Elements of rows, used again and again: what has not changed is not touched. */
+const pool = [];
+function pooled(index) {
+  while (pool.length <= index) {
+    const parts = {
+      fold: el("button", { class: "fold", tabIndex: -1, title: "collapse or expand" }),
+      mark: el("span", { class: "mark" }), name: el("span", { class: "name" }), note: el("span", { class: "note" }),
+    };
+    const element = el("div", { role: "treeitem" }, parts.fold, parts.mark, parts.name, parts.note);
+    pool.push({ element, key: "", top: null, node: null, ...parts });
+    $("names").append(element);
+  }
+  return pool[index];
+}
+
+function drawName(slot, row, top) {
+  const { node } = row, there = inView(node, now), state = there ? stateAt(node, now) : "waiting";
+  const note = state === "running" || state === "failed" || state === "waiting" ? noteAt(node, now) : "";
+  const shut = folded.has(node.id), chosen_ = node.id === selected;
+  slot.node = node;
+  if (slot.top !== top) { slot.top = top; slot.element.style.transform = `translateY(${top}px)`; }
+  const key = [node.id, there, state, note, row.depth, row.folds, shut, row.aside, chosen_].join("|");
+  if (slot.key === key) return;
+  slot.key = key;
+  slot.element.className = `row ${state}${there ? "" : " gone"}${row.aside ? " aside" : ""}${chosen_ ? " selected" : ""}`;
+  slot.element.setAttribute("aria-level", row.depth + 1);
+  slot.element.setAttribute("aria-selected", chosen_);
+  slot.element.style.paddingLeft = `${4 + row.depth * 14}px`;
+  slot.element.hidden = false;
+  slot.fold.textContent = row.folds ? (shut ? "▸" : "▾") : "";
+  slot.mark.textContent = there ? MARKS[state] : " ";
+  slot.mark.title = there ? state : "not in the tree now";
+  slot.name.textContent = node.label;
+  slot.name.title = `${node.label} (${node.kind.replaceAll("_", " ")})`;
+  slot.note.textContent = slot.note.title = note;
+}
+
+function namesInput() {
+  const slotOf = (event) => pool.find((slot) => slot.element.contains(event.target));
+  $("names").addEventListener("click", (event) => {
+    const slot = slotOf(event);
+    if (!slot) return;
+    if (event.target === slot.fold && slot.fold.textContent) toggle(slot.node); else select(slot.node.id);
+  });
+  $("names").addEventListener("dblclick", (event) => { const slot = slotOf(event); if (slot) zoomTo(slot.node); });
 }
 
 function drawRows() {
-  const scroller = $("scroller"), tall = printing ? Math.min(rows.length, 150) * ROW : scroller.clientHeight;
+  const scroller = $("scroller"), tall = printing ? Math.min(rows.length, 150) * ROW : sizes.scroller[1];
   const top = printing ? 0 : scroller.scrollTop;
-  $("window").style.height = `${tall}px`;
   const first = Math.floor(top / ROW), last = Math.min(rows.length, Math.ceil((top + tall) / ROW));
-  const names = [];
-  for (let i = first; i < last; i++) names.push(drawName(rows[i], i * ROW - top));
-  $("names").replaceChildren(...names);
-  const canvas = $("bars");
-  canvas.style.height = `${tall}px`;
-  const { pen, width } = fresh(canvas, tall);
+  setHeight("window", tall);
+  setHeight("bars", tall);
+  const { pen, width } = fresh($("bars"), tall);
   grid(pen, width, tall);
   for (let i = first; i < last; i++) drawBars(pen, rows[i], i * ROW - top, width);
   nowLine(pen, width, tall);
+  for (let i = first; i < last; i++) drawName(pooled(i - first), rows[i], i * ROW - top);
+  for (let i = Math.max(0, last - first); i < pool.length; i++) {
+    if (!pool[i].element.hidden) { pool[i].element.hidden = true; pool[i].key = ""; }
+  }
 }
 
 function drawBars(pen, row, y, width) {
@@ -102,8 +129,7 @@ function drawBars(pen, row, y, width) {
     if (state === "running") {
       const how = endOf(node, i), wide = Math.max(x1 - x0, 2);
       if (x0 + wide <= drawn && how !== "failed") continue; // too small to be seen beside its neighbour
-      pen.fillStyle = paint(pen, how);
-      pen.fillRect(x0, y + 4, wide, ROW - 8);
+      bar(pen, how, x0, y + 4, wide, ROW - 8);
       drawn = x0 + wide;
       if (x1 - x0 > 30) label(pen, node, begin, end, width, y, how);
       if (how === "failed") cross(pen, x1, y + ROW / 2);
@@ -121,17 +147,35 @@ function drawBars(pen, row, y, width) {
   pen.globalAlpha = 1;
 }
 
+/** A bar; failed and stopped ones are light and hatched, so that text can be read on them. */
+function bar(pen, state, x, y, width, height) {
+  const light = state === "failed" || state === "stopped";
+  const alpha = pen.globalAlpha;
+  pen.fillStyle = colours[state];
+  if (!light) { pen.fillRect(x, y, width, height); return; }
+  pen.globalAlpha = alpha * 0.16;
+  pen.fillRect(x, y, width, height);
+  pen.globalAlpha = alpha * 0.45;
+  pen.fillStyle = hatch(pen, state);
+  pen.fillRect(x, y, width, height);
+  pen.globalAlpha = alpha;
+  pen.strokeStyle = colours[state];
+  pen.lineWidth = 1;
+  if (width > 3) pen.strokeRect(x + 0.5, y + 0.5, width - 1, height - 1);
+  else { pen.fillStyle = colours[state]; pen.fillRect(x, y, width, height); }
+}
+
 /** What a node says of itself inside its bar, phase by phase, as far as there is room. */
 function label(pen, node, begin, end, width, y, how) {
-  if (how === "failed" || how === "stopped") return;
   pen.font = "11px system-ui, sans-serif";
-  const ink = document.documentElement.dataset.theme === "dark" ? "#0c1118" : "#ffffff";
+  const light = how === "failed" || how === "stopped";
+  const ink = light ? colours.text : theme() === "dark" ? "#0c1118" : "#ffffff";
   let i = lastBefore(node.changes, begin);
   let t = begin;
   while (t < end - 1e-9) {
     const next = node.changes[i + 1], until = Math.min(next ? next[0] : end, end);
     const x0 = Math.max(xOf(t, width), 0), x1 = Math.min(xOf(until, width), width);
-    pen.fillStyle = colours.ground;
+    pen.fillStyle = light ? colours[how] : colours.ground;
     if (t > begin && x0 > 0) pen.fillRect(x0, y + 4, 1, ROW - 8);
     if (x1 - x0 > 34) {
       pen.fillStyle = ink;
@@ -223,12 +267,12 @@ function timeInput(canvas, tip) {
     canvas.setPointerCapture(event.pointerId);
     dragging = event.shiftKey || event.button === 1 ? "pan" : "scrub";
     last = event.offsetX;
-    if (dragging === "scrub") setNow(tOf(event.offsetX, canvas.clientWidth));
+    if (dragging === "scrub") setNow(tOf(event.offsetX, sizes[canvas.id][0]));
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (dragging === "scrub") setNow(tOf(event.offsetX, canvas.clientWidth));
+    if (dragging === "scrub") setNow(tOf(event.offsetX, sizes[canvas.id][0]));
     if (dragging === "pan") {
-      const shift = tOf(last, canvas.clientWidth) - tOf(event.offsetX, canvas.clientWidth);
+      const shift = tOf(last, sizes[canvas.id][0]) - tOf(event.offsetX, sizes[canvas.id][0]);
       last = event.offsetX;
       setView(view.from + shift, view.to + shift);
     }
@@ -239,9 +283,9 @@ function timeInput(canvas, tip) {
   canvas.addEventListener("wheel", (event) => {
     const sideways = Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey;
     if (event.ctrlKey || event.metaKey || event.altKey) {
-      zoom(Math.exp(event.deltaY * 0.002), tOf(event.offsetX, canvas.clientWidth));
+      zoom(Math.exp(event.deltaY * 0.002), tOf(event.offsetX, sizes[canvas.id][0]));
     } else if (sideways) {
-      const shift = ((event.deltaX || event.deltaY) / canvas.clientWidth) * (view.to - view.from);
+      const shift = ((event.deltaX || event.deltaY) / sizes[canvas.id][0]) * (view.to - view.from);
       setView(view.from + shift, view.to + shift);
     } else return;
     event.preventDefault();
@@ -251,7 +295,7 @@ function timeInput(canvas, tip) {
 function barTip(event) {
   const row = rows[Math.floor((event.offsetY + $("scroller").scrollTop) / ROW)];
   if (!row) return "";
-  const t = tOf(event.offsetX, $("bars").clientWidth);
+  const t = tOf(event.offsetX, sizes.bars[0]);
   const index = lastBefore(row.node.spans, t), found = row.node.spans[index];
   const note = noteAt(row.node, t);
   let text = `${row.node.label}\n${clock(t)}: ${stateAt(row.node, t)}`;

@@ -87,7 +87,7 @@ function drawBands(pen, width, top, bands, colour, text) {
 }
 
 function laneTip(event) {
-  const width = $("lane").clientWidth, t = tOf(event.offsetX, width), lane = Math.floor(event.offsetY / LANE);
+  const width = sizes.lane[0], t = tOf(event.offsetX, width), lane = Math.floor(event.offsetY / LANE);
   if (lane === 1) {
     const near = marked.filter((line) => Math.abs(xOf(line[0], width) - event.offsetX) < 7);
     return near.slice(0, 6).map((line) => `${clock(line[0])}  ${line[2]}`).join("\n");
@@ -112,16 +112,19 @@ const busy = (() => { // how many leaves run, over 400 slices of the run
   return slices;
 })();
 
+const most = busy.reduce((a, b) => Math.max(a, b), 1);
 let selecting = null;
 function drawOverview() {
   const { pen, width, height } = fresh($("overview"));
-  const at = (t) => ((t - BEGIN) / (END - BEGIN)) * width, most = Math.max(1, ...busy);
+  const at = (t) => ((t - BEGIN) / (END - BEGIN)) * width;
   pen.fillStyle = colours.running;
   pen.globalAlpha = 0.55;
+  pen.beginPath();
   busy.forEach((count, i) => {
     const tall = count ? 4 + (count / most) * 12 : 0;
-    pen.fillRect((i * width) / 400, height - 8 - tall, width / 400 + 0.5, tall);
+    if (tall) pen.rect((i * width) / 400, height - 8 - tall, width / 400 + 0.5, tall);
   });
+  pen.fill();
   pen.globalAlpha = 0.35;
   for (const [begin, end, level] of healthBands) {
     pen.fillStyle = LEVELS.indexOf(level) >= 3 ? colours.failed : colours.warn;
@@ -143,14 +146,14 @@ function drawOverview() {
 }
 
 function overviewInput() {
-  const canvas = $("overview"), at = (x) => BEGIN + (x / canvas.clientWidth) * (END - BEGIN);
+  const canvas = $("overview"), at = (x) => BEGIN + (x / sizes.overview[0]) * (END - BEGIN);
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     selecting = [event.offsetX, event.offsetX];
   });
   canvas.addEventListener("pointermove", (event) => {
     if (!selecting) return;
-    selecting[1] = Math.min(Math.max(event.offsetX, 0), canvas.clientWidth);
+    selecting[1] = Math.min(Math.max(event.offsetX, 0), sizes.overview[0]);
     redraw();
   });
   canvas.addEventListener("pointerup", () => {

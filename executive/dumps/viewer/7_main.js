@@ -55,8 +55,8 @@ function reveal(node) {
   const index = rows.findIndex((row) => row.node.id === node.id), scroller = $("scroller");
   if (index < 0) return;
   const y = index * ROW;
-  if (y < scroller.scrollTop || y > scroller.scrollTop + scroller.clientHeight - 2 * ROW) {
-    scroller.scrollTop = y - scroller.clientHeight / 2;
+  if (y < scroller.scrollTop || y > scroller.scrollTop + sizes.scroller[1] - 2 * ROW) {
+    scroller.scrollTop = y - sizes.scroller[1] / 2;
   }
 }
 
@@ -120,14 +120,13 @@ function drawLegend() {
     canvas.width = 52; canvas.height = 24;
     const pen = canvas.getContext("2d");
     pen.scale(2, 2);
-    pen.fillStyle = paint(pen, state);
-    pen.fillRect(0, 0, 26, 12);
+    bar(pen, state, 0, 0, 26, 12);
     return item;
   }), el("span", { textContent: "a bar: running, coloured by how it ended; a thin line: what it ended as" }));
 }
 
 const KEYS = [
-  ["← →", "to the last or next change", () => {}], ["Shift ← →", "one second back or on"], [", .", "one tick (0.05 s) back or on"],
+  ["← →", "to the last or next change"], ["Shift ← →", "one second back or on"], [", .", "one tick (0.05 s) back or on"],
   ["[ ]", "previous or next failure"], ["Home End", "beginning, end"], ["Space", "play, pause"],
   ["+ − 0", "zoom in, out, the whole run"], ["Ctrl wheel", "zoom; Shift wheel or Shift drag: pan"],
   ["↑ ↓ Enter", "choose a node; collapse or expand it"], ["/", "filter by name"], ["i", "inner nodes"], ["t", "dark or light"], ["?", "this"],
@@ -196,12 +195,13 @@ function listen() {
   $("scroller").addEventListener("scroll", () => drawRows());
   $("panel").addEventListener("scroll", () => long?.render());
   document.addEventListener("keydown", onKey);
-  const resized = new ResizeObserver(redraw);
-  for (const id of ["scroller", "map", "bars", "overview"]) resized.observe($(id));
+  const resized = new ResizeObserver(() => { measureAll(); redraw(); });
+  for (const id of ["scroller", "map", "bars", "overview", "lane"]) resized.observe($(id));
   addEventListener("hashchange", () => { recall(); drawTabs(); redraw(); });
   let before = "";
-  addEventListener("beforeprint", () => { before = theme(); printing = true; setTheme("light"); draw(); });
-  addEventListener("afterprint", () => { printing = false; setTheme(before); });
+  addEventListener("beforeprint", () => { before = theme(); printing = true; measureAll(); setTheme("light"); draw(); });
+  addEventListener("afterprint", () => { printing = false; measureAll(); setTheme(before); });
+  namesInput();
   timeInput($("bars"), barTip);
   timeInput($("lane"), laneTip);
   overviewInput();
@@ -211,6 +211,7 @@ function listen() {
 $("lanenames").replaceChildren(...["time", "events", "health", "body"].map((text) => el("div", { textContent: text })));
 recall();
 head();
+measureAll();
 listen();
 drawTabs();
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
