@@ -81,10 +81,15 @@ class ObjectQuery(_Slots, frozen=True, kw_only=True):
 
 
 class Relation(_Slots, frozen=True, kw_only=True):
-    """A place relative to another object: the cup *behind the bottle*."""
+    """A place relative to another object: the cup *behind the bottle*.
+
+    Attributes:
+        other: The second of two things that something is between.
+    """
 
     how: How
     of: ObjectQuery
+    other: ObjectQuery | None = None
 
 
 class Clothing(_Slots, frozen=True, kw_only=True):

@@ -10,7 +10,9 @@ from msgspec.structs import replace
 from intents.english import lexicon
 from intents.english.clauses import connector_end
 from intents.english.conditions import condition
+from intents.english.constructions import Constructions
 from intents.english.corrections import correction_end, substitute
+from intents.english.joining import joined
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
@@ -18,7 +20,6 @@ from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot
-from intents.english.sentences import Clauses
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
@@ -32,6 +33,7 @@ from intents.goals import (
     Goal,
     GoTo,
     Greet,
+    Holding,
     If,
     LookAt,
     ObjectQuery,
@@ -49,10 +51,11 @@ _HELLO = lexicon.phrases(
 )
 
 
+_OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 _DEEPEST = 4
 
 
-class Grammar(Clauses):
+class Grammar(Constructions):
     """Reads one sentence.
 
     Attributes:
@@ -109,6 +112,7 @@ class Grammar(Clauses):
                 found[0] = _told_there(goals[-1], found[0])
                 if _already_sought(goals[-1], found[0]):
                     goals.pop()
+                found[0] = joined(goals, found[0])
             last = len(goals)
             goals += found
             for goal in found:
@@ -133,9 +137,11 @@ class Grammar(Clauses):
             lambda: self._times(at),
             lambda: self._repeat(at, before),
             lambda: self._before(at),
+            lambda: self.construction(at),
             lambda: self.question(at),
             lambda: self.pose(at),
             lambda: self.asker(at),
+            lambda: self.about_thing(at),
             lambda: self._verb(at),
             lambda: self.fronted(at),
             lambda: self._statement(at, before),
@@ -188,6 +194,8 @@ class Grammar(Clauses):
         again = list(before or self.history)
         if not again:
             raise Unclear("What shall I repeat?")
+        if text.words[verb - 2] == "do" or text.words[verb - 1] in ("thing", "so"):
+            before.clear()  # wave, and do that three times: three times in all
         if times > 1:
             return [Repeat(times=times, goals=tuple(again))], at
         return list(again), at
@@ -197,7 +205,8 @@ class Grammar(Clauses):
         amount = measure(self.text.words, at)
         if amount is None or amount.kind != "times":
             return None
-        goals, end = self._sequence(amount.end, nested=True)
+        start = self.text.phrase_end(_OVER, amount.end) or amount.end
+        goals, end = self._sequence(start, nested=True)
         return ([Repeat(times=int(amount.value), goals=tuple(goals))], end) if goals else None
 
     def _for_each(self, at: int) -> Reading | None:
@@ -217,11 +226,19 @@ class Grammar(Clauses):
     def _conditional(self, at: int) -> Reading | None:
         """If the cup is not there, bring the mug, otherwise wait."""
         start = self.text.phrase_end(_IF, at)
+        if start is None and self.text.word(at) == "should" and self.text.word(at + 1) != "you":
+            start = at + 1
         if start is None:
             return None
         holds, end = condition(self.text, start, self.scope)
+        soon = self._as_soon_as(at, holds)
+        if soon:
+            return [soon], end + (self.text.word(end) == COMMA)
         if isinstance(holds, Present):
             self.scope.mention(holds.object or holds.person)
+            self.scope.mention((holds.object or holds.person or Person()).at)
+        elif isinstance(holds, Holding) and holds.object.name:
+            self.scope.mention(holds.object)
         end += self.text.word(end) == COMMA
         end += self.text.word(end) == "then"
         then, end = self._sequence(end, nested=True)
@@ -237,6 +254,13 @@ class Grammar(Clauses):
         if self.text.word(at) == "unless":
             then, other = other, then
         return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+    def _as_soon_as(self, at: int, holds: Condition) -> Find | None:
+        """When you find a guest, ...: first find one."""
+        when = self.text.word(at) in ("when", "once") and self.text.word(at + 1) == "you"
+        if not when or not isinstance(holds, Present) or holds.negated:
+            return None
+        return Find(object=holds.object, person=holds.person)
 
     def _before(self, at: int) -> Reading | None:
         """Before you go to the shelf, pick up the cup: the other way round."""
@@ -256,7 +280,22 @@ class Grammar(Clauses):
 
     def _change_of_last(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
         """What is said after a clause to change it: a correction, a condition, an order."""
-        return self._correction(at, last) or self._trailing(at, last) or self._after(at, last)
+        return (
+            self._correction(at, last)
+            or self._trailing(at, last)
+            or self._after(at, last)
+            or self._so_often(at, last)
+        )
+
+    def _so_often(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Stand on one leg for three seconds, *four times*."""
+        amount = measure(self.text.words, at)
+        if amount is None or amount.kind != "times" or not last:
+            return None
+        end = self.text.phrase_end(_OVER, amount.end) or amount.end
+        if end < len(self.text) and self.text.word(end) != FULL_STOP:
+            return None
+        return [Repeat(times=int(amount.value), goals=tuple(last))], end
 
     def _after(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
         """Go to the shelf *after picking up the cup*."""
@@ -274,9 +313,15 @@ class Grammar(Clauses):
             holds, end = condition(self.text, start, self.scope)
         except ReadingError:
             return None
+        unless = self.text.word(at) == "unless"
+        comma = self.text.word(end) == COMMA and end < len(self.text)
+        otherwise = self.text.phrase_end(lexicon.ELSE, end + comma)
+        if otherwise and not unless:
+            other, end = self._sequence(otherwise, nested=True)
+            return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
         if end < len(self.text) and self.text.word(end) != FULL_STOP:
             return None
-        return [_if(holds, last, unless=self.text.word(at) == "unless")], end
+        return [_if(holds, last, unless=unless)], end
 
     def _statement(self, at: int, before: list[Goal]) -> Reading | None:
         """She is in the kitchen: what was said of her is true of her there."""

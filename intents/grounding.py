@@ -166,8 +166,8 @@ def _related(
     entities: list[Entity], relation: Relation, known: list[Entity], view: Viewpoint | None
 ) -> list[Entity]:
     """Those that stand so to the other thing; those of which it is not known may do so, too."""
-    of = replace(relation.of, held=False)
-    others = [e for e in known if _fits(e, of)]
+    wanted = [replace(q, held=False) for q in (relation.of, relation.other) if q is not None]
+    others = [e for e in known if any(_fits(e, q) for q in wanted)]
     if relation.of.relation:
         others = _related(others, relation.of.relation, known, view)
     return [e for e in entities if _stands_so(e, relation, others, view)]
@@ -280,7 +280,8 @@ def describe(query: ObjectQuery) -> str:
     words = [query.superlative, query.size, query.color, noun]
     place = f" at the {query.at}" if query.at else ""
     if query.relation:
-        place += f" {HOW_WORDS[query.relation.how]} the {describe(query.relation.of)}"
+        ends = [q for q in (query.relation.of, query.relation.other) if q is not None]
+        place += f" {HOW_WORDS[query.relation.how]} the {' and the '.join(map(describe, ends))}"
     return " ".join(w for w in words if w) + place
 
 

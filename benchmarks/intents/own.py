@@ -53,12 +53,13 @@ def types_are_right(sentence: Sentence, outcome: Outcome) -> bool:
 
 
 def _plain(value: object) -> object:
-    """Rounded, and without what says nothing: a count of one, `false`."""
+    """Rounded, and without what says nothing: a count of one, no goals."""
     if isinstance(value, float):
         return round(value, DIGITS)
     if isinstance(value, list):
         return [_plain(item) for item in cast("list[object]", value)]
     if isinstance(value, dict):
         items = cast("dict[str, object]", value).items()
-        return {k: _plain(v) for k, v in items if not (k == "count" and v == 1)}
+        said = {k: v for k, v in items if not (k == "count" and v == 1) and v != []}
+        return {k: _plain(v) for k, v in said.items()}
     return value

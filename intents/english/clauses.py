@@ -36,7 +36,8 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
     for words in phrases(text)
 }  # fmt: skip  # pyright: ignore[reportAssignmentType]
 _PARTICLES = lexicon.words("up down on off over back away out along together again in around too "
-                           "also aside apart instead as well")  # fmt: skip
+                           "also aside apart instead as well inside outside somewhere anywhere "
+                           "indoors outdoors")  # fmt: skip
 _A_WHILE = phrases(
     "for a while,for a moment,for a bit,for a little while,a moment,a while,a second,a minute,"
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"

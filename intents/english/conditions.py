@@ -1,18 +1,21 @@
 """Conditions: "the cup is not there", "you see a person", "the door is open"."""
 
 from intents.english.lexer import singular
-from intents.english.lexicon import LOCATIVES
+from intents.english.lexicon import LOCATIVES, phrases
 from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
+from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import read_postmodifiers
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import NotUnderstood
 from intents.goals import Condition, Holding, Present, State
 
+_NONE = phrases("there is none,there are none,there is not one,there is not any,it is not there")
+_IS = ("is", "are", "stands", "stand", "stays", "be")
 _NO = ("no", "not", "never", "nothing", "any")
 _THERE = ("there", "here", "present", "visible", "available", "around", "home", "left")
 _GONE = ("missing", "gone", "absent", "away")
+_IN_HAND = phrases("in your hand,in your hands,in the hand,in your gripper,in hand,with you")
 _STATES = ("open", "closed", "on", "off", "empty", "full")
 _SEE = ("see", "find", "spot", "locate", "notice", "detect", "recognize")
 _HOLD = ("have", "hold", "holding", "carry", "carrying", "grasp")
@@ -25,6 +28,11 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         NotUnderstood: It is nothing the robot can check.
     """
     word = text.word(at)
+    none = text.phrase_end(_NONE, at)
+    if none and (scope.object or scope.person):
+        there = scope.object if scope.object and not scope.person_is_last else None
+        person = None if there else scope.person
+        return Present(object=there, person=person, negated=True), none
     if word == "there" and text.word(at + 1) in ("is", "are"):
         negated, at = _negation(text, at + 2)
         return _present(text, at, scope, negated)
@@ -37,7 +45,7 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         return Present(person=to_person(phrase, scope), negated=True), phrase.end
     negated, at = _negation(text, at)
     phrase = noun_phrase(text, at)
-    if phrase is None or text.word(phrase.end) not in ("is", "are"):
+    if phrase is None or text.word(phrase.end) not in _IS:
         raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
     return _of_thing(text, phrase, scope, negated)
 
@@ -52,6 +60,8 @@ def _negation(text: Text, at: int) -> tuple[bool, int]:
 
 def _present(text: Text, at: int, scope: Scope, negated: bool) -> tuple[Condition, int]:
     phrase = noun_phrase(text, at)
+    if phrase is not None and negated and phrase.said == "one":
+        phrase.noun, phrase.said = "person", "person"
     if phrase is None:
         raise NotUnderstood(f"I cannot check whether there is “{text.raw(at, len(text))}”")
     return _is_present(phrase, scope, negated), phrase.end
@@ -72,6 +82,7 @@ def _of_robot(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     if text.word(at) in _HOLD:
         phrase = noun_phrase(text, at + 1)
         if phrase:
+            phrase.end = text.phrase_end(_IN_HAND, phrase.end) or phrase.end
             return Holding(object=to_object(phrase, scope), negated=negated), phrase.end
     if text.word(at) in _SEE:
         return _present(text, at + 1, scope, negated)
@@ -83,6 +94,8 @@ def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tu
     denied, at = _negation(text, phrase.end + 1)
     negated = negated != denied
     word = text.word(at)
+    if word in ("there", "here") and scope.place and not phrase.places:
+        phrase.places.append(Locative(None, NounPhrase(at, at + 1, noun="there", said="there")))
     if word in _THERE and not text.lookup(LOCATIVES, at + 1):
         return _is_present(phrase, scope, negated), at + 1
     if word in _GONE:
@@ -90,7 +103,8 @@ def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tu
     if word in _STATES and not (word == "on" and noun_phrase(text, at + 1)):
         what = phrase.name("object", "place", "room") or singular(phrase.said)
         if phrase.noun == "pronoun":
-            what = (scope.object and scope.object.name) or scope.place or "it"
+            what = scope.device or (scope.object and scope.object.name) or scope.place or "it"
+        scope.device = what
         return State(what=what, state=word, negated=negated), at + 1
     if phrase.noun == "place" and phrase.places:
         to_place(phrase, scope)

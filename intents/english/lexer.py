@@ -22,6 +22,9 @@ class Token(NamedTuple):
     raw: str
 
 
+_APART = re.compile(r"(?<=\w) +(?=(?:'s|n't|'re|'ll|'ve|'d|'m)\b)", re.IGNORECASE)
+"""Before an ending that was written apart: "the cup 's", "do n't"."""
+_COMMA_S = re.compile(r"\b(what|where|who|it|that|there|he|she),s\b", re.IGNORECASE)
 _UNITS = r"(?:m|cm|mm|km|s|sec|secs|min|mins|h|ms|deg|degs|rad|ft|x)\b"
 _TOKEN = re.compile(
     rf"""  "(?P<quote>[^"]+)"
@@ -47,7 +50,10 @@ _WHOLE = {
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),
     "hte": ("the",), "adn": ("and",), "nad": ("and",),
-    "thats": ("that", "is"), "till": ("until",),
+    "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),
+    "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),
+    "youre": ("you", "are"), "whens": ("when", "is"), "tho": ("to",), "fo": ("of",),
+    "uturn": ("u-turn",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
             ("'m", "am"))  # fmt: skip
@@ -56,6 +62,7 @@ _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("
 def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
+    text = _COMMA_S.sub(r"\1's", _APART.sub("", text))
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         kind, raw = match.lastgroup, match.group()

@@ -42,23 +42,31 @@ COLORS = {
 
 SIZES = {
     "big": "big", "large": "big", "huge": "big", "bigger": "big", "larger": "big",
+    "giant": "big", "enormous": "big", "massive": "big", "gigantic": "big",
     "small": "small", "little": "small", "tiny": "small", "smaller": "small", "mini": "small",
+    "miniature": "small", "weighty": "heavy", "slim": "thin", "slender": "thin",
+    "skinny": "thin", "narrow": "thin",
     "tall": "tall", "short": "short", "heavy": "heavy", "light": "light", "medium": "medium",
     "thin": "thin", "thick": "thick", "long": "long", "wide": "wide",
 }  # fmt: skip
 
 SUPERLATIVES: dict[tuple[str, ...], Superlative] = _meanings(
     {
-        "largest": "largest,biggest,most large,most big,greatest",
-        "smallest": "smallest,most small,most little,most tiny,tiniest,littlest,least big",
-        "heaviest": "heaviest,most heavy,weightiest",
-        "lightest": "lightest,least heavy,most light",
-        "thinnest": "thinnest,slimmest,narrowest,skinniest,finest",
-        "thickest": "thickest,widest,fattest,broadest",
+        "largest": "largest,biggest,most large,most big,greatest,most massive,hugest,most huge,"
+        "bulkiest,most voluminous",
+        "smallest": "smallest,most small,most little,most tiny,tiniest,littlest,least big,"
+        "most miniature,most minuscule,teeniest,least large,most compact",
+        "heaviest": "heaviest,most heavy,weightiest,most weighty",
+        "lightest": "lightest,least heavy,most light,flimsiest,most lightweight,least weighty",
+        "thinnest": "thinnest,slimmest,narrowest,skinniest,finest,most thin,"
+        "most slender,slenderest,least thick,most narrow",
+        "thickest": "thickest,widest,fattest,broadest,most thick,least thin",
         "tallest": "tallest,longest",
         "shortest": "shortest",
-        "leftmost": "leftmost,left most,most left,furthest left,farthest left,far left",
-        "rightmost": "rightmost,right most,most right,furthest right,farthest right,far right",
+        "leftmost": "leftmost,left most,most left,furthest left,farthest left,far left,"
+        "furthest to the left,farthest to the left,most to the left,far to the left",
+        "rightmost": "rightmost,right most,most right,furthest right,farthest right,far right,"
+        "furthest to the right,farthest to the right,most to the right,far to the right",
         "nearest": "nearest,closest",
         "farthest": "farthest,furthest,most distant",
         "highest": "highest,topmost,uppermost",
@@ -119,16 +127,18 @@ CLOTHES = words(
 
 LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
     {
-        "on": "on,in the middle of,in the center of,in the centre of,at the edge of,"
+        "on": "on,on or in,on and in,in or on,in and on,on or at,"
+        "in the middle of,in the center of,in the centre of,at the edge of,"
         "at the center of,on the edge of,in the middle part of,on top of,upon,atop,atop of",
         "in": "in,right in,out in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,down "
         "in,in at",
         "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
         "in the vicinity of,against",
-        "under": "under,underneath,below,beneath,at the bottom of",
+        "under": "under,underneath,below,beneath,from under,from underneath,"
+        "from below,from beneath,at the bottom of",
         "above": "above,over",
-        "behind": "behind,at the back of,in back of",
+        "behind": "behind,from behind,at the back of,in back of",
         "in_front": "in front of,before,opposite,opposite of,across from",
         "left": "left of,left to,to the left of,at the left of,on the left of,"
         "at the left side of,on the left side of,to the left side of,left from",
@@ -144,7 +154,7 @@ GOALWARDS = phrases(
 )
 SOURCEWARDS = phrases(
     "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,from within,"
-    "from the top of,from on top of,away from,from under,from behind"
+    "from the top of,from on top of,away from"
 )
 OTHER_PREPOSITIONS = phrases("for,with,of,about,through,along,past,after,regarding,via,without")
 
@@ -164,7 +174,10 @@ FILLERS = phrases(
     "if you do not mind,if you would,possibly,perhaps,dear robot,mister robot,mr robot,robot,"
     "hey robot,robot listen,listen robot,kind sir,would you be so kind,would you kindly,"
     "for a moment please,safely,my friend,when you can,whenever you can,when you get a chance,"
-    "when you have time,my dear,basically,actually,kinda,sort of"
+    "when you have time,my dear,basically,actually,kinda,sort of,now,for now,"
+    "one after the other,one after another,one by one,one at a time,in turn,by name,"
+    "do it slowly,do it quickly,do it carefully,do so slowly,do so quickly,do so carefully,"
+    "one more thing,real quick,for real,if it is no trouble,if it is not too much trouble"
 )
 """Words that can be dropped wherever they stand."""
 OPENERS = phrases(
@@ -239,6 +252,8 @@ SYNONYMS = tuple(
         "crisps,chips,potato chips",
         "mug,coffee mug",
         "desk,writing desk",
+        "baby chair,high chair,highchair",
+        "armchair,arm chair,easy chair",
         "oven,stove,cooker",
         "tap,faucet",
         "cell phone,mobile phone,mobile,phone,cellphone,smartphone",

@@ -17,10 +17,14 @@ Noun = Literal[
 
 @dataclass(slots=True)
 class Locative:
-    """Where something is: a preposition and what follows it; ``how`` None is plain "at"."""
+    """Where something is: a preposition and what follows it; ``how`` None is plain "at".
+
+    Between two things, ``other`` is the second.
+    """
 
     how: How | None
     of: "NounPhrase"
+    other: "NounPhrase | None" = None
 
 
 @dataclass(slots=True)
@@ -75,7 +79,7 @@ _NO_NOUN = (
     lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice")
+                    "twice thrice closed opened")
 )  # fmt: skip
 
 

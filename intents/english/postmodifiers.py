@@ -1,5 +1,7 @@
 """What follows the noun: where it is, relative clauses, postures, gestures, clothes."""
 
+from typing import Literal
+
 from intents.english import lexicon
 from intents.english.lexer import COMMA, singular
 from intents.english.lexicon import COLORS, DETERMINERS, LOCATIVES, POSTURES
@@ -17,9 +19,17 @@ _RELATIVE_FILLERS = lexicon.words(
     "is are was were has have currently now being there should be will can you i see find we "
     "stands sits lies"
 ) - {"stands", "sits", "lies"}  # fmt: skip
+_POINTED_AT = lexicon.phrases(
+    "i am pointing at,i am pointing to,i point at,i point to,that i am pointing at,"
+    "that i am pointing to,that i point at,that i point to,whom i am pointing at,"
+    "who i am pointing at,who i am pointing to,whom i point at"
+)
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned put left sitting standing lying "
     "laying hanging stays stands sits lies rests"
+)
+_ON_THE_FLOOR: dict[lexicon.Phrase, Literal["lying"]] = dict.fromkeys(
+    lexicon.phrases("on the floor,on the ground,on the carpet"), "lying"
 )
 _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
@@ -121,10 +131,10 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             return end
     if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
         return _locative(text, phrase, at + 1)
-    if word in _LYING_AROUND and word != "left" and text.word(at + 1) == "there":
-        there = NounPhrase(at + 1, at + 2, noun="there", said="there")
-        phrase.places.append(Locative(None, there))
-        return at + 2
+    if word in _LYING_AROUND and word not in ("left", "put"):
+        end = _lying_there(text, phrase, at + 1)
+        if end:
+            return end
     if word in ("named", "called"):
         inner = noun_phrase(text, at + 1)
         if inner and inner.names:
@@ -133,24 +143,45 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
         inner = noun_phrase(text, at + 1)
         return inner.end if inner else None
-    weight = weight_at(text, at) if phrase.said in ("what", "whatever") else None
-    if weight:
-        phrase.superlative, end = weight
+    most = _most(text, phrase, at)
+    if most:
+        phrase.superlative, end = most
         return end
-    most = text.lookup(lexicon.SUPERLATIVES, at)
-    if most and text.words[most[1] : most[1] + 2] == ["to", "you"]:
-        phrase.superlative = most[0]
-        return most[1] + 2
-    aside = _aside(text, phrase, at)
+    aside = _aside(text, phrase, at) or _at_its_side(text, phrase, at)
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _lying_there(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Standing *there*; lying *to the kettle's left*."""
+    if text.word(at) == "there":
+        there = NounPhrase(at, at + 1, noun="there", said="there")
+        phrase.places.append(Locative(None, there))
+        return at + 1
+    return _at_its_side(text, phrase, at)
+
+
+def _most(text: Text, phrase: NounPhrase, at: int) -> tuple[Superlative, int] | None:
+    """Whatever *weighs the least*; the cup *closest to you*."""
+    bare = phrase.said in ("what", "whatever")
+    weight = weight_at(text, at) if bare else None
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if weight or most is None:
+        return weight
+    to_somebody = text.word(most[1]) == "to" and text.word(most[1] + 1) in ("you", "me", "us")
+    if to_somebody:
+        return most[0], most[1] + 2
+    return most if bare else None
 
 
 def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """On the left, furthest to the right - and not "on the left of the cup"."""
     most = text.lookup(lexicon.SUPERLATIVES, at)
     begun = at
+    if most and most[0] in ("leftmost", "rightmost"):
+        phrase.superlative = most[0]
+        return most[1] + (text.words[most[1] : most[1] + 2] == ["side", "of"])
     if most or text.word(at) == "most":
         at = most[1] if most else at + 1
         if text.word(at) == "to":
@@ -169,10 +200,25 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
         follows = text.word(at + 1)
     if side is None or follows in ("of", "to", "leg", "foot", "arm", "hand"):
         return None
-    if (text.word(begun) == "to" and not far) or phrase.noun in ("pronoun", "place", "body"):
+    beside = text.word(begun) == "to" and not far and phrase.noun != "person"
+    if beside or phrase.noun in ("pronoun", "place", "body"):
         return None
     phrase.superlative = "leftmost" if side == "leftmost" else "rightmost"
     return at + 1
+
+
+def _at_its_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """To the kettle's left."""
+    if text.word(at) not in ("to", "on", "at"):
+        return None
+    inner = noun_phrase(text, at + 1)
+    if inner is None or inner.is_person or text.word(inner.end) != "'s":
+        return None
+    side = text.word(inner.end + 1)
+    if side not in ("left", "right"):
+        return None
+    phrase.places.append(Locative("left" if side == "left" else "right", inner))
+    return inner.end + 2 + (text.word(inner.end + 2) == "side")
 
 
 def _aside(text: Text, phrase: NounPhrase, at: int) -> int | None:
@@ -215,15 +261,24 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         if not in_room and not (how in ("in", "near") and inner.name("place")):
             return None
     phrase.places.append(Locative(how, inner))
+    if how == "between" and text.word(inner.end) == "and":
+        other = noun_phrase(text, inner.end + 1)
+        if other and other.noun != "body":
+            phrase.places[-1].other = other
+            return other.end
     return inner.end
 
 
 def _of_person(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Postures, gestures and clothes."""
-    posture = text.lookup(POSTURES, at)
+    posture = text.lookup(POSTURES, at) or text.lookup(_ON_THE_FLOOR, at)
     if posture:
-        phrase.posture = posture[0]
+        phrase.posture = phrase.posture or posture[0]
         return posture[1]
+    pointed_at = text.phrase_end(_POINTED_AT, at)
+    if pointed_at:
+        phrase.gesture = "pointed at"
+        return pointed_at
     gesture = _gesture(text, at)
     if gesture:
         phrase.gesture, end = gesture

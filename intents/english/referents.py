@@ -12,16 +12,19 @@ from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
 from intents.goals import (
     OPERATOR,
     Bring,
+    Close,
     Count,
     Find,
     Give,
     Goal,
     LookAt,
     ObjectQuery,
+    Open,
     Person,
     Pick,
     Place,
     Relation,
+    Switch,
     Tell,
 )
 
@@ -36,6 +39,7 @@ class Scope:
     """What pronouns stand for: the last object, person and place spoken of.
 
     Attributes:
+        device: The door, drawer or device spoken of last.
         group: The objects picked up and not yet put down, for "them".
         last: The goal before, for "and tell me".
     """
@@ -45,6 +49,7 @@ class Scope:
     person: Person | None = None
     place: str | None = None
     person_is_last: bool = False
+    device: str | None = None
     group: tuple[ObjectQuery, ...] = ()
     last: Goal | None = None
 
@@ -74,6 +79,8 @@ class Scope:
                 self.mention(value.at)
                 value = value if stays else replace(value, at=None)
             self.mention(value)
+        if isinstance(goal, Open | Close | Switch):
+            self.device = goal.what
         if isinstance(goal, Find | LookAt) and goal.object and goal.object.name:
             kinds = {n.kind for n in self.index.exact(goal.object.name)}
             self.mention(goal.object.name if kinds and kinds <= {"place", "room"} else None)
@@ -181,8 +188,16 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
     )
 
 
-def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
-    """The place that a phrase names; with ``objects`` a box or a bowl will do.
+def to_place(
+    phrase: NounPhrase, scope: Scope, *, objects: bool = False, within: bool = False
+) -> str:
+    """The place that a phrase names.
+
+    Args:
+        phrase: The phrase.
+        scope: What pronouns stand for.
+        objects: A box or a bowl will do.
+        within: It is to be inside of it: a room rather than a piece of furniture.
 
     Raises:
         Misfit: It is no place.
@@ -192,14 +207,17 @@ def to_place(phrase: NounPhrase, scope: Scope, *, objects: bool = False) -> str:
     if phrase.noun in ("here", "operator"):
         return OPERATOR
     if phrase.noun in ("there", "pronoun"):
-        if scope.place is None:
+        found = scope.place or (scope.device if phrase.noun == "pronoun" else None)
+        if found is None:
             raise Unclear("Where is that?")
-        return scope.place
+        return found
     if phrase.noun == "place" and phrase.places:
         return to_place(phrase.places[0].of, scope, objects=objects)
     if phrase.noun == "place" and scope.place:
         return scope.place
     names = phrase.all_names(*_SPOTS) or (phrase.all_names("object") if objects else [])
+    if within and len(names) > 1 and not phrase.exact:
+        names = phrase.all_names("room") or names
     if not names or phrase.level:
         if phrase.is_person:
             raise Misfit(f"“{phrase.said}” is not a place")
@@ -229,7 +247,7 @@ def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | Non
         else:
             if place.of.noun == "place" and not (place.of.places or scope.place):
                 continue
-            name = to_place(place.of, scope)
+            name = to_place(place.of, scope, within=place.how == "in")
             (rooms if place.of.name("room") == name else spots).append(name)
     return next(iter(spots + rooms), None), relation
 
@@ -248,8 +266,9 @@ def _relation(place: Locative, scope: Scope) -> Relation | None:
         return None
     if spot and place.how in ("left", "right") and not place.of.name("object"):
         return None
-    of = to_object(place.of, scope, spots=True)
-    return Relation(how=place.how or "near", of=replace(of, at=None))
+    of = replace(to_object(place.of, scope, spots=True), at=None)
+    other = to_object(place.other, scope, spots=True) if place.other else None
+    return Relation(how=place.how or "near", of=of, other=other and replace(other, at=None))
 
 
 def _unknown(kind: str, phrase: NounPhrase, scope: Scope, kinds: tuple[str, ...]) -> str:

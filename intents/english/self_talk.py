@@ -1,42 +1,84 @@
 """What the robot can tell of itself: its state, and small talk."""
 
+import re
+from functools import lru_cache
+
 from intents.english import lexicon
 from intents.english.text import Text
 from intents.goals import Goal, Report, ReportTopic, Say
 
-_ABOUT_ROBOT: dict[ReportTopic, str] = {
-    "holding": "what are you holding,what do you hold,what do you have in your hand,"
-    "what is in your hand,what have you got,what are you carrying,what do you have in your hands,"
-    "what are you holding in your hand,what you are holding,what do you carry,"
-    "what did you pick up,what is in your gripper,do you have anything in your hand,"
-    "are you holding anything,are you holding something,what you have in your hand,"
-    "what have you picked up",
-    "seeing": "what do you see,what can you see,what are you looking at,what are you seeing,"
-    "what is in front of you,what you see,what you can see,what is around you,"
-    "what objects do you see,what are you able to see,what objects can you see",
-    "location": "where are you,where you are,what is your position,what is your location,"
-    "where are you right now,where are you now,your position,your location",
-    "status": "what are you doing,what is your status,what are you up to,how is it going,"
-    "how far are you,are you done,are you finished,are you ready,what is the status,"
-    "what you are doing,what is going on,your status,what are you working on,"
-    "what is your current task,are you busy,what are you doing right now,what are you doing now",
-    "health": "how are you,how are you doing,are you okay,are you alright,are you all right,"
-    "how do you feel,what is your battery level,what is the battery level,battery,"
-    "how much battery do you have,is everything okay,is anything wrong,are you healthy,"
-    "how is your battery,how is your health,your health,how hot are your motors,"
-    "are your motors hot",
-    "why": "why did you stop,why did you fail,what went wrong,what happened,why are you stopping,"
-    "why did you do that,why did it fail,why have you stopped,why are you not moving,"
-    "why did you not do it,why is that,why,why not,why did you drop it,why did you fall,"
-    "why did you stop moving,why are you waiting,what is wrong,what is the problem,what was that",
-    "capabilities": "who are you,what are you,what can you do,what are you able to do,"
-    "what you can do,how can you help,how can you help me,what are your skills,"
-    "what do you know how to do,what commands do you know,what can i say,what can i ask you,help,"
-    "what can i tell you to do,what do you understand",
-}
-_TOPICS: dict[lexicon.Phrase, ReportTopic] = {
-    phrase: topic for topic, text in _ABOUT_ROBOT.items() for phrase in lexicon.phrases(text)
-}
+_NOW = (
+    r"(?: (?:right )?now| at the moment| currently| just now| then| yet| so far| again| there"
+    r"| here"
+    r"| today)*"
+)
+_PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
+    ("why", r"(?:why|how come|for what reason|what made you)\b.*\b(?:you|your)\b.*"),
+    ("why", r"(?:why|how come)(?: not| is that| (?:did|does|has|is) (?:it|that|this)\b.*)?"),
+    ("why", r"what(?: is| was)?(?: the)? (?:matter|problem|wrong|reason|trouble"
+            r"|error)(?: with you)?"),
+    ("why", r"what (?:was that|(?:has )?(?:happened|went wrong|gone wrong|broke))"
+            r"(?: there| to you| with you| here)?"),
+    ("capabilities", r"(?:what|which)\b.*\b(?:you|i)\b.*\b(?:able to do|capable of|good at"
+                     r"|say|ask you"
+                     r"|tell you(?: to do)?|know how to do|ask you to do|ask of you"
+                     r"|ask you for)"),
+    ("capabilities", r"what(?: else| all)?(?: things| tasks)? (?:can you|you can"
+                     r"|could you) do(?: for me| here)?"),
+    ("capabilities", r"(?:what|which)(?: kinds? of| sorts? of)? (?:commands?|things|tasks"
+                     r"|words|sentences|orders"
+                     r"|requests|skills)\b.*\byou\b.*(?:understand|know|do|have|follow|obey"
+                     r"|ask you)"),
+    ("capabilities", r"(?:what do you understand|what are your (?:skills|abilities"
+                     r"|capabilities|functions)"
+                     r"|how can you help(?: me| us)?|who are you|what are you|help(?: me)?)"),
+    ("holding", r"(?:(?:what|which|are|is|do|have|did|anything|whatever)\b.*)?\b(?:you"
+                r"|your)\b(?! (?:can|could|should))"
+                r".*\b(?:holding|hold|carrying|carry|gripping|grasping|clutching)"
+                r"(?: anything| something)?(?: there)?(?: in (?:your|the) (?:\w+ )?(?:hands?"
+                r"|grippers?|arms?))?"),
+    ("holding", r"(?:what|which|are|is|do|have|did|anything)\b.*"
+                r"in (?:your|the robot 's|the) (?:\w+ )?(?:hands?|grippers?|fingers?)"),
+    ("holding", r"what (?:did you pick up|have you (?:picked up|got)|you (?:have|are) got)"),
+    ("status", r"(?:what|how|where)\b.*\b(?:are|were|have|is|you are) (?:you )?(?:currently "
+               r"|just )?"
+               r"(?:doing|up to|busy with|working on|going|going on|heading|far|far along"
+               r"|doing there)"),
+    ("status", r"how far (?:along )?(?:are you|have you (?:got|come))"),
+    ("status", r"(?:are|have|were|did) you\b(?: \w+)? ?(?:done|finished|ready|busy|working"
+               r"|finish|complete|completed)"
+               r"(?: it| that| with (?:it|that|the task))?"),
+    ("status", r"(?:what is )?(?:the|your)(?: current)? (?:status|progress|task|job|mission)"
+               r"|how is it going"),
+    ("seeing", r"(?:(?:what|which)\b.*|anything |everything )?(?:do you|can you|you can|you"
+               r"|are you|you are able to"
+               r"|are you able to) (?:can |currently )?(?:see|seeing|looking at|look at"
+               r"|perceive|detect|observe|recognize)"
+               r"(?: around you| in front of you| from there)?"),
+    ("seeing", r"what is (?:in front of you|around you|in (?:your )?view|in sight|before you)"),
+    ("location", r"(?:in |at )?(?:where|which (?:room|place|spot)|what (?:room|place"
+                 r"|spot))\b(?: \w+)?"
+                 r" (?:are you|you are|do you stand|are you standing|are you in|are you at"
+                 r"|you are in|you stand)(?: in| at| standing)?"),
+    ("location", r"(?:what is )?your (?:current )?(?:position|location|pose|whereabouts"
+                 r"|coordinates)"),
+    ("health", r"(?:how|what|is|are|do|does|did|have|has)\b.*\b(?:you|your|everything"
+               r"|anything|something)\b.*"
+               r"\b(?:battery|batteries|charge|charged|charging|recharging|okay|alright|fine"
+               r"|broken|joints?|motors?|hot|warm"
+               r"|overheat|overheating|overheated|feel|feeling|healthy|health|well|tired|hurt"
+               r"|damaged|injured|temperature"
+               r"|errors?|faults?|power|malfunctioning|wrong|in order|all right"
+               r"|low)(?: level)?(?: left| full| working)?"),
+    ("health", r"how (?:are you|you are|do you do)(?: doing| feeling)?(?: robot)?"),
+    ("health", r"(?:how|what)\b.*\b(?:battery|batteries)\b.*|(?:your )?(?:battery"
+               r"|health)(?: level| status)?"),
+)  # fmt: skip
+_ABOUT_ROBOT: tuple[tuple[ReportTopic, re.Pattern[str]], ...] = tuple(
+    (topic, re.compile(rf"(?:{pattern}){_NOW}")) for topic, pattern in _PATTERNS
+)
+"""Questions about the robot, in order: the first pattern that fits a whole clause counts."""
+_LONGEST = 14
 _SMALL_TALK = lexicon.words(
     "what which is it the a an of today tomorrow day time date week month year current now this "
     "joke something funny about yourself your team teams 's name country affiliation leader are "
@@ -47,11 +89,17 @@ _SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation 
 
 def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
     """What are you holding? How are you? What can you do?"""
-    found = text.lookup(_TOPICS, at)
-    if found is None or not (found[1] >= len(text) or not text.word(found[1])[0].isalnum()):
-        return None
-    goals: list[Goal] = [Report(topic=found[0])]
-    return goals, found[1]
+    end = at
+    while end < len(text) and text.word(end)[0].isalnum() and end <= at + _LONGEST:
+        end += 1
+    said = " ".join(text.words[at:end])
+    topic = _topic(said) if end > at else None
+    return ([Report(topic=topic)], end) if topic else None
+
+
+@lru_cache(maxsize=256)
+def _topic(said: str) -> ReportTopic | None:
+    return next((topic for topic, pattern in _ABOUT_ROBOT if pattern.fullmatch(said)), None)
 
 
 def small_talk(text: Text, at: int, end: int) -> Say | None:

@@ -25,6 +25,10 @@ _POSE = lexicon.words("x y position point coordinates coordinate pose location t
 
 _HAS_QUESTION = lexicon.phrases(
     "has a question,have a question,has a question for you,is asking a question,needs an answer,"
+    "has a question that needs answering,has a question that needs an answer,"
+    "has a question to be answered,has a question for me,have a question for you,"
+    "wants to ask you a question,wants to ask you something,wants to ask a question,"
+    "is asking you a question,has got a question,needs a question answered,"
     "is asking you something,has something to ask,has something to ask you"
 )
 
@@ -42,6 +46,7 @@ class Clauses:
         self.scope = scope
         self.wanted = False
         self._last_verb: tuple[int, int, tuple[str, ...]] | None = None
+        self._last_particles: list[Complement] = []
 
     def skip(self, at: int) -> int:
         """Past connectors, signs and openings like "could you"."""
@@ -139,6 +144,7 @@ class Clauses:
         clause = Clause(text, sense, verb, first, end, complements + fronted)
         goals = FRAMES[sense](clause, scope)
         self.wanted = sense == "want"
+        self._last_particles = [c for c in complements if c.particle in ("on", "off", "out")]
         times = clause.measure("times")
         if times and times > 1:
             return [Repeat(times=int(times), goals=tuple(goals))], end
@@ -161,7 +167,7 @@ class Clauses:
         if not any(c.phrases for c in complements) or not self._goes_on(end):
             return None
         kept = [(s, first) for s in senses if s not in _SPEECH and s != "count"]
-        return self._first_that_fits(kept, start, [], at)
+        return self._first_that_fits(kept, start, list(self._last_particles), at)
 
     def _count(self, at: int) -> Reading:
         """Count the cups on the table."""
@@ -264,9 +270,11 @@ class Clauses:
         if phrase is None or not is_person(phrase, self.scope):
             return None
         end = self.text.phrase_end(_HAS_QUESTION, phrase.end)
-        return (
-            ([Answer(what="question", person=to_person(phrase, self.scope))], end) if end else None
-        )
+        if end is None:
+            return None
+        phrase.end = end
+        read_postmodifiers(self.text, phrase)
+        return [Answer(what="question", person=to_person(phrase, self.scope))], phrase.end
 
     def alone(self, at: int) -> None:
         """A thing is named and nothing is said of it.

@@ -5,6 +5,7 @@ from msgspec.structs import replace
 from intents.english import lexicon
 from intents.english.clauses import connector_end, ends_clause
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.postmodifiers import read_postmodifiers
@@ -36,6 +37,15 @@ def content_end(text: Text, at: int) -> int:
         if after and end > at and verbs_at(text.words, after):
             return end
         end += 1
+    return end
+
+
+def _before_times(text: Text, at: int, end: int) -> int:
+    """Say hello *twice*: the words to be said end before how often."""
+    for start in range(max(at + 1, end - 3), end):
+        amount = measure(text.words, start)
+        if amount and amount.kind == "times" and amount.end == end:
+            return start
     return end
 
 
@@ -72,7 +82,7 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
     at += text.word(at) == "that"
-    end = content_end(text, at)
+    end = _before_times(text, at, content_end(text, at))
     stop = end
     if to is None:
         to, stop = _last_listener(text, at, end, scope)
@@ -212,12 +222,12 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
     asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
     person = None
     at += text.word(at) in ("to", "with")
+    if text.word(at) in ("it", "that", "this") and isinstance(scope.last, Answer):
+        return [], at + 1
     first = _listener(text, at, scope)
     if first:
         person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
     start = at
-    if text.word(at) == "it" and isinstance(scope.last, Answer):
-        return [], at + 1
     while text.word(at) in lexicon.DETERMINERS | {"any", "one", "to", "all", "of", "questions"}:
         at += 1
     if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
@@ -253,10 +263,15 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
     end = at
     while text.word(end) in skipped:
         end += 1
-    phrase = _listener(text, end, scope) if end > at else None
-    if phrase and person is None:
-        return to_person(phrase, scope), phrase.end
-    return person, (phrase.end if phrase else end)
+    phrase = _listener(text, end, scope)
+    if phrase and end == at and text.word(phrase.end) not in ("has", "have", "asks", "is"):
+        phrase = None
+    if phrase is None:
+        return person, end
+    after = phrase.end
+    while text.word(after) in ("has", "have", "asks", "is", "asking"):
+        after += 1
+    return person or to_person(phrase, scope), after
 
 
 def _read_out(text: Text, at: int) -> int:

@@ -94,7 +94,8 @@ class Speller:
         for size in (2, 3, 4, 5):
             head, tail = word[:size], word[size:]
             small = head in lexicon.FUNCTION_WORDS or (head,) in SENSES
-            if small and len(tail) > 2 and tail in self._known:
+            ends = len(tail) > 2 and tail in self._known and word not in COMMON_WORDS
+            if small and ends:
                 return [head, tail]
         return []
 

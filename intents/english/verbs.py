@@ -11,7 +11,7 @@ SPELLINGS: dict[str, str] = {
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
-        "swing by,stop by,sidestep,side step,strafe,shuffle"
+        "swing by,stop by,back up,back off,back away,reverse,sidestep,side step,strafe,shuffle"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
@@ -37,7 +37,7 @@ SPELLINGS: dict[str, str] = {
     "put": (
         "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"
         "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
-        "leave,move,drop"
+        "leave,move,drop,collect,gather"
     ),
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
@@ -115,25 +115,30 @@ SPELLINGS: dict[str, str] = {
     "close": "close,shut,close up,lock,cover",
     "switch": (
         "switch,turn,power,activate,deactivate,switch on,switch off,turn on,turn off,"
-        "power on,power off,power up,start up,shut off,shut down,put on,put off,disable,"
+        "power on,power off,put,shut,power up,start up,shut off,shut down,put on,put off,disable,"
         "enable,light,turn down,light up,power down,start,kill,extinguish,disconnect"
     ),
     "stand": (
         "stand,stand up,get up,stand still,stand straight,stand upright,rise,"
+        "return to standing,return to a standing position,get back on your feet,come back up,"
+        "get back up,stand back up,come up,get up again,rise up,"
         "remain standing,straighten up,stay standing,keep standing,get on your feet,balance"
     ),
     "squat": (
         "squat,crouch,squat down,crouch down,kneel,kneel down,bend your knees,duck,"
-        "duck down,do a squat,do squats,hunker down,go down on your knees,take a squat,"
+        "duck down,do a squat,do squats,get down low,get low,crouch low,hunker down,"
+        "go down on your knees,take a squat,"
         "bend your legs,get down"
     ),
-    "lean": "lean,lean over,tilt,bend,bend over,incline",
+    "lean": "shift your weight,lean your body,tilt your body,bend your body,tilt your torso,"
+    "lean,lean over,tilt,bend,bend over,incline",
     "sit": "sit,sit down,take a seat,have a seat,be seated",
     "balance": (
         "balance,keep your balance,hold your balance,hold balance,keep balance,balance on,"
         "balance yourself,keep balancing"
     ),
     "lift_leg": (
+        "lift the,raise the,hold up the,take your,"
         "lift your,raise your,lift one,raise one,lift a,lift up your,raise up your,"
         "hold up your,put up your,hold your,stretch out your,extend your,put your,"
         "lower your,move your,put one,lift up one,raise up one"
@@ -149,11 +154,17 @@ SPELLINGS: dict[str, str] = {
         "point towards,make a bow,bow down,raise your hand,raise your arm,"
         "raise your left hand,raise your right hand,raise your left arm,raise your right arm,"
         "raise both arms,raise both hands,raise your arms,raise your hands,shake my hand,"
+        "put both your hands up,put both hands up,put your hands up,put your arms up,hands up,"
+        "lift both your arms,lift both of your arms,raise both of your arms,lift both arms,"
+        "raise both your arms,raise both your hands,put both arms up,put both your arms up,"
+        "hold up both arms,lift your arms,hold your hands up,put up your hands,"
         "shake his hand,shake her hand,shake my right hand,high five me"
     ),
     "wait": (
         "wait,hold on,stay,stay here,stay there,wait here,wait there,hang on,remain,"
-        "stay put,do nothing,stay where you are,hold still,remain here,rest for,idle,"
+        "stay put,do nothing,stay where you are,hold still,remain here,stay like that,"
+        "stay like this,hold that pose,"
+        "hold that position,do not do anything,do not do a thing,rest for,idle,"
         "wait around,stand by,keep still,wait up,sleep for,stay still,hold your position,"
         "hold position"
     ),
@@ -164,13 +175,17 @@ SPELLINGS: dict[str, str] = {
     ),
     "pause": (
         "pause,pause the mission,pause the task,take a break,interrupt,hold the mission,"
-        "pause it,pause that"
+        "pause it,pause that,put the task on hold,put it on hold,put the mission on hold,"
+        "put everything on hold,put that on hold,interrupt the mission,interrupt the task,"
+        "interrupt what you are doing,pause what you are doing,pause everything,take five"
     ),
     "resume": (
         "resume,continue,carry on,keep going,proceed with the task,go ahead,unpause,"
         "continue the task,resume the task,resume the mission,continue the mission,"
         "go on with the task,continue with the task,continue with what you were doing,"
         "resume what you were doing,continue what you were doing,go on with it,keep on,"
+        "proceed,pick up where you left off,pick up where you stopped,start again,restart,"
+        "you may continue,"
         "get going again,go on now,go on"
     ),
     "cancel": (
@@ -178,6 +193,9 @@ SPELLINGS: dict[str, str] = {
         "forget about it,forget about that,give up,abandon,abort the mission,"
         "cancel the mission,cancel the task,abort the task,abandon the mission,"
         "abandon the task,cancel everything,undo that,abort that,abort it,call it off,"
+        "scrap that,scrap it,scrap the task,scrap,drop the task,drop that task,drop it all,quit,"
+        "quit it,quit the task,quit the mission,call off the mission,call off the task,"
+        "call it a day,forget the task,"
         "forget everything,give it up,cancel this"
     ),
     "report": (
@@ -189,11 +207,13 @@ SPELLINGS: dict[str, str] = {
         "give me a status update,describe what you see,tell me about your status,"
         "describe your surroundings,report your position,report your location,"
         "report where you are,report what you are holding,report,report health,"
+        "give me an update,give an update,give us an update,update me,what is new,"
         "report battery,report position,report location,report holding"
     ),
     "repeat": (
         "repeat,do it again,do that again,repeat that,repeat it,once more,one more time,"
         "again,repeat this,repeat the following,do this again,do the same again,"
+        "do the whole thing,do all of that,do all that,do all of it,do this,do so,"
         "do the following,do it once more,do that once more,same again,do it,do that"
     ),
 }  # fmt: skip
@@ -208,6 +228,26 @@ for _sense, _text in SPELLINGS.items():
 LONGEST = max(map(len, SENSES))
 FIRST_WORDS = frozenset(phrase[0] for phrase in SENSES)
 _BASES = frozenset(phrase[0] for phrase in SENSES) - {"i", "we", "can", "could", "may", "do"}
+
+
+_PARTICIPLES = {
+    "brought": "bring", "taken": "take", "given": "give", "put": "put", "set": "set",
+    "found": "find", "shown": "show", "led": "lead", "held": "hold", "thrown": "throw",
+    "gotten": "get", "sent": "send", "got": "get", "shut": "shut", "left": "leave", "hung": "hang",
+    "laid": "lay", "told": "tell", "met": "meet",
+}  # fmt: skip
+
+
+def participle_base(word: str) -> str | None:
+    """The bare form of a past participle, or of what is meant as one: "brought", "moved"."""
+    if word in _PARTICIPLES:
+        return _PARTICIPLES[word]
+    stem = word.removesuffix("ed")
+    undoubled = stem[:-1] if len(stem) > 2 and stem[-1] == stem[-2] else stem
+    for form in (word, stem, stem + "e", undoubled) if word.endswith("ed") else (word,):
+        if form in FIRST_WORDS:
+            return form
+    return None
 
 
 def base_form(word: str) -> str:

@@ -5,9 +5,10 @@ from intents.english.frames.slots import Slots
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
-from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, Side
+from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, LookAt, Side
 
 _LEGS = ("leg", "legs", "foot", "feet")
+_FLOOR = ("floor", "ground")
 _OTHER: dict[str, Side] = {"left": "right", "right": "left"}
 
 
@@ -52,14 +53,25 @@ def lift_leg(clause: Clause, scope: Scope) -> list[Goal]:
     slots = Slots(clause, scope)
     limb = _limb(slots, "")
     if limb is None:
-        raise Misfit("that is no part of my body")
+        return _head(slots)
     slots.direction("up")
+    slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said in _FLOOR)]
     if limb.said in _LEGS:
         return _balance(slots, "one_leg", _OTHER.get(limb.side))
     if limb.said.rstrip("s") in ("arm", "hand"):
         slots.done()
         return [Gesture(kind="_".join(w for w in ("raise", limb.side, "arm") if w))]
     raise NotUnderstood(f"I cannot raise my {limb.said}")
+
+
+def _head(slots: Slots) -> list[Goal]:
+    """Raise your head: look up."""
+    said = slots.take("")
+    if said is None or said.phrase.said != "head":
+        raise Misfit("that is no part of my body")
+    slots.direction("up", "down")
+    slots.done()
+    return [LookAt(place="down" if slots.clause.verb.startswith("lower") else "up")]
 
 
 def squat(clause: Clause, scope: Scope) -> list[Goal]:
@@ -82,7 +94,8 @@ def lean(clause: Clause, scope: Scope) -> list[Goal]:
     side: Side = "forward"
     for known in ("left", "right", "backward"):
         side = known if said == known else side
-    if _limb(slots, "") is not None:
+    limb = _limb(slots, "")
+    if limb is not None and limb.said in ("knee", "knees", "leg", "legs"):
         return _balance(slots, "squat")
     return _balance(slots, "lean", side)
 
@@ -90,7 +103,9 @@ def lean(clause: Clause, scope: Scope) -> list[Goal]:
 _KINDS = (
     ("thumbs", "thumbs_up"), ("shake your head", "shake_head"), ("shake head", "shake_head"),
     ("shake", "shake_hands"), ("high five", "high_five"), ("wave", "wave"), ("nod", "nod"),
-    ("point", "point"), ("clap", "clap"), ("shrug", "shrug"), ("danc", "dance"), ("bow", "bow"),
+    ("point", "point"), ("clap", "clap"), ("shrug", "shrug"), ("danc", "dance"),
+    ("bow", "bow"), ("both", "raise_both_arms"), ("your hands", "raise_both_arms"),
+    ("your arms", "raise_both_arms"), ("hands up", "raise_both_arms"),
     ("curtsy", "bow"), ("cross your arms", "cross_arms"), ("raise both", "raise_both_arms"),
     ("raise your arms", "raise_both_arms"), ("raise your hands", "raise_both_arms"),
     ("raise your left", "raise_left_arm"), ("raise your right", "raise_right_arm"),
@@ -104,7 +119,9 @@ def gesture(clause: Clause, scope: Scope) -> list[Goal]:
     kind = next((kind for word, kind in _KINDS if word in clause.verb), clause.verb)
     _limb(slots, "", "with")
     slots.direction("up", "down", "left", "right", "forward")
-    target = slots.take("to", "at") or slots.take("")
+    target = slots.take("to", "at") or slots.take("") or slots.take("for")
+    if target and target.role == "for" and target.phrase.noun == "operator":
+        target = None
     slots.measure("time")
     slots.done()
     return [Gesture(kind=kind, at=_target(target.phrase, scope) if target else None)]

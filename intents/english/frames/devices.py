@@ -15,10 +15,10 @@ _OPENABLE = words(
     "hands fingers locker container envelope can book machine valve faucet"
 )
 _SWITCHABLE = words(
-    "light lamp tv television radio machine fan heater heating oven stove computer pc laptop "
+    "light lamp tv television machine fan heater heating oven stove computer pc laptop "
     "cleaner "
     "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
-    "dryer toaster speaker stereo device chandelier"
+    "dryer toaster device chandelier"
 )
 
 
@@ -27,7 +27,7 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
     names: list[str] = []
     for phrase in said.phrases:
         if phrase.noun == "pronoun":
-            name = scope.object.name if scope.object else scope.place
+            name = scope.device or (scope.object.name if scope.object else scope.place)
             if not name:
                 raise Unclear(f"What shall I {act}?")
             names.append(name)
@@ -38,12 +38,23 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
             names.append(name)
         elif head in generic:
             room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
-            whole = f"{phrase.level} {phrase.said}".strip()
+            words_said = phrase.said.split()
+            whole = " ".join([*words_said[:-1], head]) if head else phrase.said
+            whole = f"{phrase.level} {whole}".strip()
             whole = f"{room} {whole}" if room and room not in whole else whole
             names.append(whole if phrase.noun != "body" else head)
         else:
             raise NotUnderstood(f"I cannot {act} “{phrase.said}”")
     return names
+
+
+def device_names(said: Complement, scope: Scope, act: str) -> list[str]:
+    """What is to be opened, closed or switched.
+
+    Raises:
+        ReadingError: That cannot be done with it.
+    """
+    return _what(said, scope, _SWITCHABLE if act == "switch" else _OPENABLE, act)
 
 
 def open_(clause: Clause, scope: Scope) -> list[Goal]:
@@ -58,6 +69,8 @@ def close(clause: Clause, scope: Scope) -> list[Goal]:
 
 def _opened(clause: Clause, scope: Scope, act: str) -> list[str]:
     slots = Slots(clause, scope)
+    if clause.particles() & {"on", "off"}:
+        raise Misfit("that is to switch something")
     said = slots.take("")
     if said is None:
         raise Unclear(f"What shall I {act}?")
@@ -72,7 +85,7 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     said = slots.take("", "at")
     particles = clause.particles() | set(clause.verb.split())
     on = bool(particles & {"on", "up", "activate", "enable", "start", "light"})
-    off = bool(particles & {"off", "down", "deactivate", "disable", "kill", "extinguish"})
+    off = bool(particles & {"off", "down", "out", "deactivate", "disable", "kill", "extinguish"})
     if said is not None and said.role == "at":
         on, off = said.how == "on", said.how != "on"
     if on == off:

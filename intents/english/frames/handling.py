@@ -22,6 +22,7 @@ from intents.goals import (
     Person,
     Pick,
     Place,
+    Wait,
 )
 
 _HOW = {"left": "to the left of", "right": "to the right of", "in_front": "in front of"}
@@ -38,8 +39,11 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
         objects = [scope.object]
     need(objects, "What shall I pick up?")
     at = slots.loose_place()
+    duration = slots.measure("time") if clause.verb.startswith("hold") else None
     slots.done()
-    return [Pick(object=replace(o, at=o.at or at)) for o in objects]
+    held = isinstance(scope.last, Pick) and objects == [scope.object]
+    picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]
+    return [*picks, Wait(duration_s=duration)] if duration else picks
 
 
 def take(clause: Clause, scope: Scope) -> list[Goal]:
@@ -149,6 +153,9 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     if bare and len(bare.phrases) > 1 and all(p.places for p in bare.phrases):
         return [g for p in bare.phrases for g in put(_alone(clause, bare, p), scope)]
+    to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
+    if to and is_person(to.phrase, scope) and clause.sense == "put":
+        return bring(clause, scope)
     spot = _destination(slots)
     objects = slots.objects()
     if not objects and clause.sense == "drop":
@@ -201,6 +208,12 @@ def _destination(slots: Slots) -> tuple[str, str] | None:
         return _spot(Locative(at.how, at.phrase), slots.scope)
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     place = detach_place(bare.phrases[-1]) if bare else None
+    source = next((c for c in slots.rest if c.phrases and c.role == "from"), None)
+    if place is None and source:
+        place = detach_place(source.phrase)
+    inside = slots.scope.device or slots.scope.place
+    if place is None and inside and slots.clause.particles() & {"inside", "in"}:
+        return "in", inside
     return _spot(place, slots.scope) if place else None
 
 

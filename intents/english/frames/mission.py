@@ -2,6 +2,7 @@
 
 from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots
+from intents.english.lexicon import words
 from intents.english.referents import Scope
 from intents.english.trouble import Misfit
 from intents.goals import Cancel, Goal, Pause, Report, ReportTopic, Resume, Stop, Wait
@@ -29,9 +30,13 @@ def resume(clause: Clause, scope: Scope) -> list[Goal]:
     return [Resume()]
 
 
+_TASKS = words("task tasks mission job order command plan plans everything errand action goal")
+
+
 def cancel(clause: Clause, scope: Scope) -> list[Goal]:
     """Give up the mission."""
-    if any(c.phrases and c.phrase.noun not in ("pronoun",) for c in clause.complements):
+    others = [c.phrase for c in clause.complements if c.phrases and c.phrase.noun != "pronoun"]
+    if any(phrase.said.split()[-1] not in _TASKS for phrase in others):
         raise Misfit("I can only cancel what I am doing")
     del scope
     return [Cancel()]

@@ -72,7 +72,8 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
 
 
 def _implied(clause: Clause) -> str:
-    return "backward" if clause.verb.startswith(("back", "return", "go back")) else "forward"
+    back = ("back", "return", "go back", "reverse")
+    return "backward" if clause.verb.startswith(back) else "forward"
 
 
 def _step(direction: str, distance: float | None, *, vague: bool) -> GoTo:
@@ -105,6 +106,8 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
 def turn(clause: Clause, scope: Scope) -> list[Goal]:
     """Turn left; turn ninety degrees to the right; turn around; face the table."""
     slots = Slots(clause, scope)
+    if clause.particles() & {"on", "off", "out"}:
+        raise Misfit("that is to switch something")
     plain = slots.measure("plain")
     angle = slots.measure("angle") if plain is None else plain * pi / 180
     direction = slots.direction("left", "right", "around", "backward", "cw", "ccw")

@@ -1,0 +1,315 @@
+"""Clauses whose verb is not the act.
+
+"Give Ada a wave", "pull the drawer open", "the cup goes in the box", "help Ada find the door",
+"the cup should be brought to me".
+"""
+
+from math import pi
+
+from msgspec.structs import replace
+
+from intents.english import lexicon
+from intents.english.clauses import Clause, Complement, ends_clause, read_complements
+from intents.english.frames import FRAMES
+from intents.english.frames.devices import device_names
+from intents.english.lexer import COMMA, singular
+from intents.english.measures import Measure, measure, number
+from intents.english.noun_phrases import noun_phrase
+from intents.english.phrase import NounPhrase
+from intents.english.questions import Reading
+from intents.english.referents import is_person, to_person, to_place
+from intents.english.sentences import Clauses
+from intents.english.trouble import ReadingError
+from intents.english.verbs import SENSES, participle_base, verbs_at
+from intents.goals import OPERATOR, Close, Goal, GoTo, Guide, LookAt, Open, Repeat, Switch, Wait
+
+_RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
+                              "need switch shut")  # fmt: skip
+_RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {
+    "open": (Open, True), "closed": (Close, True), "shut": (Close, True), "on": (Switch, True),
+    "going": (Switch, True), "running": (Switch, True), "started": (Switch, True),
+    "off": (Switch, False), "out": (Switch, False), "stopped": (Switch, False),
+}  # fmt: skip
+_WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
+
+_LIGHT = lexicon.phrases(
+    "give,do,make,take,have,perform,show,go into,go down into,get into,get down into,hold,stay in,"
+    "go for,do me,give it,execute,have yourself"
+)
+_ACTS: dict[str, tuple[str, str]] = {
+    "wave": ("gesture", "wave"), "nod": ("gesture", "nod"), "bow": ("gesture", "bow"),
+    "clap": ("gesture", "clap"), "applause": ("gesture", "clap"), "dance": ("gesture", "dance"),
+    "shrug": ("gesture", "shrug"), "curtsy": ("gesture", "bow"), "squat": ("squat", "squat"),
+    "crouch": ("squat", "squat"), "turn": ("turn", "turn"), "rotation": ("turn", "turn"),
+    "spin": ("turn", "spin"),
+    "look": ("look", "look at"), "glance": ("look", "look at"), "peek": ("look", "look at"),
+    "thumbs-up": ("gesture", "thumbs up"),
+}  # fmt: skip
+_ABOUT_FACE = lexicon.phrases("u turn,you turn,about face,about turn,180,one eighty")
+_TURNS = {"full": 2 * pi, "whole": 2 * pi, "complete": 2 * pi, "half": pi, "quarter": pi / 2}
+_ADJECTIVES = lexicon.words("quick good little big small long short nice friendly proper close "
+                            "sharp deep polite careful gentle single slow hard")  # fmt: skip
+
+_PASSIVE = lexicon.phrases(
+    "needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,are to be,"
+    "can be,could be,needs,wants to be,shall be,will be,may be,would need to be"
+)
+_BELONGS = lexicon.phrases(
+    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
+    "should be,has to be,must be,needs to be,ought to go,is supposed to go"
+)
+_HELPS = lexicon.words("help assist let")
+_FINDS_WAY = lexicon.phrases(
+    "get,go,find,reach,navigate,find his way,find her way,find their way,find the way,walk,move,"
+    "make his way,make her way,make their way,come,travel,find way,get back,return"
+)
+_CAUSES = lexicon.words("have let make ask get tell")
+_LIFTS = lexicon.words("raise lift lower")
+_GIVE_IT = lexicon.phrases("give it,take,give me")
+_IN_A_WHILE = lexicon.words("in after")
+
+
+class Constructions(Clauses):
+    """Reads clauses whose meaning is not that of their verb."""
+
+    def construction(self, at: int) -> Reading | None:
+        """The first construction that a clause is, if it is one."""
+        return (
+            self._light_verb(at)
+            or self._resultative(at)
+            or self._helped(at)
+            or self._followed(at)
+            or self._wanted_there(at)
+            or self._later(at)
+            or self._verbless(at)
+        )
+
+    def about_thing(self, at: int) -> Reading | None:
+        """A clause that begins with the thing that something is to be done with."""
+        if verbs_at(self.text.words, at) and not self.text.name_at(at):
+            return None
+        phrase = noun_phrase(self.text, at)
+        if phrase is None or phrase.noun in ("operator", "here", "there", "unknown"):
+            return None
+        return self._belongs(at, phrase) or self._passive(phrase) or self._state(phrase)
+
+    def _framed(
+        self, sense: str, at: int, first: int, complements: list[Complement], end: int
+    ) -> Reading:
+        verb = " ".join(self.text.words[at:first])
+        clause = Clause(self.text, sense, verb, first, end, complements)
+        return FRAMES[sense](clause, self.scope), end
+
+    def _light_verb(self, at: int) -> Reading | None:
+        """Give Ada a friendly wave; do two squats; make a left turn; have a look at the sink."""
+        text = self.text
+        start = text.phrase_end(_LIGHT, at)
+        if start is None:
+            return None
+        receiver = noun_phrase(text, start)
+        complements: list[Complement] = []
+        if receiver and is_person(receiver, self.scope) and receiver.noun != "unknown":
+            complements.append(Complement(role="to", phrases=[receiver]))
+            start = receiver.end
+        about = text.phrase_end(_ABOUT_FACE, start + (text.word(start) in ("a", "an")))
+        if about:
+            around = [Complement(direction="around", particle="around")]
+            return self._framed("turn", at, at + 1, around, about)
+        found = self._act(start, complements)
+        if found is None:
+            return None
+        (sense, verb), times, end = found
+        more, end = read_complements(text, end)
+        clause = Clause(text, sense, verb, end, end, complements + more)
+        goals = FRAMES[sense](clause, self.scope)
+        times = int(clause.measure("times") or times)
+        return ([Repeat(times=times, goals=tuple(goals))] if times > 1 else goals), end
+
+    def _act(
+        self, at: int, complements: list[Complement]
+    ) -> tuple[tuple[str, str], int, int] | None:
+        """An act as a noun: which, how often, and where it ends; its adjectives are complements."""
+        text, times = self.text, 1
+        amount = number(text.words, at) if text.word(at) != "a" else None
+        if amount and amount.value >= 1:
+            times, at = int(amount.value), amount.end
+        at += text.word(at) in lexicon.DETERMINERS
+        while True:
+            word = text.word(at)
+            act = _ACTS.get(singular(word))
+            if act and not text.name_at(at):
+                return act, times, at + 1
+            if word in _TURNS:
+                complements.append(Complement(measure=Measure("angle", _TURNS[word], at + 1)))
+            elif word in ("left", "right"):
+                complements.append(
+                    Complement(direction="left" if word == "left" else "right", particle=word)
+                )
+            elif word not in _ADJECTIVES:
+                return None
+            at += 1
+
+    def _resultative(self, at: int) -> Reading | None:
+        """Pull the drawer open; get the washing machine going; I want the lamp on."""
+        text = self.text
+        wish = text.phrase_end(_WISHES, at)
+        if wish is None and text.word(at) not in _RESULT_VERBS:
+            return None
+        return self._brought_about(wish or at + 1)
+
+    def _brought_about(self, at: int) -> Reading | None:
+        phrase = noun_phrase(self.text, at)
+        result = _RESULTS.get(self.text.word(phrase.end)) if phrase else None
+        if phrase is None or result is None or not ends_clause(self.text, phrase.end + 1):
+            return None
+        return self._made_so(phrase, result), phrase.end + 1
+
+    def _made_so(
+        self, phrase: NounPhrase, result: tuple[type[Open | Close | Switch], bool]
+    ) -> list[Goal]:
+        kind, on = result
+        act = "switch" if kind is Switch else "open"
+        names = device_names(Complement(phrases=[phrase]), self.scope, act)
+        if kind is Switch:
+            return [Switch(what=name, on=on) for name in names]
+        return [Open(what=name) if kind is Open else Close(what=name) for name in names]
+
+    def _verbless(self, at: int) -> Reading | None:
+        """Lights off; three steps forward; into the kitchen."""
+        text = self.text
+        if text.words[at : at + 3] in (["make", "a", "fist"], ["form", "a", "fist"]):
+            return [Close(what="hand")], at + 3
+        if text.words[at + 1 : at + 3] == ["your", "head"] and text.word(at) in _LIFTS:
+            up = text.word(at) != "lower"
+            return [LookAt(place="up" if up else "down")], at + 3 + (text.word(at + 3) == "up")
+        if text.word(at) in ("light", "lights") and text.word(at + 1) in ("on", "off", "out"):
+            return [Switch(what="light", on=text.word(at + 1) == "on")], at + 2
+        amount = measure(text.words, at)
+        if amount and amount.kind in ("length", "angle") and not verbs_at(text.words, at):
+            complements, end = read_complements(text, at)
+            moves = all(c.direction or c.measure for c in complements) and len(complements) > 1
+            sense = "go" if amount.kind == "length" else "turn"
+            return self._framed(sense, at, at, complements, end) if moves else None
+        if verbs_at(text.words, at) and not text.name_at(at):
+            return None
+        on_or_off = self._brought_about(at)
+        if on_or_off and isinstance(on_or_off[0][0], Switch):
+            return on_or_off
+        return None
+
+    def _helped(self, at: int) -> Reading | None:
+        """Help Ada find her way from the gate to the lab; show Ada where the lab is."""
+        text = self.text
+        if text.word(at) not in _HELPS | {"show", "how"}:
+            return None
+        start = at + 1
+        if text.word(at) == "how":
+            start += text.word(start) in ("does", "can", "do", "could", "should")
+        phrase = noun_phrase(text, start)
+        if phrase is None or not is_person(phrase, self.scope) or phrase.noun == "operator":
+            return None
+        end = phrase.end + (text.word(phrase.end) == "to")
+        person = to_person(phrase, self.scope)
+        if text.word(at) == "show":
+            return self._shown(person_end=phrase.end, phrase=phrase)
+        way = text.phrase_end(_FINDS_WAY, end)
+        if way is None:
+            return None
+        complements, stop = read_complements(text, way)
+        source = next((c for c in complements if c.phrases and c.role == "from"), None)
+        goal = next((c for c in complements if c.phrases and c.role in ("to", "into", "")), None)
+        if goal is None:
+            return None
+        if source:
+            person = replace(person, at=to_place(source.phrase, self.scope, objects=True))
+        to = OPERATOR if goal.phrase.noun in ("operator", "here") else None
+        return [Guide(person=person, to=to or to_place(goal.phrase, self.scope))], stop
+
+    def _shown(self, *, person_end: int, phrase: NounPhrase) -> Reading | None:
+        text = self.text
+        if text.word(person_end) != "where":
+            return None
+        start = person_end + 1 + (text.word(person_end + 1) in ("is", "are"))
+        place = noun_phrase(text, start)
+        if place is None:
+            return None
+        end = place.end + (text.word(place.end) in ("is", "are"))
+        to = to_place(place, self.scope, objects=True)
+        return [Guide(person=to_person(phrase, self.scope), to=to)], end
+
+    def _followed(self, at: int) -> Reading | None:
+        """Have her follow you to the office: to guide her."""
+        text = self.text
+        phrase = noun_phrase(text, at + 1) if text.word(at) in _CAUSES else None
+        if phrase is None or not is_person(phrase, self.scope):
+            return None
+        end = phrase.end + (text.word(phrase.end) == "to")
+        if text.words[end : end + 2] not in (["follow", "you"], ["come", "with"]):
+            return None
+        complements, stop = read_complements(text, end + 2)
+        goal = next((c for c in complements if c.phrases and c.role in ("to", "into")), None)
+        to = to_place(goal.phrase, self.scope) if goal else None
+        return [Guide(person=to_person(phrase, self.scope), to=to)], stop
+
+    def _wanted_there(self, at: int) -> Reading | None:
+        """I need you in the office."""
+        text = self.text
+        start = text.phrase_end(_WISHES, at)
+        if start is None or text.word(start) != "you":
+            return None
+        start += 3 if text.words[start + 1 : start + 3] == ["to", "be"] else 1
+        complements, end = read_complements(text, start)
+        if len(complements) != 1 or complements[0].role not in ("at", "to"):
+            return None
+        return [GoTo(place=to_place(complements[0].phrase, self.scope))], end
+
+    def _later(self, at: int) -> Reading | None:
+        """In twenty seconds, ...; give it five seconds."""
+        text = self.text
+        start = at + 1 if text.word(at) in _IN_A_WHILE else text.phrase_end(_GIVE_IT, at)
+        amount = measure(text.words, start) if start else None
+        if amount is None or amount.kind != "time":
+            return None
+        goes_on = text.word(at) in _IN_A_WHILE
+        if goes_on and amount.end >= len(text):
+            return None
+        end = amount.end + (goes_on and text.word(amount.end) == COMMA)
+        return [Wait(duration_s=amount.value)], end
+
+    def _belongs(self, at: int, phrase: NounPhrase) -> Reading | None:
+        """The tea goes on the shelf; all toys belong in the box."""
+        start = self.text.phrase_end(_BELONGS, phrase.end)
+        if start is None or not phrase.name("object", "category") or phrase.is_person:
+            return None
+        complements, end = read_complements(self.text, start)
+        if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
+            return None
+        thing = Complement(phrases=[phrase])
+        return self._framed("put", at, phrase.end, [thing, *complements], end)
+
+    def _passive(self, phrase: NounPhrase) -> Reading | None:
+        """The cup should be brought to me; the plates need to be put on the shelf."""
+        text = self.text
+        first = text.phrase_end(_PASSIVE, phrase.end)
+        base = participle_base(text.word(first)) if first else None
+        if first is None or base is None:
+            return None
+        complements, end = read_complements(text, first + 1)
+        thing = Complement(phrases=[phrase])
+        for sense in SENSES.get((base,), ()):
+            if sense not in FRAMES:
+                continue
+            clause = Clause(text, sense, base, first + 1, end, [thing, *complements])
+            try:
+                return FRAMES[sense](clause, self.scope), end
+            except ReadingError:
+                continue
+        return None
+
+    def _state(self, phrase: NounPhrase) -> Reading | None:
+        """The lamp should be on."""
+        start = self.text.phrase_end(_PASSIVE, phrase.end)
+        result = _RESULTS.get(self.text.word(start)) if start else None
+        if start is None or result is None or not ends_clause(self.text, start + 1):
+            return None
+        return self._made_so(phrase, result), start + 1
