@@ -303,8 +303,7 @@ class _Keeping:
         name = rest.removeprefix("mission").strip()
         if not name:
             raise ConfigError("save it where? For example: save mission morning.yaml")
-        done = [job.number for job in self._shell.robot.executive.jobs if job.state == "done"]
-        steps = [self._shell.said[number] for number in done if number in self._shell.said]
+        steps = [job.text for job in self._shell.robot.executive.jobs if job.state == "done"]
         path = saving.save(Path(name), steps, self._shell.robot.where)
         self._shell.out(f"Saved: {path}. Run it with: humanoid mission run {path}")
 

@@ -8,41 +8,28 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from executive.request import Setting, Understood
-from intents import parser, wording
-from intents.outcomes import Goals
-from intents.vocabulary import Vocabulary
+from executive.request import Setting
 from robot.errors import ConfigError
 
 HEAD = "# What was done at the prompt. `humanoid mission check` says whether it still fits.\n"
 
 
-def save(path: Path, done: list[Understood], where: Setting) -> Path:
-    """Write what was done as a mission of sentences; returns where it went.
+def save(path: Path, sentences: list[str], where: Setting) -> Path:
+    """Write a mission of sentences; returns where it went.
 
     Raises:
         ConfigError: if there is nothing to save, the file is there, or it cannot be written.
     """
-    if not done:
+    if not sentences:
         raise ConfigError("nothing was done yet that could be saved")
     path = path if path.suffix else path.with_suffix(".yaml")
     if path.exists():
         raise ConfigError(f"{path} is there already; choose another name")
     try:
-        vocabulary = where.knowledge.vocabulary()
-        sentences = [sentence(one, vocabulary) for one in done]
         path.write_text(HEAD + text(path.stem, sentences, where), encoding="utf-8")
     except OSError as error:
         raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
     return path
-
-
-def sentence(done: Understood, vocabulary: Vocabulary) -> str:
-    """What was said where it stands by itself; else (an answer: "the blue one") what it meant."""
-    alone = parser.parse(done.text, vocabulary)
-    if isinstance(alone, Goals) and alone.goals == done.goals:
-        return done.text
-    return wording.in_words(done.goals)
 
 
 def text(name: str, sentences: list[str], where: Setting) -> str:

@@ -22,6 +22,7 @@ from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.outcomes import Goals, Question, Refusal, Reply
 from intents.stopping import is_stop
+from intents.wording import in_words
 from robot.errors import RobotError
 
 Out = Callable[[str], None]
@@ -35,7 +36,6 @@ class Shell:
         out: says a line to people.
         folder: of this run.
         leaving: whether the person wants to go.
-        said: what became jobs, by number.
         refused: how many lines led to nothing, because they could not be meant.
     """
 
@@ -48,7 +48,6 @@ class Shell:
         self.folder = folder
         self.leaving = False
         self.refused = 0
-        self.said: dict[int, Understood] = {}
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary())
         self._holds: tuple[str, ...] = ()
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
@@ -87,6 +86,7 @@ class Shell:
         """What a sentence asks for; None when something else was said about it already."""
         robot = self.robot
         state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
         if isinstance(turn, Reply):
             self.out(turn.text)
@@ -95,13 +95,13 @@ class Shell:
         elif isinstance(turn, Refusal):
             self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
         else:
-            return self._settle(text, turn)
+            # an answer ("the blue one") says nothing by itself: the job is called what it means
+            return self._settle(in_words(turn.goals) if answers else text, turn)
         return None
 
     def submit(self, understood: Understood, *, urgent: bool = False) -> None:
         """Queue a task, and say where it stands."""
         number = self.robot.submit(understood, urgent=urgent)
-        self.said[number] = understood
         self._holds = understood.holds
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)

@@ -106,7 +106,7 @@ def test_a_question_is_open_until_it_is_answered(shell: Shell):
     shell.line("look at the cup")
     assert "Which cup" in shell.out.text
     shell.line("the blue one")
-    assert shell.robot.executive.jobs[-1].text == "the blue one"
+    assert shell.robot.executive.jobs[-1].text == "look at the blue cup"
     shell.line("stop")
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "cancelled"
