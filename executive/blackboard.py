@@ -32,14 +32,12 @@ class Key(Generic[T]):
         self.writer = writer
         self.meaning = meaning
         self.initial = initial
+        kinds = get_args(kind) if isinstance(kind, UnionType) else (kind,)
+        self._kinds = tuple(get_origin(each) or each for each in kinds)
 
     def accepts(self, value: object) -> bool:
         """Whether a value is of the key's type (of containers only the container is checked)."""
-        kinds = get_args(self.kind) if isinstance(self.kind, UnionType) else (self.kind,)
-        plain = tuple(get_origin(kind) or kind for kind in kinds)
-        if float in plain and type(value) is int:
-            return True
-        return isinstance(value, plain)
+        return isinstance(value, self._kinds) or (type(value) is int and float in self._kinds)
 
 
 NOW = Key[float]("now_s", float, writer="sense", meaning="time of this tick [s]", initial=0.0)

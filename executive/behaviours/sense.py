@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-
+import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
@@ -11,23 +10,12 @@ from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import BODY, HEALTH, HELD, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.health import HealthMonitor
 from executive.ladder import Health, Level
-from executive.skills.holding import Holdings
+from executive.skills.holding import Held, Holdings
 from robot.link import BodyLink
-
-StampOf = Callable[[BodyLink], float | None]
 
 
 def _stamp(message: object) -> float | None:
     return getattr(message, "stamp_s", None)
-
-
-STAMPS: Mapping[str, StampOf] = {
-    "body/state": lambda link: _stamp(link.body()),
-    "world/state": lambda link: _stamp(link.world()),
-    "sensors/lidar": lambda link: _stamp(link.lidar()),
-    "sensors/depth": lambda link: _stamp(link.depth()),
-}
-"""Topic name to how the stamp of its newest message is read from the link."""
 
 
 class Sense(Behaviour):
@@ -44,6 +32,7 @@ class Sense(Behaviour):
         self._holdings = holdings
         self._board = stage.board.claim("sense")
         self._health = Health()
+        self._held: tuple[Held, ...] = ()
 
     def at(self, now_s: float) -> None:
         """Set the time of the tick that comes."""
@@ -52,15 +41,22 @@ class Sense(Behaviour):
     def update(self) -> Status:
         """Put the newest of everything on the board."""
         link, board = self._link, self._board
-        board.set(BODY, link.body())
-        board.set(WORLD, link.world())
+        body, world = link.body(), link.world()
+        board.set(BODY, body)
+        board.set(WORLD, world)
         board.set(MAP, link.map())
-        board.set(HELD, {held.side: held.object_id for held in self._holdings.all()})
+        self._feel()
+        stamps_s = {
+            "body/state": _stamp(body),
+            "world/state": _stamp(world),
+            "sensors/lidar": _stamp(link.lidar()),
+            "sensors/depth": _stamp(link.depth()),
+        }
         health = self._monitor.look(
             self._stage.now_s,
-            {name: read(link) for name, read in STAMPS.items()},
-            body=link.body(),
-            world=link.world(),
+            stamps_s,
+            body=body,
+            world=world,
             power=link.power(),
             timing=link.timing(),
         )
@@ -70,6 +66,15 @@ class Sense(Behaviour):
         worst = health.failure
         self.feedback_message = worst.cause if worst else "all is well"
         return Status.RUNNING
+
+    def _feel(self) -> None:
+        """What the hands hold; how, is journalled for an executive that comes after this one."""
+        held = self._holdings.all()
+        self._board.set(HELD, {one.side: one.object_id for one in held})
+        if held != self._held:
+            self._held = held
+            hands = {one.side: msgspec.to_builtins(one) for one in held}
+            self._stage.record("held", hands=hands)
 
     def _journal(self, health: Health) -> None:
         """Journal what has come up or gone away since the last tick."""

@@ -226,11 +226,14 @@ def _arrived(body: Body, follower: Follower, goal: Stance) -> bool:
 
 
 def _walk(body: Body, twist: Twist) -> None:
+    """Walk at a twist, slowed down to what is allowed now."""
+    speed_m_s = math.hypot(twist.forward_m_s, twist.left_m_s)
+    slower = min(1.0, body.context.speed_limit() / max(speed_m_s, 1e-9))
     body.send(
         Walk(
             **body.header(),
-            forward_m_s=round(twist.forward_m_s, 4),
-            left_m_s=round(twist.left_m_s, 4),
-            turn_rad_s=round(twist.turn_rad_s, 4),
+            forward_m_s=round(slower * twist.forward_m_s, 4),
+            left_m_s=round(slower * twist.left_m_s, 4),
+            turn_rad_s=round(slower * twist.turn_rad_s, 4),
         )
     )

@@ -1,6 +1,7 @@
 """Navigate: gets there exactly, replans around what blocks, and says why not."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -227,3 +228,37 @@ def test_stop_while_planning_cancels_the_plan(stage):
     stage.stop()
     assert stage.planner.open == {}
     assert stage.planner.cancelled
+
+
+def test_it_walks_no_faster_than_it_may_even_if_that_changes_on_the_way(stage):
+    limits = iter([0.2] * 40 + [0.1] * 10_000)
+    stage.context = replace(stage.context, speed_limit=lambda: next(limits))
+    assert stage.run(to(2.0, 0.0, 0.0)).status == "succeeded"
+    speeds = [math.hypot(walk.forward_m_s, walk.left_m_s) for walk in stage.commands(Walk)]
+    assert max(speeds[:40]) == pytest.approx(0.2, abs=1e-3)
+    assert max(speeds[40:]) == pytest.approx(0.1, abs=1e-3)
+
+
+def test_an_interrupted_step_goes_on_to_where_it_would_have_led(stage):
+    wanted = stage.puppet.X_WS @ SE3((1.5, 0.0, 0.0))
+    stage.run(NavigateParams(by=Step(forward_m=1.5)), until_phase="walking")
+    for _ in range(40):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    rest = stage.skill.remaining()
+    stage.stop()
+    assert stage.run(rest).status == "succeeded"
+    assert math.dist(stage.puppet.X_WS.p[:2], wanted.p[:2]) < 0.03
+
+
+@pytest.mark.parametrize("after", [1, 30, 70, 120])
+def test_an_interrupted_turn_turns_what_is_left_of_it(stage, after):
+    whole_rad = 2.5 * math.pi
+    stage.run(NavigateParams(by=Step(turn_rad=whole_rad)), until_phase="walking")
+    for _ in range(after):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    rest = stage.skill.remaining()
+    stage.stop()
+    assert stage.run(rest).status == "succeeded"
+    assert stage.puppet.turned_rad == pytest.approx(whole_rad, abs=0.15)
