@@ -99,11 +99,15 @@ class Occupy(_Fault, frozen=True, kw_only=True):
 
 
 class StandInWay(_Fault, frozen=True, kw_only=True):
-    """Somebody, or a chair, stands before the robot for `duration_s`, then where it was again."""
+    """Somebody, or a chair, stands in the way for `duration_s`, then where it was again.
+
+    That is before the robot, or at a point of the floor.
+    """
 
     target: str
     ahead_m: float = 0.9
     left_m: float = 0.0
+    at_m: tuple[float, float] | None = None
     duration_s: float = math.inf
 
 
@@ -270,6 +274,8 @@ def _put(plant: Plant, fault: Move | Occupy | StandInWay | Remove) -> None:
             before = plant.where(body)
             X_WB = plant.oracle.X_WB().flat()
             X_there = X_WB @ SE3.from_xy_yaw(fault.ahead_m, fault.left_m, math.pi)
+            if fault.at_m is not None:
+                X_there = SE3.from_xy_yaw(*fault.at_m, X_there.yaw_rad)
             plant.put(body, _shifted(X_there, (0.0, 0.0, before.p[2])))
             if math.isfinite(fault.duration_s):
                 plant.after(fault.duration_s, lambda: plant.put(body, before))

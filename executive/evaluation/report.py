@@ -9,7 +9,7 @@ from statistics import median
 import msgspec
 from rich.table import Table
 
-from executive.evaluation.campaign import Case
+from executive.evaluation.campaign import RECOVERED, Case
 from executive.evaluation.record import Record
 
 
@@ -18,6 +18,8 @@ class Score(msgspec.Struct, frozen=True, kw_only=True):
 
     runs: int
     ok: int
+    done: int
+    """Runs that were done in truth, also where a failure was expected."""
     unsafe: int
     median_s: float
     recoveries: float
@@ -122,15 +124,19 @@ def _cells(row: Row) -> list[str]:
     return [
         row.case,
         row.expect,
-        _share(on),
-        _share(off) if off else "-",
+        _share(row, on),
+        _share(row, off) if off else "-",
         f"{on.median_s:.0f} s" if on.runs else "-",
         wrong + seeds,
     ]
 
 
-def _share(score: Score) -> str:
-    return f"{score.ok}/{score.runs}" if score.runs else "-"
+def _share(row: Row, score: Score) -> str:
+    """How many of how many; where a failure is expected, also how many were done all the same."""
+    if not score.runs:
+        return "-"
+    done = f" ({score.done} done)" if score.done and row.expect != RECOVERED else ""
+    return f"{score.ok}/{score.runs}{done}"
 
 
 def _score(records: list[Record]) -> Score:
@@ -138,6 +144,7 @@ def _score(records: list[Record]) -> Score:
     return Score(
         runs=len(records),
         ok=sum(record.ok for record in records),
+        done=sum(record.ok and record.code == "done" for record in records),
         unsafe=sum(record.unsafe for record in records),
         median_s=median([record.took_s for record in records]) if records else 0.0,
         recoveries=sum(r.recoveries for r in records) / len(records) if records else 0.0,

@@ -180,7 +180,7 @@ class Recover(Behaviour):
         name, steps = REMEDIES[remedy]
         nodes: list[Behaviour] = [
             run(step, self._stage, attempt=attempt, path=f"{path}.{number}")
-            for number, step in enumerate(steps(self._errand), 1)
+            for number, step in enumerate(steps(self._errand, reason), 1)
         ]
         if remedy == "ask":
             asked = question(reason, self._errand)

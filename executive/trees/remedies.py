@@ -7,6 +7,7 @@ from typing import Literal
 
 from executive.skills.parameters import (
     BalanceParams,
+    LookParams,
     NavigateParams,
     PickParams,
     SearchParams,
@@ -19,32 +20,38 @@ Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "ask
 
 WAIT_S = 3.0
 STEP_BACK_M = 0.3
+EYE_LEVEL_M = 0.7
 
 
-def _retry(_errand: Errand) -> tuple[Errand, ...]:
+def _retry(_errand: Errand, _reason: Failure) -> tuple[Errand, ...]:
     return ()
 
 
-def _wait(_errand: Errand) -> tuple[Errand, ...]:
-    params = BalanceParams(mode="stand", duration_s=WAIT_S)
-    return (Errand(name="stand and wait", params=params),)
+def _wait(_errand: Errand, reason: Failure) -> tuple[Errand, ...]:
+    """Stand for a while, with an eye on what is in the way."""
+    stand = Errand(name="stand and wait", params=BalanceParams(mode="stand", duration_s=WAIT_S))
+    x_m, y_m = reason.evidence.get("x_m"), reason.evidence.get("y_m")
+    if not isinstance(x_m, float) or not isinstance(y_m, float):
+        return (stand,)
+    look = LookParams(p_W=(x_m, y_m, EYE_LEVEL_M))
+    return (Errand(name="look at what is in the way", params=look), stand)
 
 
-def _step_back(errand: Errand) -> tuple[Errand, ...]:
+def _step_back(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
     params = NavigateParams(by=Step(forward_m=-STEP_BACK_M))
-    return (Errand(name="step back", params=params), *_look_again(errand))
+    return (Errand(name="step back", params=params), *_look_again(errand, reason))
 
 
-def _look_again(errand: Errand) -> tuple[Errand, ...]:
+def _look_again(errand: Errand, _reason: Failure) -> tuple[Errand, ...]:
     if errand.object_id is None or errand.carries:
         return ()
     params = SearchParams(object_id=errand.object_id)
     return (Errand(name=f"look for {errand.object_name}", params=params),)
 
 
-def _fetch_again(errand: Errand) -> tuple[Errand, ...]:
+def _fetch_again(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
     if errand.object_id is None or not errand.carries:
-        return _look_again(errand)
+        return _look_again(errand, reason)
     search = SearchParams(object_id=errand.object_id)
     pick = PickParams(object_id=errand.object_id)
     return (
@@ -53,7 +60,7 @@ def _fetch_again(errand: Errand) -> tuple[Errand, ...]:
     )
 
 
-REMEDIES: dict[Remedy, tuple[str, Callable[[Errand], tuple[Errand, ...]]]] = {
+REMEDIES: dict[Remedy, tuple[str, Callable[[Errand, Failure], tuple[Errand, ...]]]] = {
     "retry": ("try again", _retry),
     "wait": ("wait, then try again", _wait),
     "look_again": ("look again, then retry", _look_again),

@@ -12,8 +12,8 @@ from robot.errors import ConfigError
 FAULTS = (
     "missed grasp", "object knocked over", "object dropped while carrying",
     "object moved after it was seen", "object gone", "place occupied", "path blocked for a while",
-    "path blocked for good", "chair pushed into the way", "push while walking",
-    "push while reaching", "camera silent", "lidar silent", "localisation jump",
+    "path blocked for good", "chair pushed into the way", "push of 10 N·s while walking",
+    "push of 10 N·s while reaching", "camera silent", "lidar silent", "localisation jump",
     "controller killed", "executive killed", "planner over budget", "a person steps in front",
     "hot motor", "low battery", "disk full",
 )  # fmt: skip
