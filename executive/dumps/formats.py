@@ -57,7 +57,7 @@ def _dot(run: Run, wish: Wish) -> bytes:
 
 
 def _json(run: Run, _wish: Wish) -> bytes:
-    return msgspec.json.encode(run, order="deterministic") + b"\n"
+    return msgspec.json.encode(run) + b"\n"
 
 
 def _text(run: Run, wish: Wish) -> bytes:

@@ -1,13 +1,14 @@
 // Above the rows: the whole run at a glance, the axis, what happened, health, and the body's mode.
 
 const LANE = 22;
-const EVENTS = {
+const EVENTS = new Map(Object.entries({
   failure: ["✗", "failed"], fault: ["⚡", "warn"], recovery: ["↻", "running"], said: ["“", "accent"],
   hold: ["‖", "warn"], pause: ["‖", "accent"], resume: ["▸", "accent"], stop: ["■", "stopped"],
   cancel: ["■", "stopped"], abort: ["■", "failed"], help: ["?", "warn"], answer: ["!", "accent"],
   outcome: ["●", "text"], job: ["◆", "dim"],
-};
-const marked = list(run.log).filter((line) => EVENTS[line[1]]);
+}));
+const MODES = new Map([["walk", "running"], ["fallen", "failed"], ["damping", "failed"]]);
+const marked = list(run.log).filter((line) => EVENTS.has(line[1]));
 const LEVELS = ["OK", "WARN", "DERATE", "HOLD", "SIT", "DAMP"];
 
 /** Health over time: [begin, end, worst level, causes]. */
@@ -41,7 +42,7 @@ function drawLanes() {
   }
   drawMarks(pen, width, LANE);
   drawBands(pen, width, 2 * LANE, healthBands, (level) => (LEVELS.indexOf(level) >= 3 ? "failed" : "warn"), (b) => `${b[2].toLowerCase()}: ${b[3]}`);
-  drawBands(pen, width, 3 * LANE, modes, (mode) => ({ walk: "running", fallen: "failed", damping: "failed" }[mode] || "waiting"), (b) => b[2]);
+  drawBands(pen, width, 3 * LANE, modes, (mode) => MODES.get(mode) || "waiting", (b) => b[2]);
   nowLine(pen, width, height);
 }
 
@@ -57,7 +58,7 @@ function drawMarks(pen, width, top) {
   let last = -99;
   const first = Math.max(0, lastBefore(marked, view.from) - 1);
   for (let i = first; i < marked.length && marked[i][0] <= view.to; i++) {
-    const [glyph, colour] = EVENTS[marked[i][1]], x = xOf(marked[i][0], width);
+    const [glyph, colour] = EVENTS.get(marked[i][1]), x = xOf(marked[i][0], width);
     if (x - last < 5 && marked[i][1] !== "failure") continue;
     last = x;
     pen.fillStyle = colours[colour];

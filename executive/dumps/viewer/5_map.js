@@ -1,9 +1,9 @@
 // The world from above: rooms, furniture, people, objects where they were believed to be, the way.
 
-const NAMED = {
+const NAMED = new Map(Object.entries({
   red: "#d62828", blue: "#1f6fd6", green: "#2a9d3a", yellow: "#e0b400", orange: "#e8791a", white: "#f5f5f5",
   black: "#222222", grey: "#8a8f98", gray: "#8a8f98", brown: "#8b5a2b", pink: "#e377c2", purple: "#7b3fb8",
-};
+}));
 const things = new Map(list(plan?.objects).map((thing) => [thing.id, thing]));
 
 const bounds = (() => {
@@ -124,7 +124,7 @@ function thing(pen, id, sights, at, carried) {
   const held = sight[4] || carried, missing = sight[5];
   pen.beginPath();
   pen.arc(x, y, 4.5, 0, 2 * Math.PI);
-  pen.fillStyle = NAMED[known?.color] || colours.warn;
+  pen.fillStyle = NAMED.get(known?.color) || colours.warn;
   pen.globalAlpha = missing ? 0.35 : 1;
   pen.fill();
   pen.strokeStyle = colours.text;

@@ -73,7 +73,7 @@ function recall() {
   const place = new URLSearchParams(location.hash.slice(1));
   const t = Number.parseFloat(place.get("t")), id = Number.parseInt(place.get("node"), 10);
   if (nodes.has(id)) selected = id;
-  if (place.get("tab") in TABS) tab = place.get("tab");
+  if (Object.hasOwn(TABS, place.get("tab") ?? "")) tab = place.get("tab");
   const [from, to] = [Number.parseFloat(place.get("from")), Number.parseFloat(place.get("to"))];
   if (to > from) Object.assign(view, { from: Math.max(from, BEGIN), to: Math.min(to, END) });
   if (Number.isFinite(t)) now = Math.min(Math.max(t, BEGIN), END);
