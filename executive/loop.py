@@ -78,6 +78,8 @@ class Interrupts:
     def __init__(self) -> None:
         """None yet."""
         self.count = 0
+        self.heeded = False
+        """Whether the stop that the first one asks for has been asked for."""
         self.on_press: Callable[[], None] = _nothing
 
     def press(self, times: int = 1) -> None:
@@ -90,6 +92,7 @@ class Interrupts:
     def clear(self) -> None:
         """What was asked for has been done; count from zero."""
         self.count = 0
+        self.heeded = False
 
     @contextmanager
     def listen(self) -> Generator[None]:
@@ -166,9 +169,12 @@ def _tick(runtime: Runtime, executive: Executive, interrupts: Interrupts) -> boo
         runtime.advance(PERIOD_S)
         executive.abandon(None, now_s)
         return False
-    if interrupts.count and executive.state != "stopping":
+    if interrupts.count and not interrupts.heeded:
+        interrupts.heeded = True
         executive.stop("stopped on request")
     executive.tick(now_s)
+    if interrupts.heeded and executive.state != "stopping":
+        interrupts.clear()  # it stands: the next one is a first one again
     return True
 
 
