@@ -341,13 +341,15 @@ class WorldState(Message, frozen=True, kw_only=True):
 
     `X_WN` takes the controller's odometry frame to the world: `X_WB = X_WN @ X_NB`.
     `fix_age_s` is the age of the last fix that was believed; `jumps` counts how often the estimate
-    of X_WN had to be thrown over. `unmapped` is what the lidar sees and the map does not explain.
+    of X_WN had to be thrown over. `unmapped` is what the sensors see and the map does not explain.
+    `people` are tracked like objects; one not seen yet (`seen_s` -inf) is where the map says.
     """
 
     X_WN: SE3
     X_WB: SE3
     fix_age_s: float
     tracks: tuple[Track, ...]
+    people: tuple[Track, ...] = ()
     unmapped: tuple[Obstacle, ...] = ()
     jumps: int = 0
     source: Source = "oracle"

@@ -16,13 +16,14 @@ from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan
 from robot.se3 import SE3
 
 MOST_SHORT_M = 0.04
+MOST_SHORT_RAD = 0.1
 NEARER_M = 0.015
 NEARER_TOLERANCE_M = 0.012
 
 
 def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
     """Walk to the standoff, raise the hand, step in to the stance and take the posture."""
-    keep_upright = body.context.holdings.at(plan.side) is not None
+    keep_upright = body.context.holdings.must_stay_upright(plan.side)
     if not is_at_stance(body, plan.stance):
         body.phase = f"walking to the {what}"
         yield from walk_to(body, plan.standoff)
@@ -59,6 +60,9 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
     short_m = reason.evidence.get("short_m", math.inf)
     if reason.code != "out_of_reach" or not isinstance(short_m, float) or short_m > MOST_SHORT_M:
         return False
+    short_rad = reason.evidence.get("short_rad", 0.0)
+    if isinstance(short_rad, float) and short_rad > MOST_SHORT_RAD:
+        return False  # a step does not turn the hand
     body.phase = "stepping nearer"
     nearer = body.X_WS @ SE3((short_m + NEARER_M, 0.0, 0.0))
     yield from step_to(body, stance_of(nearer), position_tolerance_m=NEARER_TOLERANCE_M)
@@ -84,5 +88,5 @@ def back_away(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[No
 def bring_in(body: Body, side: Side, arm_rad: Joints) -> Script[None]:
     """Bring an arm near the body, upright if it holds something."""
     body.phase = f"bringing the {side} arm in"
-    keep_upright = body.context.holdings.at(side) is not None
+    keep_upright = body.context.holdings.must_stay_upright(side)
     yield from move_arm(body, side, arm_rad, keep_upright=keep_upright)

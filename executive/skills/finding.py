@@ -1,4 +1,4 @@
-"""Finding an object: look where it was, look around, then go and look place by place."""
+"""Finding an object: look where it was, look around from here, then go and look place by place."""
 
 from __future__ import annotations
 
@@ -9,18 +9,17 @@ from executive.skills.asking import stance_of
 from executive.skills.body import Body
 from executive.skills.looking import fresh_track, see, turn_head
 from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.survey import Survey
 from executive.skills.visiting import has_room, stances_around, stances_at, walk_to_any
 from executive.skills.walking import stand_still, turn_by
 from robot.messages import Place
-from robot.se3 import SE3, Vector3
+from robot.se3 import SE3, wrap_angle
 
-GLANCES_RAD = (0.0, 0.8, -0.8)
-GLANCE_DISTANCE_M = 1.5
-GLANCE_HEIGHT_M = 0.6
 GLANCE_S = 0.35
 SIGHT_M = 3.0
 LOOK_FROM_M = 1.0
-SURFACE_GLANCES = ((0.0, 0.0), (0.3, 0.3), (0.3, -0.3), (-0.3, -0.3), (-0.3, 0.3))
+TURNS = 3
+SMALL_TURN_RAD = 0.3
 
 
 def find(
@@ -41,20 +40,21 @@ def find(
             return found
     begin_s = body.now_s
     body.phase = f"looking around for the {name}"
-    found = yield from _look_around(body, object_id, begin_s)
-    if found is not None:
-        return found
-    looked: list[str] = []
-    for place in _places(body, place_ids):
-        found = yield from _look_at_place(body, object_id, place, begin_s)
-        if found is not None:
-            return found
-        looked.append(place.name)
-    raise give_up(
-        "object_not_seen",
-        f"did not find the {name}; looked " + (f"at {', '.join(looked)}" if looked else "around"),
-        object=object_id,
-    )
+    places = _places(body, place_ids)
+    survey = Survey(places, fallen_from=None if place_ids else _last_place(body, object_id))
+    found = yield from _look_around(body, object_id, survey, begin_s)
+    while found is None and places:
+        place = min(places, key=lambda place: _worth(body, place, survey))
+        places.remove(place)
+        found = yield from _look_at_place(body, object_id, place, survey, begin_s)
+    if found is None:
+        names = ", ".join(place.name for place in _places(body, place_ids))
+        raise give_up(
+            "object_not_seen",
+            f"did not find the {name}; looked " + (f"at {names}" if names else "around"),
+            object=object_id,
+        )
+    return found
 
 
 def _believed(body: Body, object_id: str) -> SE3 | None:
@@ -75,20 +75,32 @@ def _check_belief(body: Body, object_id: str, X_WO: SE3) -> Script[SE3 | None]:
         return None
 
 
-def _look_around(body: Body, object_id: str, begin_s: float) -> Script[SE3 | None]:
-    """Look ahead, left and right, then where there is room turn around and do it again."""
-    for half_turn in (False, True):
-        if half_turn and not has_room(body, stance_of(body.X_WS)):
-            return None
-        if half_turn:
-            yield from turn_by(body, math.pi)
+def _look_around(body: Body, object_id: str, survey: Survey, begin_s: float) -> Script[SE3 | None]:
+    """Look over all that is in view from here, then turn to where most is left, given room."""
+    found = yield from _look_over(body, object_id, survey, begin_s)
+    for _ in range(TURNS):
+        yaw_rad = survey.heading(body.X_WS)
+        if found is not None or yaw_rad is None or not has_room(body, stance_of(body.X_WS)):
+            return found
+        turn_rad = wrap_angle(yaw_rad - body.X_WS.yaw_rad)
+        if abs(turn_rad) > SMALL_TURN_RAD:
+            yield from turn_by(body, turn_rad)
             yield from stand_still(body)
-        for p_W in _glances(body.X_WS):
-            yield from turn_head(body, p_W)
-            yield from body.wait(GLANCE_S)
-            if fresh_track(body, object_id, begin_s) is not None:
-                return (yield from _make_sure(body, object_id))
-    return None
+        found = yield from _look_over(body, object_id, survey, begin_s)
+    return found
+
+
+def _look_over(body: Body, object_id: str, survey: Survey, begin_s: float) -> Script[SE3 | None]:
+    """Turn the head to all that is left to be seen from here, until the object shows."""
+    while True:
+        if fresh_track(body, object_id, begin_s) is not None:
+            return (yield from _make_sure(body, object_id))
+        p_W = survey.next_point(body.X_WS)
+        if p_W is None:
+            return None
+        yield from turn_head(body, p_W)
+        yield from body.wait(GLANCE_S)
+        survey.look(body.X_WS, p_W)
 
 
 def _make_sure(body: Body, object_id: str) -> Script[SE3 | None]:
@@ -103,7 +115,9 @@ def _make_sure(body: Body, object_id: str) -> Script[SE3 | None]:
         return glimpse
 
 
-def _look_at_place(body: Body, object_id: str, place: Place, begin_s: float) -> Script[SE3 | None]:
+def _look_at_place(
+    body: Body, object_id: str, place: Place, survey: Survey, begin_s: float
+) -> Script[SE3 | None]:
     """Walk to a place and look over it; None if the object is not there or no path leads there."""
     body.phase = f"going to look at the {place.name}"
     try:
@@ -113,38 +127,25 @@ def _look_at_place(body: Body, object_id: str, place: Place, begin_s: float) -> 
             raise
         return None
     body.phase = f"looking over the {place.name}"
-    for part_x, part_y in SURFACE_GLANCES:
-        offset = (part_x * place.size_m[0], part_y * place.size_m[1], 0.0)
-        x_m, y_m, z_m = (float(value) for value in place.X_WP.apply(offset))
-        if fresh_track(body, object_id, begin_s) is None:
-            yield from turn_head(body, (x_m, y_m, z_m))
-            yield from body.wait(GLANCE_S)
-        if fresh_track(body, object_id, begin_s) is not None:
-            return (yield from _make_sure(body, object_id))
-    return None
+    survey.again(place.id)
+    return (yield from _look_over(body, object_id, survey, begin_s))
+
+
+def _worth(body: Body, place: Place, survey: Survey) -> tuple[bool, float, str]:
+    """Places that have not been seen from afar come first, then the nearest."""
+    distance_m = math.dist(place.X_WP.p[:2], body.X_WS.p[:2])
+    return (survey.left_at(place.id) == 0, distance_m, place.id)
+
+
+def _last_place(body: Body, object_id: str) -> tuple[float, float, float] | None:
+    """Where the object was last, whether it is still there or not."""
+    track = body.track(object_id)
+    return track.X_WO.p if track is not None and track.X_WO is not None else None
 
 
 def _places(body: Body, place_ids: Sequence[str]) -> list[Place]:
-    """Where to look: the places asked for, or every surface, the nearest first."""
+    """Where to look: the places asked for, or every surface."""
     if place_ids:
         return [body.place(place_id) for place_id in place_ids]
-    here = body.X_WS.p
     surfaces = {place.X_WP.p: place for place in body.map.places if not place.floor}
-    return sorted(
-        surfaces.values(), key=lambda place: (math.dist(place.X_WP.p[:2], here[:2]), place.id)
-    )
-
-
-def _glances(X_WS: SE3) -> list[Vector3]:
-    """Points to look at around a stance: ahead, left, right."""
-    points: list[Vector3] = []
-    for turn_rad in GLANCES_RAD:
-        yaw_rad = X_WS.yaw_rad + turn_rad
-        points.append(
-            (
-                X_WS.p[0] + GLANCE_DISTANCE_M * math.cos(yaw_rad),
-                X_WS.p[1] + GLANCE_DISTANCE_M * math.sin(yaw_rad),
-                GLANCE_HEIGHT_M,
-            )
-        )
-    return points
+    return list(surfaces.values())

@@ -18,7 +18,8 @@ class Held(msgspec.Struct, frozen=True, kw_only=True):
         X_GO: the object in the grasp frame, as it sits between the fingers.
         gap_m: opening of the fingers around it.
         mass_kg: what the body was told it weighs.
-        carry_rad: joints of the arm that carry it upright near the body.
+        carry_rad: joints of the arm that carry it near the body, as upright as it stood.
+        upright: whether it stood; what lay is turned upright when it is put down.
     """
 
     object_id: str
@@ -27,6 +28,7 @@ class Held(msgspec.Struct, frozen=True, kw_only=True):
     gap_m: float
     mass_kg: float
     carry_rad: Joints
+    upright: bool = True
 
 
 class Holdings:
@@ -47,6 +49,11 @@ class Holdings:
     def at(self, side: Side) -> Held | None:
         """What a hand holds."""
         return self._held.get(side)
+
+    def must_stay_upright(self, side: Side) -> bool:
+        """Whether a hand holds something that must not be tilted."""
+        held = self._held.get(side)
+        return held is not None and held.upright
 
     def find(self, object_id: str) -> Held | None:
         """The hold on an object, None if no hand has it."""

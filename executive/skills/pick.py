@@ -2,39 +2,40 @@
 
 from __future__ import annotations
 
-import math
-
 from executive.skills.approaching import approach, come_nearer, withdraw
 from executive.skills.asking import ask, stance_of
 from executive.skills.context import SkillContext
 from executive.skills.finding import find
-from executive.skills.gripping import (
-    LEAST_GAP_M,
-    check_grips,
-    close_fingers,
-    open_fingers,
-    set_payload,
+from executive.skills.grasping import (
+    aim,
+    centred,
+    check_gap,
+    check_reachable,
+    followed,
+    has_fallen,
+    last_seen,
 )
+from executive.skills.gripping import check_grips, close_fingers, open_fingers, set_payload
 from executive.skills.holding import Held
-from executive.skills.looking import fresh_track, see
+from executive.skills.looking import see
 from executive.skills.parameters import PickParams
 from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME, stow_arms
-from executive.skills.support import pose_on_support, surroundings
+from executive.skills.support import UPRIGHT_RAD, surroundings, tilt
 from robot.messages import ObjectInfo
-from robot.planning.requests import PickPlan, PickRequest
+from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
 
 APPROACH_M_S = 0.12
 LIFT_M_S = 0.12
 LOWER_M_S = 0.06
 OPEN_MARGIN_M = 0.045
-GAP_TOLERANCE_M = 0.015
-FOLLOW_AT_MOST_M = 0.04
-FRESH_S = 0.5
+GRASPS = 2
 REACH_CORRECTIONS = 2
+MOVE_OVER_COST_PER_M = 0.5
+"""Cost of walking to another stance once the robot stands before the object."""
 GRAVITY_M_S2 = 9.81
 LEAST_LOAD = 0.3
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
@@ -50,26 +51,27 @@ class Pick(ScriptedSkill):
         super().__init__(context)
         self.parameters = parameters
         self._tare_n = 0.0
-        self._reached = False
+        self._begin_s = 0.0
+        self._X_WG_pre: SE3 | None = None
         self._X_WG_closed: SE3 | None = None
 
     def script(self) -> Script[None]:
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""
         body = self.body
+        self._begin_s = body.now_s
         info = body.object_info(self.parameters.object_id)
         held_already = self._check_hands(info)
         yield from stow_arms(body)
         if held_already:
             return
-        yield from find(body, info.id)
+        X_WO = yield from find(body, info.id)
+        check_reachable(body, info, X_WO)
         plan = yield from self._plan(info)
         body.progress = 0.1
         yield from approach(body, plan, what=info.name)
         try:
             body.progress = 0.4
             plan = yield from self._grasp(info, plan)
-            body.progress = 0.7
-            yield from self._lift(info, plan)
         except GaveUp as end:
             yield from self._back_off(plan, info)
             raise end
@@ -99,25 +101,42 @@ class Pick(ScriptedSkill):
             around=surroundings(self.body),
             start=stance_of(self.body.X_WS),
             side=side,
+            walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
             seed=self.body.context.seed + attempt,
         )
         return (yield from ask(self.body, request, PickPlan))
 
     def _grasp(self, info: ObjectInfo, plan: PickPlan) -> Script[PickPlan]:
-        """Bring the open fingers around the object and close them. Returns the plan carried out."""
-        body = self.body
-        plan, X_WO = yield from self._reach(info, plan)
-        side = plan.side
+        """Take hold of it and lift it; tries again from where the body stands if it slips away."""
+        for attempt in range(GRASPS):
+            plan, X_WO = yield from self._reach(info, plan)
+            try:
+                yield from self._close(info, plan, X_WO)
+                yield from self._lift(info, plan)
+            except GaveUp as end:
+                if attempt + 1 == GRASPS or end.failure.code != "grasp_missed":
+                    raise
+                yield from self._draw_back(plan)
+            else:
+                break
+        return plan
+
+    def _close(self, info: ObjectInfo, plan: PickPlan, X_WO: SE3) -> Script[None]:
+        """Bring the open fingers around the object and close them."""
+        body, side = self.body, plan.side
         body.phase = f"moving in on the {info.name}"
         yield from move_hand(
-            body, side, lambda: self._where(info, X_WO) @ plan.X_OG, speed_m_s=APPROACH_M_S
+            body,
+            side,
+            lambda: aim(plan, info, followed(body, info, X_WO)),
+            speed_m_s=APPROACH_M_S,
         )
         body.phase = f"closing the {side} fingers"
         self._tare_n = body.hand(side).load_n
         gap_m = yield from close_fingers(body, side)
         self._X_WG_closed = body.X_WG(side)
-        X_GO = _centred(body.X_WG(side).inverse() @ self._where(info, X_WO))
-        self._check_gap(info, plan, gap_m)
+        X_GO = centred(body.X_WG(side).inverse() @ last_seen(body, info, X_WO))
+        check_gap(info, plan, gap_m)
         body.context.holdings.take(
             Held(
                 object_id=info.id,
@@ -126,64 +145,61 @@ class Pick(ScriptedSkill):
                 gap_m=gap_m,
                 mass_kg=info.mass_kg,
                 carry_rad=plan.carry_rad,
+                upright=tilt(X_WO) < UPRIGHT_RAD,
             )
         )
         set_payload(body, side, info.mass_kg)
-        return plan
 
     def _reach(self, info: ObjectInfo, plan: PickPlan) -> Script[tuple[PickPlan, SE3]]:
         """Look, and move to the pre-grasp; moves the base if it is out of reach from here."""
         body = self.body
         for attempt in range(1 + REACH_CORRECTIONS):
             body.phase = f"looking at the {info.name}"
-            X_WO = yield from see(body, info.id)
+            X_WO = yield from see(body, info.id, remembered_since_s=self._begin_s)
+            check_reachable(body, info, X_WO)
+            if has_fallen(plan, X_WO):
+                plan = yield from self._move_over(info, attempt=attempt + 1)
+                continue
             body.phase = f"reaching for the {info.name}"
             opening_m = plan.opening_m + OPEN_MARGIN_M
             yield from open_fingers(body, plan.side, opening_m=opening_m)
-            X_OG_pre = plan.X_OG @ (plan.X_WG_grasp.inverse() @ plan.X_WG_pre)
+            X_WG_pre = aim(plan, info, X_WO) @ (plan.X_WG_grasp.inverse() @ plan.X_WG_pre)
             try:
-                yield from move_arm(body, plan.side, X_WO @ X_OG_pre, near_rad=plan.pre_rad)
+                yield from move_arm(body, plan.side, X_WG_pre, near_rad=plan.pre_rad)
             except GaveUp as end:
                 if attempt == REACH_CORRECTIONS or end.failure.code not in MOVE_THE_BASE:
                     raise
-                if (yield from come_nearer(body, plan, end.failure)):
-                    continue
-                plan = yield from self._plan(info, attempt=attempt + 1)
-                yield from self._step_over(plan, info)
+                if not (yield from come_nearer(body, plan, end.failure)):
+                    plan = yield from self._move_over(info, attempt=attempt + 1)
                 continue
-            self._reached = True
+            self._X_WG_pre = X_WG_pre
             return plan, X_WO
-        raise AssertionError("unreachable")
+        raise give_up(
+            "grasp_missed", f"the {info.name} did not stay where it was seen", object=info.id
+        )
 
-    def _step_over(self, plan: PickPlan, info: ObjectInfo) -> Script[None]:
-        """Go to another stance: back to where the hand can be raised, then in again."""
+    def _move_over(self, info: ObjectInfo, *, attempt: int) -> Script[PickPlan]:
+        """Plan again, with a stance near this one if there is one, and go there, the arms in."""
+        plan = yield from self._plan(info, attempt=attempt)
         yield from stow_arms(self.body)
         yield from approach(self.body, plan, what=info.name)
+        self._X_WG_pre = None
+        return plan
 
-    def _where(self, info: ObjectInfo, X_WO: SE3) -> SE3:
-        """The object now: as just seen, unless that is stale or far from where it was."""
-        track = fresh_track(self.body, info.id, self.body.now_s - FRESH_S)
-        if track is None or track.X_WO is None:
-            return X_WO
-        X_WO_now = pose_on_support(self.body, info.id, track.X_WO)
-        moved_m = math.dist(X_WO_now.p, X_WO.p)
-        return X_WO_now if moved_m <= FOLLOW_AT_MOST_M else X_WO
-
-    def _check_gap(self, info: ObjectInfo, plan: PickPlan, gap_m: float) -> None:
-        """The fingers must have closed on the object, about where it is as wide as planned."""
-        if gap_m < LEAST_GAP_M:
-            cause = f"the fingers closed on air, not on the {info.name}"
-        elif abs(gap_m - plan.opening_m) > GAP_TOLERANCE_M:
-            cause = f"the fingers pinched the {info.name} off its middle"
-        else:
-            return
-        raise give_up(
-            "grasp_missed",
-            cause,
-            object=info.id,
-            gap_m=round(gap_m, 4),
-            expected_m=round(plan.opening_m, 4),
-        )
+    def _draw_back(self, plan: PickPlan) -> Script[None]:
+        """Put down what may hang between the fingers, open them, and go back to the pre-grasp."""
+        body, side = self.body, plan.side
+        body.context.holdings.release(side)
+        set_payload(body, side, 0.0)
+        body.phase = "drawing the hand back"
+        if self._X_WG_closed is not None:
+            X_WG_closed = self._X_WG_closed  # never let go above nothing
+            yield from move_hand(body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S)
+            self._X_WG_closed = None
+        yield from open_fingers(body, side)
+        if self._X_WG_pre is not None:
+            X_WG_pre = self._X_WG_pre
+            yield from move_hand(body, side, lambda: X_WG_pre, speed_m_s=APPROACH_M_S)
 
     def _lift(self, info: ObjectInfo, plan: PickPlan) -> Script[None]:
         """Lift straight up, and see by gap and weight that the object came along."""
@@ -209,22 +225,9 @@ class Pick(ScriptedSkill):
     def _back_off(self, plan: PickPlan, info: ObjectInfo) -> Script[None]:
         """After a failure: let go, draw the hand back the way it came, step back, arm home."""
         body, side = self.body, plan.side
-        body.context.holdings.release(side)
-        set_payload(body, side, 0.0)
         try:
-            if self._X_WG_closed is not None:
-                X_WG_closed = self._X_WG_closed  # never let go above nothing
-                yield from move_hand(body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S)
-            if self._reached:
-                yield from open_fingers(body, side)
-                body.phase = "drawing the hand back"
-                X_WG_back = body.X_WG(side) @ (plan.X_WG_grasp.inverse() @ plan.X_WG_pre)
-                yield from move_hand(body, side, lambda: X_WG_back, speed_m_s=APPROACH_M_S)
+            if self._X_WG_pre is not None:
+                yield from self._draw_back(plan)
             yield from withdraw(body, plan, posture_rad(body, side, HOME), what=info.name)
         except GaveUp:
             return  # the first failure is the one to report; the halting script does the rest
-
-
-def _centred(X_GO: SE3) -> SE3:
-    """The two coupled fingers centre what they close on: no offset along their direction y."""
-    return SE3((X_GO.p[0], 0.0, X_GO.p[2]), X_GO.quat_wxyz)

@@ -21,7 +21,7 @@ from executive.skills.stowing import HOME, stow_arms
 from executive.skills.support import surroundings, tilt
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place, Side
-from robot.planning.requests import PlacePlan, PlaceRequest
+from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
 LOWER_M_S = 0.05
@@ -34,6 +34,10 @@ GRAVITY_M_S2 = 9.81
 TOO_HIGH_M = 0.02
 LOWERINGS = 3
 REACH_CORRECTIONS = 2
+REPLANS = 1
+ELSEWHERE = ("goal_in_collision", "out_of_reach", "no_path", "planner_timeout")
+MOVE_OVER_COST_PER_M = 0.5
+"""Cost of walking to another stance once the robot stands before the place."""
 OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
@@ -70,15 +74,7 @@ class PutDown(ScriptedSkill):
         check_grips(body)
         place = self._place()
         yield from stow_arms(body)
-        plan = yield from self._plan(place, held)
-        body.progress = 0.1
-        yield from approach(body, plan, what=place.name)
-        body.progress = 0.5
-        try:
-            yield from self._lower(info, place, plan, held)
-        except GaveUp as end:
-            yield from self._back_off(place, plan, held)
-            raise end
+        plan = yield from self._bring(info, place, held)
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
         yield from back_away(body, plan, what=place.name)
@@ -86,6 +82,25 @@ class PutDown(ScriptedSkill):
         yield from bring_in(body, plan.side, posture_rad(body, plan.side, HOME))
         if missed is not None:
             raise GaveUp(missed)
+
+    def _bring(self, info: ObjectInfo, place: Place, held: Held) -> Script[PlacePlan]:
+        """Go there and lower it; plans again, for another spot or stance, if this one is taken."""
+        body = self.body
+        for attempt in range(1 + REPLANS):
+            plan = yield from self._plan(place, held, attempt=attempt)
+            body.progress = 0.1
+            yield from approach(body, plan, what=place.name)
+            body.progress = 0.5
+            try:
+                yield from self._lower(info, place, plan, held)
+            except GaveUp as end:
+                yield from self._back_off(place, plan, held)
+                if attempt == REPLANS or end.failure.code not in ELSEWHERE:
+                    raise end
+                body.progress = 0.1
+            else:
+                return plan
+        raise AssertionError("unreachable")
 
     def halt(self) -> Script[None]:
         """A hand that has begun to let go lets go and draws back before the body rests."""
@@ -108,7 +123,7 @@ class PutDown(ScriptedSkill):
                 return place
         return Place(id="spot", name="spot", X_WP=X_WO, size_m=(SPOT_SIZE_M, SPOT_SIZE_M))
 
-    def _plan(self, place: Place, held: Held) -> Script[PlacePlan]:
+    def _plan(self, place: Place, held: Held, *, attempt: int) -> Script[PlacePlan]:
         self.body.phase = f"planning how to put it on the {place.name}"
         known = held_in(self.body, held.side)
         assert known is not None
@@ -119,7 +134,8 @@ class PutDown(ScriptedSkill):
             around=surroundings(self.body),
             start=stance_of(self.body.X_WS),
             target=self.parameters.X_WO,
-            seed=self.body.context.seed,
+            walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
+            seed=self.body.context.seed + attempt,
         )
         return (yield from ask(self.body, request, PlacePlan))
 
@@ -129,8 +145,9 @@ class PutDown(ScriptedSkill):
             self.body.phase = f"reaching over the {place.name}"
             goal, near_rad = plan.X_WG_pre, plan.pre_rad
             try:
+                keep_upright = self.body.context.holdings.must_stay_upright(plan.side)
                 yield from move_arm(
-                    self.body, plan.side, goal, keep_upright=True, near_rad=near_rad
+                    self.body, plan.side, goal, keep_upright=keep_upright, near_rad=near_rad
                 )
             except GaveUp as end:
                 if attempt == REACH_CORRECTIONS:

@@ -29,14 +29,15 @@ def stow_arm(body: Body, side: Side) -> Script[None]:
     goal_rad = held.carry_rad if held is not None else posture_rad(body, side, HOME)
     if is_at(body, side, goal_rad):
         return
+    keep_upright = body.context.holdings.must_stay_upright(side)
     before = body.phase
     body.phase = f"bringing the {side} arm in"
     try:
-        yield from move_arm(body, side, goal_rad, keep_upright=held is not None)
+        yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
     except GaveUp as end:
         if end.failure.code not in ("no_path", "start_in_collision", "planner_timeout"):
             raise
         back = body.X_WS @ SE3((-STEP_BACK_M, 0.0, 0.0))
         yield from step_to(body, stance_of(back))
-        yield from move_arm(body, side, goal_rad, keep_upright=held is not None)
+        yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
     body.phase = before

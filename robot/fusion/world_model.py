@@ -1,20 +1,50 @@
-"""Where the known objects are believed to be, and which of them are gone from where they were."""
+"""Where the known objects and people are believed to be, and which are gone from where they were.
+
+An object in a closed hand goes where the hand goes: the fingers are as far apart as it is wide, and
+it is between them.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.messages import DepthImage, ObjectInfo, Sightings, Track
+from robot.messages import (
+    DepthImage,
+    ObjectInfo,
+    Obstacle,
+    PersonInfo,
+    Shape,
+    Side,
+    Sighting,
+    Sightings,
+    Track,
+)
 from robot.se3 import SE3, Vector3
 
 FRAMES_TO_MISS = 3
 MIN_DEPTH_M = 0.15
 DEPTH_TOLERANCE_M = 0.03
 EDGE_PX = 6
+HELD_WITHIN_M = 0.07
+LOST_BEYOND_M = 0.12
+GAP_TOLERANCE_M = 0.015
+CHEST_M, CHEST_RADIUS_M = 1.2, 0.15
+SAME_PERSON_M = 0.6
+UNSEEN_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Hand:
+    """One hand: its grasp frame in W and how far apart its fingers are."""
+
+    X_WG: SE3
+    opening_m: float
 
 
 class WorldModel:
@@ -23,35 +53,123 @@ class WorldModel:
     def __init__(self, *, camera_range_m: float) -> None:
         self._range_m = camera_range_m
         self._tracks: dict[str, Track] = {}
-        self._radius_m: dict[str, float] = {}
+        self._people: dict[str, Track] = {}
+        self._shapes: dict[str, Shape] = {}
         self._misses: dict[str, int] = {}
+        self._holds: dict[str, tuple[Side, SE3]] = {}  # object to hand and X_GO
+        self._just_seen: set[str] = set()
 
-    def know(self, objects: tuple[ObjectInfo, ...]) -> None:
-        """Learn which objects there are; those already tracked keep their tracks."""
+    def know(self, objects: tuple[ObjectInfo, ...], people: tuple[PersonInfo, ...] = ()) -> None:
+        """Learn what and who there is; those already tracked keep their tracks."""
         for info in objects:
             self._tracks.setdefault(info.id, Track(id=info.id, X_WO=None, seen_s=-math.inf))
-            self._radius_m[info.id] = 0.5 * max(info.shape.size_m[:2])
+            self._shapes[info.id] = info.shape
+        for person in people:
+            unseen = Track(id=person.id, X_WO=person.X_WO, seen_s=-math.inf)
+            self._people.setdefault(person.id, unseen)
 
     def tracks(self) -> tuple[Track, ...]:
-        """Every track, in the order they became known."""
+        """Every object's track, in the order they became known."""
         return tuple(self._tracks.values())
+
+    def people(self) -> tuple[Track, ...]:
+        """Every person's track, in the order they became known."""
+        return tuple(self._people.values())
 
     def see(self, sightings: Sightings, X_WC: SE3, depth: DepthImage | None) -> None:
         """Take one frame of the camera at X_WC; without depth nothing can be missed."""
-        seen = {sighting.id: X_WC @ sighting.X_CO for sighting in sightings.objects}
-        for name, X_WO in seen.items():
-            self._tracks[name] = Track(id=name, X_WO=X_WO, seen_s=sightings.stamp_s)
-            self._misses[name] = 0
+        _place(self._tracks, self._misses, sightings.objects, X_WC, sightings.stamp_s)
+        _place(self._people, self._misses, sightings.people, X_WC, sightings.stamp_s)
+        seen = {sighting.id for sighting in (*sightings.objects, *sightings.people)}
+        self._just_seen |= seen
         if depth is None:
             return
         view = View(depth, X_WC, range_m=self._range_m)
         for name, track in self._tracks.items():
+            if track.X_WO is None or name in seen or name in self._holds:
+                continue
+            radius_m = 0.5 * max(self._shapes[name].size_m[:2]) if name in self._shapes else 0.0
+            if view.is_clear(track.X_WO.p, radius_m):
+                self._miss(self._tracks, name)
+        for name, track in self._people.items():
             if track.X_WO is None or name in seen:
                 continue
-            if view.is_clear(track.X_WO.p, self._radius_m.get(name, 0.0)):
-                self._misses[name] = self._misses.get(name, 0) + 1
-                if self._misses[name] == FRAMES_TO_MISS:
-                    self._tracks[name] = msgspec.structs.replace(track, missing=True)
+            if view.is_clear((*track.X_WO.p[:2], CHEST_M), CHEST_RADIUS_M):
+                self._miss(self._people, name)
+
+    def _miss(self, tracks: dict[str, Track], name: str) -> None:
+        self._misses[name] = self._misses.get(name, 0) + 1
+        if self._misses[name] == FRAMES_TO_MISS:
+            tracks[name] = msgspec.structs.replace(tracks[name], missing=True)
+
+    def feel(self, hands: Mapping[Side, Hand]) -> None:
+        """Take the hands as they are: what one holds moves along, what one lets go stays."""
+        for name, track in self._tracks.items():
+            shape = self._shapes.get(name)
+            if track.X_WO is None or shape is None:
+                continue
+            hold = self._holds.get(name) or _hold(hands, shape, track.X_WO)
+            if hold is None:
+                continue
+            side, X_GO = hold
+            hand, seen = hands.get(side), name in self._just_seen
+            if hand is not None and _fits(hand, shape) and not (seen and _is_far(hand, track.X_WO)):
+                self._holds[name] = hold
+                X_WO = hand.X_WG @ X_GO
+                self._tracks[name] = msgspec.structs.replace(track, X_WO=X_WO, held_by=side)
+            else:
+                del self._holds[name]
+                self._tracks[name] = msgspec.structs.replace(track, held_by=None)
+        self._just_seen.clear()
+
+    def bump(self, obstacles: tuple[Obstacle, ...], now_s: float) -> None:
+        """Take what else the sensors see: a person out of the camera's view may be one of it."""
+        for name, track in self._people.items():
+            if track.X_WO is None or track.missing or now_s - track.seen_s < UNSEEN_S:
+                continue
+            for obstacle in obstacles:
+                if math.dist(obstacle.X_WO.p[:2], track.X_WO.p[:2]) < SAME_PERSON_M:
+                    x, y, _ = obstacle.X_WO.p
+                    X_WO = SE3((x, y, track.X_WO.p[2]), track.X_WO.quat_wxyz)
+                    self._people[name] = msgspec.structs.replace(track, X_WO=X_WO)
+                    break
+
+
+def _place(
+    tracks: dict[str, Track],
+    misses: dict[str, int],
+    sightings: tuple[Sighting, ...],
+    X_WC: SE3,
+    stamp_s: float,
+) -> None:
+    """Put what was seen where it was seen; who holds it is left to the hands."""
+    for sighting in sightings:
+        before = tracks.get(sighting.id)
+        tracks[sighting.id] = Track(
+            id=sighting.id,
+            X_WO=X_WC @ sighting.X_CO,
+            seen_s=stamp_s,
+            held_by=before.held_by if before is not None else None,
+        )
+        misses[sighting.id] = 0
+
+
+def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE3] | None:
+    """The hand that has an object between its fingers, and the object in it (X_GO)."""
+    for side, hand in hands.items():
+        if _fits(hand, shape) and math.dist(hand.X_WG.p, X_WO.p) < HELD_WITHIN_M:
+            return side, hand.X_WG.inverse() @ X_WO
+    return None
+
+
+def _fits(hand: Hand, shape: Shape) -> bool:
+    """Whether the fingers are as far apart as an object is wide (its longest side is not)."""
+    widths = sorted(shape.size_m)[:2]
+    return any(abs(hand.opening_m - width) < GAP_TOLERANCE_M for width in widths)
+
+
+def _is_far(hand: Hand, X_WO: SE3) -> bool:
+    return math.dist(hand.X_WG.p, X_WO.p) > LOST_BEYOND_M
 
 
 class View:

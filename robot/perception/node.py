@@ -12,7 +12,7 @@ from robot.bus.bus import Bus, Subscription
 from robot.fusion.history import BodyHistory
 from robot.fusion.localisation import Localiser
 from robot.fusion.unmapped import UnmappedObstacles
-from robot.fusion.world_model import WorldModel
+from robot.fusion.world_model import Hand, WorldModel
 from robot.messages import (
     DepthImage,
     LidarScan,
@@ -90,7 +90,7 @@ class PerceptionNode:
         world_map = self._map.latest
         if world_map is not None and world_map is not self._known:
             self._known = world_map
-            self._world.know(world_map.objects)
+            self._world.know(world_map.objects, world_map.people)
             self._unmapped.know(world_map.obstacles)
 
     def _take(self, message: Message) -> None:
@@ -129,15 +129,21 @@ class PerceptionNode:
         if newest is None or math.isinf(localiser.fixed_s):
             return
         self._published_s = self._now_s
+        X_WN, unmapped = localiser.X_WN, self._unmapped.obstacles()
+        self._world.feel(
+            {side: Hand(X_WN @ hand.X_NG, hand.opening_m) for side, hand in newest.hands.items()}
+        )
+        self._world.bump(unmapped, self._now_s)
         self._bus.publish(
             topics.WORLD_STATE,
             WorldState(
                 stamp_s=self._now_s,
-                X_WN=localiser.X_WN,
-                X_WB=localiser.X_WN @ newest.X_NB,
+                X_WN=X_WN,
+                X_WB=X_WN @ newest.X_NB,
                 fix_age_s=self._now_s - localiser.fixed_s,
                 tracks=self._world.tracks(),
-                unmapped=self._unmapped.obstacles(),
+                people=self._world.people(),
+                unmapped=unmapped,
                 jumps=localiser.jumps,
                 source=localiser.source,
             ),

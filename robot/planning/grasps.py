@@ -28,7 +28,9 @@ MIN_HEIGHT_M = 0.035
 """Of the grasp point above what the object stands on, approaching level (half a hand, and air)."""
 TILTS_RAD = (0.0, 0.35, 0.70)
 TILT_COST = (0.0, 0.12, 0.35)
-LYING_TILTS_RAD = (1.2, 0.9)
+LYING_TILTS_RAD = (1.2, 0.9, 1.45)
+LYING_LIFT_M = 0.01
+"""The grasp is so far above the axis of what lies: the fingertips stay clear of the table."""
 UPRIGHT_COS = 0.95
 
 
@@ -169,7 +171,10 @@ def _standing_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -
 
 
 def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
-    """From above, the fingers on both sides of it."""
+    """From above, the fingers on both sides of it.
+
+    A hand that looks along its axis can set it upright again; the other way round it cannot well.
+    """
     diameter = shape.size_m[0]
     axis = X_WShape.rotation()[:, 2]
     if diameter > limit_m:
@@ -181,10 +186,10 @@ def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> l
             np.array(X_WShape.p),
             heading=wrap_angle(along + turn),
             tilt=tilt,
-            lift=0.0,
+            lift=LYING_LIFT_M,
             depth=0.5 * diameter,
             width=diameter,
-            cost=0.2,
+            cost=0.2 if turn == 0.0 else 0.5,
         )
         for tilt in LYING_TILTS_RAD
         for turn in (0.0, math.pi)

@@ -43,6 +43,7 @@ def search(
         start=start,
         radius_m=body.description.body_radius_m + 0.02,
         reference_cost=job.reference_cost,
+        walk_cost_per_m=job.walk_cost_per_m,
         seed=seed,
     )
     tally = Tally()

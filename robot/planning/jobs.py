@@ -26,6 +26,7 @@ class Job:
         options, references, reference_cost: see `stances.propose`.
         others: all solids without the object.
         lifts_m: heights of *up* over *main*, liked best first.
+        walk_cost_per_m: of walking to the stance.
         what: for messages, such as "the red cup".
     """
 
@@ -37,6 +38,7 @@ class Job:
     reference_cost: Array
     others: tuple[Solid, ...]
     lifts_m: tuple[float, ...]
+    walk_cost_per_m: float
     what: str
 
 

@@ -50,6 +50,7 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
         reference_cost=np.zeros(1),
         others=others,
         lifts_m=LIFTS_M,
+        walk_cost_per_m=request.walk_cost_per_m,
         what="the " + names.get(thing.id, thing.id),
     )
     choice = search(body, job, floor, sides=sides, start=request.start, seed=request.seed)

@@ -73,6 +73,7 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         reference_cost=cost,
         others=others,
         lifts_m=LIFTS_M,
+        walk_cost_per_m=request.walk_cost_per_m,
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
     choice = search(body, job, floor, sides=(request.side,), start=request.start, seed=request.seed)

@@ -28,6 +28,8 @@ from robot.se3 import SE3
 
 Stance: TypeAlias = tuple[float, float, float]
 Joints: TypeAlias = tuple[float, ...]
+WALK_COST_PER_M = 0.06
+"""Ordinary cost of walking to a stance, in the score of picks and places."""
 
 
 class ObjectPose(msgspec.Struct, frozen=True, kw_only=True):
@@ -63,7 +65,10 @@ class Surroundings(msgspec.Struct, frozen=True, kw_only=True):
 
     @staticmethod
     def of(map: WorldMap, world: WorldState, *, ignored: tuple[str, ...] = ()) -> Surroundings:
-        """What the world model believes: tracks that are neither held nor missing, and clutter."""
+        """What the world model believes: tracks that are neither held nor missing, and clutter.
+
+        People are where they were seen last; on the map they are where they began.
+        """
         shapes = {info.id: info.shape for info in map.objects}
         objects = tuple(
             ObjectPose(id=track.id, X_WO=track.X_WO, shape=shapes[track.id])
@@ -73,6 +78,14 @@ class Surroundings(msgspec.Struct, frozen=True, kw_only=True):
             and not track.missing
             and track.id in shapes
         )
+        found = {track.id: track for track in world.people}
+        people = tuple(
+            msgspec.structs.replace(person, X_WO=track.X_WO) if track and track.X_WO else person
+            for person in map.people
+            if not ((track := found.get(person.id)) and track.missing)
+        )
+        if people != map.people:
+            map = msgspec.structs.replace(map, people=people)
         return Surroundings(map=map, objects=objects, unmapped=world.unmapped, ignored=ignored)
 
 
@@ -116,13 +129,14 @@ class BasePath(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 class PickRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """How to pick up `object_id` (one of `around.objects`), standing at `start` now.
 
-    `side` None: the planner chooses the hand.
+    `side` None: the planner chooses the hand. The higher `walk_cost_per_m`, the nearer the stance.
     """
 
     object_id: str
     around: Surroundings
     start: Stance
     side: Side | None = None
+    walk_cost_per_m: float = WALK_COST_PER_M
     seed: int = 0
 
 
@@ -169,6 +183,7 @@ class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     around: Surroundings
     start: Stance
     target: SE3 | None = None
+    walk_cost_per_m: float = WALK_COST_PER_M
     seed: int = 0
 
 

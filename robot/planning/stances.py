@@ -37,8 +37,6 @@ FAR_M, FAR_COST_PER_M = 0.32, 1.5
 ASIDE_M = (0.06, 0.13, 0.20, 0.27, 0.34)
 BEST_ASIDE_M, ASIDE_COST_PER_M = 0.20, 0.8
 TURNS_RAD, TURN_COST_PER_RAD = (-0.4, 0.0, 0.4), 0.12
-SHARE_PER_M = 0.06
-"""Cost of walking a metre."""
 OPTION_SHARE = 0.5
 """Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
 JITTER = 0.12
@@ -136,6 +134,7 @@ def propose(
     start: Stance,
     radius_m: float,
     reference_cost: Array,
+    walk_cost_per_m: float,
     seed: int,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
@@ -148,6 +147,7 @@ def propose(
         start: where the robot is now.
         radius_m: of the body with its arms, where it turns and walks.
         reference_cost: cost of each reference, shape (m,).
+        walk_cost_per_m: cost of walking a metre to the stance.
         seed: of the spread.
     """
     stances: list[Array] = []
@@ -163,7 +163,7 @@ def propose(
     tags = np.concatenate(kinds)
     total = len(cost)
     walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
-    cost = cost + reference_cost[tags[:, 1]] + SHARE_PER_M * walk
+    cost = cost + reference_cost[tags[:, 1]] + walk_cost_per_m * walk
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
     standoffs = _Standoffs(floor, start, radius_m)

@@ -7,7 +7,7 @@ import pytest
 
 from executive.skills.parameters import PickParams
 from robot.errors import failure
-from robot.messages import Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
+from robot.messages import DepthImage, Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest, PickRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
@@ -113,22 +113,103 @@ def test_an_object_that_is_gone_is_not_grasped_at(stage):
 def test_an_object_never_seen_is_searched_for_at_the_places(stage):
     cup = stage.puppet.things["cup"]
     cup.known, cup.seen_s = False, -math.inf
-    cup.X_WO = SE3((2.0, 2.3, 0.75))
+    cup.X_WO = SE3((2.0, 3.7, 0.75))
+    far = msgspec.structs.replace(stage.puppet.world_map.places[1], X_WP=SE3((2.0, 3.9, 0.7)))
+    places = (stage.puppet.world_map.places[0], far)
+    stage.puppet.world_map = msgspec.structs.replace(stage.puppet.world_map, places=places)
     report = stage.run(CUP, limit_s=400.0)
     assert report.status == "succeeded", (report, stage.phases)
     assert "looking over the counter" in stage.phases
 
 
-def test_closing_on_air_backs_off_and_says_so(stage):
+def test_what_is_in_sight_from_here_is_found_without_a_step(stage):
     cup = stage.puppet.things["cup"]
-    tick = stage.puppet.tick
+    cup.known, cup.seen_s = False, -math.inf
+    cup.X_WO = SE3((1.9, 2.4, 0.75))
+    stage.run(PickParams(object_id="cup"), limit_s=400.0, until_phase="planning")
+    assert stage.phases[:-1] == ["looking around for the red cup"]
+    assert not stage.commands(WalkTo)
+
+
+def snatch(stage, *away):
+    """Let the cup be elsewhere each time the fingers close."""
+    tick, before, spots = stage.puppet.tick, [""], list(away)
 
     def snatched():
+        phase = stage.skill.body.phase
+        if phase.startswith("closing") and before[0] != phase and spots:
+            stage.puppet.things["cup"].X_WO = spots.pop(0)
+        before[0] = phase
         tick()
-        if stage.skill.body.phase.startswith("moving in"):
-            cup.X_WO = SE3((1.8, 0.2, 0.75))
 
     stage.puppet.tick = snatched
+
+
+def test_closing_on_air_once_is_tried_again_from_the_same_stance(stage):
+    snatch(stage, SE3((1.8, 0.30, 0.75)))
+    report = stage.run(CUP)
+    assert report.status == "succeeded", report
+    phases = stage.phases
+    again = phases.index("drawing the hand back")
+    assert phases[again + 1].startswith("looking at")
+    assert not any(phase.startswith("walking") for phase in phases[again:])
+
+
+def test_a_cup_that_moves_while_the_hand_moves_in_is_aimed_at_again(stage):
+    cup, tick, moved = stage.puppet.things["cup"], stage.puppet.tick, []
+
+    def shoved():
+        tick()
+        if stage.skill.body.phase.startswith("moving in") and not moved:
+            moved.append(cup.X_WO)
+            cup.X_WO = SE3((cup.X_WO.p[0], cup.X_WO.p[1] + 0.06, cup.X_WO.p[2]))
+
+    stage.puppet.tick = shoved
+    report = stage.run(CUP)
+    assert report.status == "succeeded", report
+    assert stage.phases.count("closing the right fingers") == 1
+
+
+def test_a_cup_that_falls_over_is_planned_for_again(stage):
+    cup, tick = stage.puppet.things["cup"], stage.puppet.tick
+    lying = SE3.from_rpy(0.0, math.pi / 2, 0.0, (cup.X_WO.p[0], cup.X_WO.p[1], 0.735))
+
+    def knocked():
+        tick()
+        if stage.skill.body.phase.startswith("stepping up"):
+            cup.X_WO = lying
+
+    stage.puppet.tick = knocked
+    stage.run(CUP)
+    plans = [request for request in stage.planner.requests if isinstance(request, PickRequest)]
+    assert len(plans) > 1
+    assert plans[1].walk_cost_per_m > plans[0].walk_cost_per_m
+
+
+def test_a_cup_on_the_floor_is_not_reached_for(stage):
+    stage.puppet.things["cup"].X_WO = SE3((1.0, -1.0, 0.05))
+    report = stage.run(CUP)
+    assert report.failure.code == "on_the_floor"
+    assert not stage.commands(Walk)
+
+
+def test_a_silent_camera_ends_the_grasp(stage):
+    puppet, image = stage.puppet, DepthImage(stamp_s=0.0, width=1, height=1, fovy_rad=1.0,
+                                             depth_m=b"")  # fmt: skip
+
+    def depth():
+        blind = stage.skill.body.phase.startswith("moving in")
+        return image if blind else msgspec.structs.replace(image, stamp_s=puppet.time_s)
+
+    puppet.depth = depth
+    report = stage.run(CUP)
+    assert report.failure.code == "sensor_silent"
+    assert not [c for c in stage.commands(Grip) if c.opening_m == 0.0]
+    assert puppet.X_WS.p[0] < 1.2, "it has stepped back"
+
+
+def test_closing_on_air_twice_backs_off_and_says_so(stage):
+    snatch(stage, SE3((1.8, 0.30, 0.75)), SE3((1.8, 0.05, 0.75)))
     report = stage.run(CUP)
     assert report.failure.code == "grasp_missed"
     assert report.failure.evidence["gap_m"] < 0.006

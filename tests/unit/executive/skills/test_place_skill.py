@@ -176,3 +176,22 @@ def test_it_can_be_stopped_in_any_phase_and_stands(stage, phase):
     assert stage.planner.open == {}
     believed = stage.context.holdings.find("cup") is not None
     assert believed or phase not in ("planning", "walking", "raising", "reaching", "lowering")
+
+
+def test_a_spot_that_is_taken_by_now_is_given_up_for_another(stage):
+    taken = failure("goal_in_collision", "red cup and box overlap by 50 mm")
+    arm = stage.planner._arm
+    tried = []
+
+    def once(request):
+        if isinstance(request.goal, SE3) and not tried:
+            tried.append(request)
+            return taken
+        return arm(request)
+
+    stage.planner._arm = once
+    report = stage.run(ON_COUNTER)
+    assert report.status == "succeeded", report
+    plans = [request for request in stage.planner.requests if isinstance(request, PlaceRequest)]
+    assert len(plans) == 2
+    assert plans[1].walk_cost_per_m > plans[0].walk_cost_per_m

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from robot.fusion.world_model import FRAMES_TO_MISS, WorldModel
-from robot.messages import DepthImage, ObjectInfo, Shape, Sighting, Sightings
+from robot.fusion.world_model import FRAMES_TO_MISS, Hand, WorldModel
+from robot.messages import DepthImage, ObjectInfo, Obstacle, PersonInfo, Shape, Sighting, Sightings
 from robot.se3 import SE3
 
 WIDTH, HEIGHT, FOVY_RAD = 160, 120, math.radians(60)
@@ -119,3 +119,75 @@ def test_objects_that_nobody_told_of_are_tracked_too(model):
         depth(),
     )
     assert [track.id for track in model.tracks()] == ["cup", "ball"]
+
+
+def hand(x: float, opening_m: float) -> dict:
+    return {"right": Hand(SE3.from_xy_yaw(x, 0.0, 0.3, z_m=1.0), opening_m)}
+
+
+def test_what_the_fingers_close_on_goes_with_the_hand_and_is_never_missing(model):
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    model.feel(hand(1.52, 0.115))
+    assert cup(model).held_by is None, "the hand is open around it"
+    model.feel(hand(1.52, 0.070))
+    assert cup(model).held_by == "right"
+    model.feel(hand(1.02, 0.070))
+    assert cup(model).X_WO.p == pytest.approx((1.0, 0.0, 1.0), abs=1e-6)
+    for k in range(1, FRAMES_TO_MISS + 2):
+        model.see(seen(k, None), X_WC, depth())
+    assert not cup(model).missing
+    assert cup(model).seen_s == 0.0
+
+
+@pytest.mark.parametrize("opening_m", [0.0, 0.105])
+def test_what_leaves_the_hand_stays_where_it_was(model, opening_m):
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    for x, opening in ((1.5, 0.07), (1.2, 0.07), (1.2, opening_m), (0.6, opening_m)):
+        model.feel(hand(x, opening))
+    assert cup(model).held_by is None
+    assert cup(model).X_WO.p == pytest.approx((1.2, 0.0, 1.0), abs=1e-6)
+
+
+def test_what_is_seen_far_from_the_hand_is_not_in_it(model):
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    model.feel(hand(1.5, 0.07))
+    model.see(seen(1.0, (0.0, 1.1, 1.5)), X_WC, depth())
+    model.feel(hand(1.5, 0.07))
+    assert cup(model).held_by is None
+    assert cup(model).X_WO.p[2] == pytest.approx(0.1)
+
+
+@pytest.fixture
+def ann() -> WorldModel:
+    model = WorldModel(camera_range_m=4.0)
+    model.know((), (PersonInfo(id="ann", name="Ann", X_WO=SE3((2.0, 0.0, 0.0))),))
+    return model
+
+
+def glimpse(stamp_s: float, *p_C: tuple[float, float, float]) -> Sightings:
+    people = tuple(Sighting(id="ann", X_CO=SE3(p)) for p in p_C)
+    return Sightings(stamp_s=stamp_s, objects=(), people=people)
+
+
+def test_a_person_is_where_the_map_says_until_seen_elsewhere(ann):
+    (before,) = ann.people()
+    assert (before.X_WO.p, before.seen_s) == ((2.0, 0.0, 0.0), -math.inf)
+    ann.see(glimpse(3.0, (0.5, 1.2, 1.5)), X_WC, None)
+    (after,) = ann.people()
+    assert after.X_WO.p == pytest.approx((1.5, -0.5, 0.0))
+    assert after.seen_s == 3.0
+
+
+def test_a_person_who_has_gone_is_missing(ann):
+    for k in range(FRAMES_TO_MISS):
+        ann.see(glimpse(float(k)), X_WC, depth())
+    assert ann.people()[0].missing
+
+
+def test_out_of_view_a_person_is_what_the_lidar_sees_nearby(ann):
+    ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)
+    near = Obstacle(id="u", name="u", X_WO=SE3((1.8, 0.3, 0.0)), shapes=())
+    ann.bump((near,), 0.2)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.5, 0.0)), "still in view"
+    ann.bump((near,), 2.0)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.8, 0.3))
