@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench bench-intents lock clean env env-dev
+.PHONY: help demo test check format bench eval bench-intents lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -31,6 +31,9 @@ format: env-dev ## let ruff format and repair what it can
 
 bench: env-dev ## measure; figures go to docs/benchmarks.md
 	@$(BIN)/python -m benchmarks $(ARGS)
+
+eval: env ## strike with every fault (ARGS="--seeds 20 --no-recovery" for the whole table)
+	@$(BIN)/humanoid eval $(ARGS)
 
 bench-intents: env-dev ## measure what is understood (ARGS="--sets FOLDER" for sets of your own)
 	@$(BIN)/python -m benchmarks.intents $(ARGS)
