@@ -42,6 +42,8 @@ def answered(text: str, question: Question) -> tuple[Goal, ...] | None:
     An answer names what one of the choices has and the others have not ("blue", "the one on the
     shelf"), or its position ("the second").
     """
+    if question.kind == "confirmation":
+        return question.goals if verdict_of(text) else None
     choice = _choice(text, question.choices)
     if choice is None or choice.query is None or question.about is None:
         return None
@@ -69,6 +71,8 @@ def _choice(text: str, choices: tuple[Choice, ...]) -> Choice | None:
     said = [t.text for t in tokenize(text) if t.text not in _EMPTY and t.text[0].isalnum()]
     if not said or len(said) > 6:
         return None
+    if len(choices) == 1 and verdict_of(text):
+        return choices[0]
     fitting = [c for c in choices if all(w in c.label.split() for w in said)]
     if len(fitting) == 1:
         return fitting[0]
@@ -76,3 +80,42 @@ def _choice(text: str, choices: tuple[Choice, ...]) -> Choice | None:
     if position is not None and -1 <= position < len(choices) and len(said) <= 2:
         return choices[position]
     return None
+
+
+_YES = lexicon.words(
+    "yes yeah yep yup sure ok okay affirmative confirm confirmed correct right indeed absolutely "
+    "certainly definitely proceed continue y ja si oui aye"
+)
+_YES_PHRASES = lexicon.phrases(
+    "do it,go ahead,of course,please do,do that,go on,sounds good,that is right,i am sure,you may,"
+    "go for it,carry on"
+)
+_NO = lexicon.words(
+    "no nope nah not never negative neither none nothing nein non don't n nevermind"
+)
+_NO_PHRASES = lexicon.phrases(
+    "never mind,forget it,leave it,forget that,better not,rather not,stop that,do not,let it be,"
+    "i changed my mind"
+)
+
+
+def verdict_of(text: str) -> bool | None:
+    """Whether a text is a yes or a no and nothing else."""
+    said = [token.text for token in tokenize(text) if token.text[0].isalnum()]
+    said = [word for word in said if word not in ("please", "robot", "thanks", "thank", "you")]
+    short = " ".join(said)
+    if not 0 < len(said) <= 5:
+        return None
+    if said[0] in _NO or any(short.startswith(" ".join(p)) for p in _NO_PHRASES):
+        plain = len(said) == 1 or all(w in _NO | _YES | _REST for w in said[1:])
+        return False if plain or tuple(said) in _NO_PHRASES else None
+    if said[0] == "cancel" and len(said) <= 2:
+        return False
+    if said[0] in _YES or tuple(said[:2]) in _YES_PHRASES or tuple(said) in _YES_PHRASES:
+        rest = said[1:] if said[0] in _YES else []
+        plain = all(w in _YES | _REST for w in rest) or tuple(rest) in _YES_PHRASES
+        return True if plain else None
+    return None
+
+
+_REST = lexicon.words("it that do of them thing wait i want mind all one these go on ahead is the")

@@ -10,11 +10,9 @@ import re
 from msgspec.structs import replace
 
 from intents import replies, wording
-from intents.context import Context
-from intents.english.lexer import tokenize
-from intents.english.lexicon import phrases, words
+from intents.context import Context, verdict_of
 from intents.goals import Cancel, Find, Goal, Report, Stop
-from intents.outcomes import Choice, Goals, Question, Refusal, Reply, Turn
+from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.risks import risk
 from intents.state import RobotState
@@ -24,13 +22,6 @@ from intents.vocabulary import Vocabulary
 __all__ = ["Context", "Dialogue"]
 
 MAX_REPEATS = 2
-_YES = words("yes yeah yep yup sure ok okay affirmative confirm confirmed correct right indeed "
-             "absolutely certainly definitely proceed continue y ja si oui aye")  # fmt: skip
-_YES_PHRASES = phrases("do it,go ahead,of course,please do,do that,go on,sounds good,that is right,"
-                       "i am sure,you may,go for it,carry on")  # fmt: skip
-_NO = words("no nope nah not never negative neither none nothing nein non don't n nevermind")
-_NO_PHRASES = phrases("never mind,forget it,leave it,forget that,better not,rather not,stop that,"
-                      "do not,let it be,i changed my mind")  # fmt: skip
 _WHERE = re.compile(
     r"\bwhere(?:'s|s|\s)|^\W*(?:is|are) there\b|^\W*(?:do|can|have) you "
     r"(?:see|know|seen|find)\b",
@@ -124,7 +115,7 @@ class Dialogue:
 
     def _answer(self, text: str, opened: Question, state: RobotState) -> Turn | None:
         """Yes or no to a confirmation; no to any question."""
-        verdict = _verdict(text)
+        verdict = verdict_of(text)
         if verdict is None or (verdict and opened.kind != "confirmation"):
             return None
         pending = self._pending
@@ -188,30 +179,8 @@ class Dialogue:
 def _confirmation(outcome: Goals, question: str) -> Question:
     return Question(
         question=question,
-        choices=(Choice(label="yes"), Choice(label="no")),
+        choices=YES_OR_NO,
         goals=outcome.goals,
         kind="confirmation",
         parser=outcome.parser,
     )
-
-
-def _verdict(text: str) -> bool | None:
-    """Whether a text is a yes or a no and nothing else."""
-    said = [token.text for token in tokenize(text) if token.text[0].isalnum()]
-    said = [word for word in said if word not in ("please", "robot", "thanks", "thank", "you")]
-    short = " ".join(said)
-    if not 0 < len(said) <= 5:
-        return None
-    if said[0] in _NO or any(short.startswith(" ".join(p)) for p in _NO_PHRASES):
-        plain = len(said) == 1 or all(w in _NO | _YES | _REST for w in said[1:])
-        return False if plain or tuple(said) in _NO_PHRASES else None
-    if said[0] == "cancel" and len(said) <= 2:
-        return False
-    if said[0] in _YES or tuple(said[:2]) in _YES_PHRASES or tuple(said) in _YES_PHRASES:
-        rest = said[1:] if said[0] in _YES else []
-        plain = all(w in _YES | _REST for w in rest) or tuple(rest) in _YES_PHRASES
-        return True if plain else None
-    return None
-
-
-_REST = words("it that do of them thing wait i want mind all one these go on ahead is the")

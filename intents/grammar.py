@@ -21,9 +21,10 @@ from intents.english.questions import Reading
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot
 from intents.english.text import Text
-from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError, Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (
+    Answer,
     Bring,
     Condition,
     Count,
@@ -52,6 +53,12 @@ _HELLO = lexicon.phrases(
 
 
 _OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
+_WHO_ASKS = lexicon.phrases(
+    "who wants to ask you a question,who wants to ask a question,who has a question,"
+    "who has a question for you,whose question you will answer,whose question you should answer,"
+    "with a question,that has a question,who has a question that you should answer,"
+    "who is asking a question,who asks you a question,who will ask you a question"
+)
 _DEEPEST = 4
 
 
@@ -105,7 +112,7 @@ class Grammar(Constructions):
                 continue
             wish = goals[-1:] if self.wanted else []
             self.wanted = False
-            found, end = self._clause(at, goals)
+            found, end = self._one_more(at, goals)
             if wish and _same_object(wish[0], found[:1]):
                 found[0] = _as_wished(found[0], goals.pop())
             if goals and found:
@@ -118,6 +125,20 @@ class Grammar(Constructions):
             for goal in found:
                 self.scope.mention_goal(goal)
             at = max(end, at + 1)
+
+    def _one_more(self, at: int, before: list[Goal]) -> Reading:
+        """The next clause.
+
+        Raises:
+            Partly: It makes no sense, but what stands before it does.
+        """
+        known = tuple(before)
+        try:
+            return self._clause(at, before)
+        except (NotUnderstood, Misfit) as error:
+            if not known or self._depth:
+                raise
+            raise Partly(str(error), known) from None
 
     def _ends_nested(self, at: int) -> bool:
         if self.text.word(at) == FULL_STOP:
@@ -285,7 +306,16 @@ class Grammar(Constructions):
             or self._trailing(at, last)
             or self._after(at, last)
             or self._so_often(at, last)
+            or self._who_asks(at, last)
         )
+
+    def _who_asks(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Find someone *who wants to ask you a question*."""
+        end = self.text.phrase_end(_WHO_ASKS, at)
+        found = last[-1] if last else None
+        if end is None or not isinstance(found, Find) or found.person is None:
+            return None
+        return [*last[:-1], Answer(what="question", person=found.person)], end
 
     def _so_often(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
         """Stand on one leg for three seconds, *four times*."""
@@ -298,11 +328,12 @@ class Grammar(Constructions):
         return [Repeat(times=int(amount.value), goals=tuple(last))], end
 
     def _after(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Go to the shelf *after picking up the cup*."""
-        if self.text.word(at) != "after" or not self._is_clause(at + 1):
+        """Go to the shelf *after picking up the cup*; follow her *before coming back*."""
+        word = self.text.word(at)
+        if word not in ("after", "before") or not self._is_clause(at + 1):
             return None
-        sooner, end = self._clause(self.skip(at + 1), [])
-        return [*sooner, *last], end
+        other, end = self._clause(self.skip(at + 1), [])
+        return ([*other, *last] if word == "after" else [*last, *other]), end
 
     def _trailing(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
         """Bring the mug *if the cup is not there*."""

@@ -32,6 +32,10 @@ class Choice(msgspec.Struct, frozen=True, kw_only=True):
     query: ObjectQuery | None = None
 
 
+YES_OR_NO = (Choice(label="yes"), Choice(label="no"))
+"""The choices of a confirmation."""
+
+
 class Question(msgspec.Struct, frozen=True, kw_only=True):
     """It could be carried out if one thing were known.
 

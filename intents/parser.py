@@ -13,13 +13,14 @@ from intents.context import Context, answered, completed
 from intents.english.names import index_of
 from intents.english.referents import Scope
 from intents.english.text import Text
-from intents.english.trouble import ReadingError, Unclear
+from intents.english.trouble import Partly, ReadingError, Unclear
 from intents.goals import Cancel, Goal, Stop
 from intents.grammar import Grammar
 from intents.grounding import Ambiguous, Unknown, ground, narrowed, queries
-from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
+from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
+from intents.wording import in_words
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
@@ -110,6 +111,8 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     scope = Scope(words.index, context.object, context.person, context.place)
     try:
         goals = tuple(Grammar(words, scope, context.goals).read())
+    except Partly as partly:
+        return _settled(_partly(text, partly), context, scope)
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
         kind = "choice" if choices else "missing"
@@ -124,9 +127,22 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     return _settled(_remarked(_checked(text, goals, context), words), context, scope)
 
 
+def _partly(text: str, partly: Partly) -> Question:
+    """Ask whether to do what was understood."""
+    return Question(
+        question=f"{_sentence(str(partly))}. Shall I just {in_words(partly.goals)}?",
+        choices=YES_OR_NO,
+        goals=partly.goals,
+        text=text,
+        kind="confirmation",
+    )
+
+
 def _settled(outcome: Outcome, context: Context, scope: Scope) -> tuple[Outcome, Context]:
     """The outcome with the context after it, which only goals change."""
-    if not isinstance(outcome, Goals):
+    if isinstance(outcome, Refusal) or (
+        isinstance(outcome, Question) and outcome.kind != "confirmation"
+    ):
         return outcome, context
     after = replace(
         context,

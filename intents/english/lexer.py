@@ -38,6 +38,8 @@ _TOKEN = re.compile(
 )
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"', "”": '"', "„": '"',
                          "«": '"', "»": '"', "\t": " ", "\n": " ", "\r": " "})  # fmt: skip
+_AT_HE = re.compile(r"\b(at|in|on|to|from|by|of|for) he\b(?!\s+(?:is|was|has))", re.IGNORECASE)
+"""A slip of the fingers: "at he fridge"."""
 _IS = {"what", "where", "who", "how", "which", "there", "here", "that", "it", "he", "she", "this",
        "when", "why"}  # fmt: skip  # "what's" holds a verb, "Julia's" does not
 _WHOLE = {
@@ -62,7 +64,7 @@ _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("
 def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
-    text = _COMMA_S.sub(r"\1's", _APART.sub("", text))
+    text = _AT_HE.sub(r"\1 the", _COMMA_S.sub(r"\1's", _APART.sub("", text)))
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         kind, raw = match.lastgroup, match.group()

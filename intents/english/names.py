@@ -31,6 +31,24 @@ class Match(NamedTuple):
         return next((n.name for kind in kinds for n in self.names if n.kind == kind), None)
 
 
+_LIKE = 78.0
+
+
+def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> float:
+    """How much a name is like what was said: misspelt, a part of it, or a word in common [%]."""
+    del score_cutoff
+    one, other = said.lower(), name.lower()
+    words, others = one.split(), other.split()
+    shared = {singular(w) for w in words} & {singular(w) for w in others}
+    if any(len(w) > _PART for w in shared):
+        return 90.0
+    part = min(len(one), len(other)) > _PART and (one in other or other in one)
+    return 85.0 if part else fuzz.ratio(one, other)
+
+
+_PART = 2
+
+
 def _split(name: str) -> list[str]:
     return [t.text for t in tokenize(name) if t.text[0].isalnum()]
 
@@ -98,6 +116,18 @@ class NameIndex:
     def partial(self, word: str) -> tuple[Name, ...]:
         """The longer names that a word begins or ends: "table" in "dining table"."""
         return self._parts.get(singular(word), ())
+
+    @property
+    def knows_people(self) -> bool:
+        """Whether the vocabulary names anybody."""
+        return any(n.kind == "person" for names in self._names.values() for n in names)
+
+    def like(self, said: str, kinds: tuple[str, ...]) -> list[str]:
+        """Up to three names of these kinds that may well be meant by what was said."""
+        known = sorted({n.name for names in self._names.values() for n in names if n.kind in kinds})
+        plain = singular(said)
+        found = process.extract(plain, known, scorer=_likeness, limit=3, score_cutoff=_LIKE)
+        return [name for name, _, _ in found]
 
     def nearest(self, said: str, kinds: tuple[str, ...]) -> list[str]:
         """Up to three names of these kinds that are written most like what was said."""

@@ -79,7 +79,8 @@ _NO_NOUN = (
     lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice closed opened")
+                    "twice thrice closed opened need "
+                    "needs belong belongs")
 )  # fmt: skip
 
 

@@ -77,7 +77,8 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     if reduced:
         there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
-        return _locative(text, phrase, reduced) or (reduced + there if there else None)
+        seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
+        return seen or (reduced + there if there else None)
     if text.word(at) not in _RELATIVE:
         return None
     at += 1
@@ -179,9 +180,17 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """On the left, furthest to the right - and not "on the left of the cup"."""
     most = text.lookup(lexicon.SUPERLATIVES, at)
     begun = at
+    if most is None and text.word(at) in ("on", "at", "from", "to"):
+        most = text.lookup(lexicon.SUPERLATIVES, at + 1 + (text.word(at + 1) == "the"))
+        most = most if most and most[0] in ("leftmost", "rightmost") else None
     if most and most[0] in ("leftmost", "rightmost"):
         phrase.superlative = most[0]
-        return most[1] + (text.words[most[1] : most[1] + 2] == ["side", "of"])
+        end = most[1] + (text.word(most[1]) in ("side", "end"))
+        inner = noun_phrase(text, end + 1) if text.word(end) == "of" else None
+        if inner and inner.name("place", "room"):
+            phrase.places.append(Locative(None, inner))
+            return inner.end
+        return end
     if most or text.word(at) == "most":
         at = most[1] if most else at + 1
         if text.word(at) == "to":
@@ -261,6 +270,8 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         if not in_room and not (how in ("in", "near") and inner.name("place")):
             return None
     phrase.places.append(Locative(how, inner))
+    if how == "on" and text.word(inner.end - 1) == "floor" and phrase.is_person:
+        phrase.posture = phrase.posture or "lying"
     if how == "between" and text.word(inner.end) == "and":
         other = noun_phrase(text, inner.end + 1)
         if other and other.noun != "body":

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.names import NameIndex
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
-from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
+from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
 from intents.goals import (
     OPERATOR,
     Bring,
@@ -150,7 +150,7 @@ def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, st
     kinds = (*_OBJECTS, *_SPOTS) if spots else _OBJECTS
     names = phrase.all_names(*kinds)
     if phrase.noun == "unknown" or not names:
-        raise NotUnderstood(_unknown("object", phrase, scope, _OBJECTS))
+        raise _unknown("object", phrase, scope, _OBJECTS)
     if len(names) > 1 and not phrase.exact:
         raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     name = phrase.name("object", *(_SPOTS if spots else ()))
@@ -173,7 +173,9 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
             raise Unclear("Who is meant?")
         return replace(scope.person, at=at or scope.person.at)
     if phrase.noun == "unknown" and not phrase.determiner:
-        raise NotUnderstood(_unknown("person", phrase, scope, ("person",)))
+        if not scope.index.knows_people:
+            return Person(name=phrase.said, at=at)
+        raise _unknown("person", phrase, scope, ("person",))
     if not phrase.is_person:
         raise Misfit(f"“{phrase.said}” is not a person")
     return Person(
@@ -221,7 +223,7 @@ def to_place(
     if not names or phrase.level:
         if phrase.is_person:
             raise Misfit(f"“{phrase.said}” is not a place")
-        raise NotUnderstood(_unknown("place", phrase, scope, _SPOTS))
+        raise _unknown("place", phrase, scope, _SPOTS)
     if len(names) > 1 and not phrase.exact:
         rooms = {w for p in phrase.places for w in p.of.name("room").split()} - {"room"}
         inside = [n for n in names if rooms & set(n.split())]
@@ -271,9 +273,19 @@ def _relation(place: Locative, scope: Scope) -> Relation | None:
     return Relation(how=place.how or "near", of=of, other=other and replace(other, at=None))
 
 
-def _unknown(kind: str, phrase: NounPhrase, scope: Scope, kinds: tuple[str, ...]) -> str:
-    """Say what is not known, and the nearest names that are."""
+def _unknown(
+    kind: str, phrase: NounPhrase, scope: Scope, kinds: tuple[str, ...]
+) -> NotUnderstood | Doubtful:
+    """Say what is not known, and ask whether one of the names that are like it is meant."""
     said = f"{phrase.level} {phrase.said}".strip()
+    like = scope.index.like(phrase.said, kinds)
+    if like and not phrase.name("object", "place", "room"):
+        told = f"I know no {kind} called “{said}”. Do you mean {_the(like)}?"
+        return Doubtful(told, tuple(like), phrase.said)
+    return NotUnderstood(_reason(kind, said, phrase, scope, kinds))
+
+
+def _reason(kind: str, said: str, phrase: NounPhrase, scope: Scope, kinds: tuple[str, ...]) -> str:
     near = scope.index.nearest(phrase.said, kinds)
     hint = f"; nearest: {listing(near)}" if near else ""
     other = {"object": ("place", "room"), "place": ("object",), "person": ()}[kind]

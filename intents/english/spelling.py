@@ -41,6 +41,12 @@ CORE = lexicon.words(
     "bathroom bedroom table shelf counter could would second robot three seven eight thing things"
 )
 """The words of the grammar that misspelt words are corrected to."""
+_MORE_VERBS = lexicon.words(
+    "identify announce recognize inspect examine collect gather describe explain rotate describe "
+    "approach accompany proceed retrieve transport carry offer serve inform notify speak point "
+    "drop release remove return enter visit fetch grasp lift lower raise hold throw"
+)
+_VERBS = sorted(w for w in FIRST_WORDS if len(w) > 3 and w in CORE | _MORE_VERBS)
 COMMON_WORDS = frozenset(
     (files("intents.english") / "common_words.txt").read_text(encoding="utf-8").split()
 )
@@ -61,18 +67,30 @@ class Speller:
         self._grammar = sorted(CORE)
         self._corrected: dict[str, list[str]] = {}
 
-    def correct(self, word: str) -> list[str]:
-        """The words that were meant: usually the word itself; "thecup" is two words."""
+    def correct(self, word: str, *, begins: bool = False) -> list[str]:
+        """The words that were meant: usually the word itself; "thecup" is two words.
+
+        Where a clause begins a verb is more likely than a name.
+        """
         if word in self._known or word in COMMON_WORDS or not word.isalpha():
             return [word]
         past = word.removesuffix("d"), word.removesuffix("ed")
         if base_form(word) in FIRST_WORDS or any(w in FIRST_WORDS for w in past):
             return [word]
+        verb = self._verb(word) if begins else None
+        if verb:
+            return [verb]
         if word not in self._corrected:
             if len(self._corrected) > 5000:
                 self._corrected.clear()
             self._corrected[word] = self._parts(word) or [self._nearest(word)]
         return self._corrected[word]
+
+    def _verb(self, word: str) -> str | None:
+        """The verb that a word may be a misspelling of; begins and length tell."""
+        slack = _slack(word)
+        found = process.extractOne(word, _VERBS, scorer=OSA.distance, score_cutoff=slack)
+        return found[0] if slack and found and found[0][0] == word[0] else None
 
     def _nearest(self, word: str) -> str:
         slack = _slack(word)

@@ -12,6 +12,7 @@ from intents.vocabulary import Vocabulary
 T = TypeVar("T")
 _LONGEST_PHRASE = 7
 _REPEATED = words("that no stop bye her had wait")
+_BEFORE_VERBS = words(", . and then to please you")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -31,8 +32,10 @@ class Text:
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
         self.corrections: list[tuple[str, str]] = []
+        begins = True
         for token in tokenize(text):
-            meant = speller.correct(token.text)
+            meant = speller.correct(token.text, begins=begins)
+            begins = token.text in _BEFORE_VERBS
             if meant == [token.text]:
                 corrected.append(token)
             else:

@@ -4,7 +4,11 @@ Trouble
 ├── Misfit         the words do not fit this verb; another reading may
 ├── NotUnderstood  understood well enough to know that it cannot be done
 └── Unclear        could be done if one thing were known
+    ├── Partly     some of it is understood and some is not
+    └── Doubtful   a name that is not known is like one that is
 """
+
+from intents.goals import Goal
 
 
 class ReadingError(Exception):
@@ -37,6 +41,24 @@ class Unclear(ReadingError):
         super().__init__(question)
         self.choices = choices
         self.said = said
+
+
+class Partly(Unclear):
+    """Some clauses are understood and one is not.
+
+    Attributes:
+        goals: What was understood.
+    """
+
+    def __init__(self, reason: str, goals: tuple[Goal, ...]) -> None:
+        super().__init__(reason)
+        self.goals = goals
+
+
+class Doubtful(Unclear):
+    """A name that is not known, but near ones are: the question is which of those is meant."""
+
+    weight = 1
 
 
 def listing(names: list[str] | tuple[str, ...], last: str = "or") -> str:

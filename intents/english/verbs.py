@@ -86,7 +86,7 @@ SPELLINGS: dict[str, str] = {
     ),
     "say": (
         "say,speak,utter,announce,state,declare,pronounce,recite,express,sing,relay,"
-        "mention,talk about,give out,speak about,convey that,repeat after me"
+        "joke,crack a joke,chat,mention,talk about,give out,speak about,convey that,repeat after me"
     ),
     "tell": (
         "tell,inform,let,notify,advise,update,remind,report,explain,let me know,"

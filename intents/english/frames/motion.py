@@ -18,6 +18,7 @@ from intents.goals import (
     GoTo,
     LookAt,
     ObjectQuery,
+    Place,
     Wait,
 )
 
@@ -29,6 +30,15 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     """Go to the kitchen; walk two metres forward; come here."""
     slots = Slots(clause, scope)
     target = slots.take("to", "into", "at", "through") or slots.take("")
+    carried = slots.take("with")
+    if carried and target and target.role in ("to", "into") and carried.phrase.name("object"):
+        query = to_object(carried.phrase, scope)
+        source = slots.source()
+        slots.done()
+        thing = replace(query, at=query.at or source)
+        return [Place(object=thing, on=to_place(target.phrase, scope))]
+    if carried:
+        slots.rest.append(carried)
     bare = target is not None and target.role == "" and not is_spot(target.phrase)
     if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
         raise Misfit("that is to move something")
