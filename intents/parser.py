@@ -79,13 +79,26 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
             for goal in goals:
                 scope.mention_goal(goal)
             return _settled(_checked(text, goals, context), context, scope)
+    question = context.question
+    if question is not None and question.kind == "choice":
+        chosen = _completed(text, vocabulary, context, question)
+        if chosen:
+            return chosen
     outcome, after = _read(text, vocabulary, context)
-    if isinstance(outcome, Refusal) and context.question is not None:
-        for whole in completed(text, context.question):
-            other = _read(whole, vocabulary, context)
-            if isinstance(other[0], Goals):
-                return other
+    if isinstance(outcome, Refusal) and question is not None:
+        return _completed(text, vocabulary, context, question) or (outcome, after)
     return outcome, after
+
+
+def _completed(
+    text: str, vocabulary: Vocabulary, context: Context, question: Question
+) -> tuple[Outcome, Context] | None:
+    """What the sentence before means with an answer put in."""
+    for whole in completed(text, question):
+        outcome, after = _read(whole, vocabulary, context)
+        if isinstance(outcome, Goals):
+            return outcome, after
+    return None
 
 
 def _second_opinion(
