@@ -1,0 +1,65 @@
+"""A campaign at the command line, from its file to its table, and on a local Ray."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+CASES = """\
+cases:
+  - name: controller killed
+    mission: stand for 5 seconds
+    world: empty
+    faults: [{at_s: 0.5, fault: kill, process: controller}]
+    expect: [controller_lost]
+    damped: true
+  - name: nothing
+    mission: stand for 1 second
+    world: empty
+    truth: [{at: [0, 0]}]
+  - name: shoved hard
+    mission: stand for 3 seconds
+    world: empty
+    faults: [{at_s: 0.5, fault: shove, strength_n_s: 60}]
+    truth: [{at: [0, 0]}]
+"""
+
+
+def evaluate(folder: Path, *options: str) -> tuple[int, dict]:
+    campaign = folder / "cases.yaml"
+    campaign.write_text(CASES)
+    command = [sys.executable, "-m", "executive", "eval", "--faults", str(campaign), "--json"]
+    done = subprocess.run(
+        [*command, "--seeds", "1", "--resume", str(folder / "out"), *options],
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    return done.returncode, json.loads(done.stdout)
+
+
+@pytest.mark.slow
+def test_a_campaign_tells_the_right_ends_from_the_wrong_ones_and_is_resumed(tmp_path):
+    status, found = evaluate(tmp_path, "-j", "1")
+    assert status == 1
+    rows = {row["case"]: row["with_recovery"] for row in found["rows"]}
+    assert rows["controller killed"]["ok"] == 1
+    assert rows["nothing"]["ok"] == 1
+    assert list(rows["shoved hard"]["wrong"])[0].endswith(", unsafe")
+    assert (found["unsafe"], found["without_code"], found["judged_by"]) == (1, 0, "oracle")
+    results = tmp_path / "out" / "results.jsonl"
+    before = results.read_bytes()
+    status, again = evaluate(tmp_path, "-j", "1", "--require", "0")
+    assert (status, again) == (0, found)
+    assert results.read_bytes() == before
+
+
+@pytest.mark.slow
+def test_the_same_campaign_on_a_local_ray(tmp_path):
+    pytest.importorskip("ray", reason="Ray is not installed (pip install humanoid-executive[ray])")
+    status, found = evaluate(tmp_path, "--ray")
+    assert status == 1
+    assert found["runs"] == 3
+    assert [row["with_recovery"]["ok"] for row in found["rows"]] == [1, 1, 0]
