@@ -47,7 +47,7 @@ def test_a_campaign_tells_the_right_ends_from_the_wrong_ones_and_is_resumed(tmp_
     rows = {row["case"]: row["with_recovery"] for row in found["rows"]}
     assert rows["controller killed"]["ok"] == 1
     assert rows["nothing"]["ok"] == 1
-    assert list(rows["shoved hard"]["wrong"])[0].endswith(", unsafe")
+    assert next(iter(rows["shoved hard"]["wrong"])).endswith(", unsafe")
     assert (found["unsafe"], found["without_code"], found["judged_by"]) == (1, 0, "oracle")
     results = tmp_path / "out" / "results.jsonl"
     before = results.read_bytes()
