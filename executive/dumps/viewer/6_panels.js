@@ -51,8 +51,9 @@ function drawPanel({ force = false } = {}) {
   const mark = `${tab} ${now} ${selected}`;
   if (mark === drawnFor && !force) return;
   drawnFor = mark;
-  if (tab === "events" && long) { long.render(); long.reveal(Math.max(0, lastBefore(long.items, now))); return; }
-  $("panel").replaceChildren(...TABS[tab][1]());
+  if (tab === "events" && long && !printing) { long.render(); long.reveal(Math.max(0, lastBefore(long.items, now))); return; }
+  if (printing) $("panel").replaceChildren(...nowPanel(), heading("Why"), ...whyPanel());
+  else $("panel").replaceChildren(...TABS[tab][1]());
 }
 
 function nowPanel() {

@@ -157,7 +157,7 @@ function onKey(event) {
     ",": () => setNow(now - 0.05), ".": () => setNow(now + 0.05), "[": () => failureStep(-1), "]": () => failureStep(1),
     Home: () => setNow(BEGIN, { follow: true }), End: () => setNow(END, { follow: true }), " ": play,
     "+": () => zoom(0.6), "=": () => zoom(0.6), "-": () => zoom(1 / 0.6), 0: () => setView(BEGIN, END),
-    ArrowUp: () => choose(-1), ArrowDown: () => choose(1), Enter: () => { if (nodes.has(selected)) toggle(nodes.get(selected)); },
+    ArrowUp: () => choose(-1), ArrowDown: () => choose(1), Enter: () => { if (rows.some((row) => row.node.id === selected && row.folds)) toggle(nodes.get(selected)); },
     "/": () => $("filter").focus(), i: () => { $("inner").checked = !$("inner").checked; redraw(); },
     t: () => setTheme(theme() === "dark" ? "light" : "dark"), "?": showKeys,
   };
@@ -180,6 +180,17 @@ function head() {
   $("facts").textContent = facts.filter(Boolean).join(" · ");
 }
 
+/** Dragging the border between names and time. */
+function gripInput() {
+  const grip = $("grip"), left = $("left");
+  grip.addEventListener("pointerdown", (event) => grip.setPointerCapture(event.pointerId));
+  grip.addEventListener("pointermove", (event) => {
+    if (!grip.hasPointerCapture(event.pointerId)) return;
+    const x = event.clientX - left.getBoundingClientRect().left;
+    left.style.setProperty("--names", `${Math.max(90, Math.min(x, left.clientWidth - 150))}px`);
+  });
+}
+
 function listen() {
   const clicks = {
     first: () => setNow(BEGIN, { follow: true }), last: () => setNow(END, { follow: true }), play, prior: () => failureStep(-1), next: () => failureStep(1),
@@ -199,9 +210,10 @@ function listen() {
   for (const id of ["scroller", "map", "bars", "overview", "lane"]) resized.observe($(id));
   addEventListener("hashchange", () => { recall(); drawTabs(); redraw(); });
   let before = "";
-  addEventListener("beforeprint", () => { before = theme(); printing = true; measureAll(); setTheme("light"); draw(); });
-  addEventListener("afterprint", () => { printing = false; measureAll(); setTheme(before); });
+  addEventListener("beforeprint", () => { before = theme(); printing = true; measureAll(); drawPanel({ force: true }); setTheme("light"); draw(); });
+  addEventListener("afterprint", () => { printing = false; measureAll(); openTab(tab); setTheme(before); });
   namesInput();
+  gripInput();
   timeInput($("bars"), barTip);
   timeInput($("lane"), laneTip);
   overviewInput();
