@@ -2,30 +2,46 @@
 
 from __future__ import annotations
 
-from executive.skills.body import ARM_CHANNEL, Body
+from executive.skills.body import ARM_CHANNEL, SIDES, Body
 from executive.skills.script import Script
 from executive.skills.skill import Resource
 from robot.messages import MoveHand, Side, Stand
 
 REST_TIMEOUT_S = 6.0
+STILL_RAD_S = 0.1
 
 
 def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
-    """Hold the arms where they are, finish the step and stand; ends when the body stands still.
+    """Hold the arms where they are, finish the step and stand; ends when the body is still.
 
     Fingers keep their grip. Ends after `REST_TIMEOUT_S` in any case.
     """
     body.phase = "coming to rest"
-    for side, channel in ARM_CHANNEL.items():
-        if channel in resources:
-            hold_arm(body, side)
-    if "legs" in resources:
-        body.send(Stand(**body.header()))
+    sides: list[Side] = [side for side in SIDES if ARM_CHANNEL[side] in resources]
+    for side in sides:
+        hold_arm(body, side)
+    stand = body.send(Stand(**body.header())) if "legs" in resources else None
     end_s = body.now_s + REST_TIMEOUT_S
     while body.now_s < end_s:
         yield
-        if "legs" not in resources or body.state.mode in ("stand", "damping"):
+        if (stand is None or _stands(body, stand)) and all(_is_still(body, s) for s in sides):
             return
+
+
+def _stands(body: Body, command_id: int) -> bool:
+    """Whether the body has taken the posture it was told to, or cannot any more."""
+    state = body.state
+    if state.mode == "damping":
+        return True
+    activity = state.activities.get("legs")
+    taken = activity is not None and activity.id >= command_id and activity.status != "running"
+    return taken and state.mode == "stand"
+
+
+def _is_still(body: Body, side: Side) -> bool:
+    """Whether an arm's joints hardly move."""
+    speeds_rad_s = (body.state.qd_rad_s[i] for i in body.description.indices(f"{side}_arm"))
+    return max(map(abs, speeds_rad_s)) < STILL_RAD_S
 
 
 def hold_arm(body: Body, side: Side) -> None:
