@@ -16,6 +16,7 @@ from robot.messages import (
     Channel,
     HandState,
     ObjectInfo,
+    PersonInfo,
     Place,
     Side,
     Track,
@@ -52,6 +53,8 @@ class Body:
         self.now_s = 0.0
         self.phase = ""
         self.progress = 0.0
+        self.companion = ""
+        """The person who may be near: the one who is handed something, or followed."""
 
     # --- what is known ---
 
@@ -126,6 +129,19 @@ class Body:
             if info.id == object_id:
                 return info
         raise give_up("unknown_object", f"there is no object {object_id!r} in {self.map.name}")
+
+    def person(self, person_id: str) -> PersonInfo:
+        """What the map knows of a person. Gives up on an id it does not know."""
+        for person in self.map.people:
+            if person.id == person_id:
+                return person
+        raise give_up("unknown_place", f"there is no person {person_id!r} in {self.map.name}")
+
+    def X_WPerson(self, person_id: str) -> SE3:
+        """Where a person was seen last, or where the map says."""
+        tracks = {track.id: track for track in self.world.people}
+        track = tracks.get(person_id)
+        return track.X_WO if track and track.X_WO else self.person(person_id).X_WO
 
     def place(self, place_id: str) -> Place:
         """A place of the map. Gives up on an id it does not know."""

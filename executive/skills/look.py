@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.skills.context import SkillContext
 from executive.skills.looking import see, turn_head
 from executive.skills.parameters import LookParams
-from executive.skills.script import Script, give_up
+from executive.skills.script import Script
 from executive.skills.scripted import ScriptedSkill
 
 FACE_HEIGHT_M = 1.5
@@ -33,11 +33,9 @@ class Look(ScriptedSkill):
             place = body.place(wanted.place_id)
             body.phase, p_W = f"looking at the {place.name}", place.X_WP.p
         elif wanted.person_id is not None:
-            people = [person for person in body.map.people if person.id == wanted.person_id]
-            if not people:
-                raise give_up("unknown_place", f"there is no person {wanted.person_id!r}")
-            x_m, y_m, _ = people[0].X_WO.p
-            body.phase, p_W = f"looking at {people[0].name}", (x_m, y_m, FACE_HEIGHT_M)
+            body.phase = f"looking at {body.person(wanted.person_id).name}"
+            x_m, y_m, _ = body.X_WPerson(wanted.person_id).p
+            p_W = (x_m, y_m, FACE_HEIGHT_M)
         else:
             assert wanted.p_W is not None
             body.phase, p_W = "looking", wanted.p_W

@@ -10,7 +10,7 @@ from executive.skills.asking import pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.context import SkillContext
 from executive.skills.parameters import FloorPose, NavigateParams, Step
-from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.script import GaveUp, Script
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stepping import step_to
 from executive.skills.stowing import stow_arms
@@ -101,12 +101,10 @@ class Navigate(ScriptedSkill):
 
     def _to_person(self, person_id: str) -> Script[None]:
         body = self.body
-        person = next((person for person in body.map.people if person.id == person_id), None)
-        if person is None:
-            raise give_up("unknown_place", f"there is no person {person_id!r} in {body.map.name}")
+        person = body.person(person_id)
         body.phase = f"walking to {person.name}"
         distance_m = AT_PERSON_M + person.radius_m
-        stances = stances_around(person.X_WO.p, body.X_WS, distance_m=distance_m)
+        stances = stances_around(body.X_WPerson(person_id).p, body.X_WS, distance_m=distance_m)
         yield from walk_to_any(body, stances, name=person.name)
 
 

@@ -8,8 +8,10 @@ from collections.abc import Callable
 from executive.skills.asking import ask, held_in
 from executive.skills.body import ARM_CHANNEL, Body
 from executive.skills.gripping import check_grips
+from executive.skills.resting import hold_arm
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.support import surroundings
+from executive.skills.zone import somebody_near, wait_for_room
 from robot.messages import MoveArm, MoveHand, Side
 from robot.planning.requests import ArmPlan, ArmRequest, Joints
 from robot.se3 import SE3
@@ -20,6 +22,7 @@ RETARGET_M = 0.004
 RETARGET_EVERY_S = 0.2
 SAME_POSTURE_RAD = 0.15
 PLAN_ATTEMPTS = 2
+INTERRUPTIONS = 4
 SAMPLING = ("no_path", "planner_timeout")
 
 
@@ -35,29 +38,34 @@ def move_arm(
 ) -> Script[None]:
     """Plan a motion of an arm to joint values or a pose X_WG, and carry it out.
 
-    Gives up with the planner's failure, `arm_stalled` or `object_dropped`.
+    Waits while somebody is near the hand, and plans again. Gives up with the planner's failure,
+    `arm_stalled`, `person_near` or `object_dropped`.
     """
-    plan = yield from _plan(
-        body,
-        lambda attempt: ArmRequest(
-            side=side,
-            q_start_rad=body.state.q_rad,
-            X_WB=body.X_WN @ body.state.X_NB,
-            goal=goal,
-            around=surroundings(body),
-            held=held_in(body, side),
-            keep_upright=keep_upright,
-            allowed=allowed,
-            near_rad=near_rad,
-            speed=speed,
-            seed=body.context.seed + attempt,
-        ),
-    )
-    command = MoveArm(
-        **body.header(), side=side, times_s=plan.times_s, positions_rad=plan.positions_rad
-    )
-    body.send(command)
-    yield from _finish_arm(body, side, command.id, timeout_s=plan.duration_s + ARM_TIMEOUT_S)
+    for _ in range(INTERRUPTIONS):
+        plan = yield from _plan(
+            body,
+            lambda attempt: ArmRequest(
+                side=side,
+                q_start_rad=body.state.q_rad,
+                X_WB=body.X_WN @ body.state.X_NB,
+                goal=goal,
+                around=surroundings(body),
+                held=held_in(body, side),
+                keep_upright=keep_upright,
+                allowed=allowed,
+                near_rad=near_rad,
+                speed=speed,
+                seed=body.context.seed + attempt,
+            ),
+        )
+        command = MoveArm(
+            **body.header(), side=side, times_s=plan.times_s, positions_rad=plan.positions_rad
+        )
+        body.send(command)
+        timeout_s = plan.duration_s + ARM_TIMEOUT_S
+        if (yield from _finish_arm(body, side, command.id, timeout_s=timeout_s)):
+            return
+    raise give_up("person_near", f"somebody came near again and again while {body.phase}")
 
 
 def move_hand(
@@ -96,6 +104,11 @@ def move_hand(
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return
+        if somebody_near(body, body.X_WG(side).p) is not None:
+            before_s = body.now_s
+            yield from _yield_to_people(body, side)
+            aim, aimed_s, end_s = None, -math.inf, end_s + body.now_s - before_s
+            continue
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):
             detail = activity.detail if activity is not None else "it did not begin"
             raise give_up(
@@ -129,19 +142,29 @@ def _plan(body: Body, request: Callable[[int], ArmRequest]) -> Script[ArmPlan]:
     raise AssertionError("unreachable")
 
 
-def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) -> Script[None]:
+def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) -> Script[bool]:
+    """Wait until a motion is done; False if it was interrupted because somebody came near."""
     end_s = body.now_s + timeout_s
     while True:
         yield
         check_grips(body)
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
-            return
+            return True
+        if somebody_near(body, body.X_WG(side).p) is not None:
+            yield from _yield_to_people(body, side)
+            return False
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):
             detail = activity.detail if activity is not None else "it did not begin"
             raise give_up(
                 "arm_stalled", f"the {side} arm stopped while {body.phase}: {detail or 'too slow'}"
             )
+
+
+def _yield_to_people(body: Body, side: Side) -> Script[None]:
+    """Hold the arm where it is until there is room again."""
+    hold_arm(body, side)
+    yield from wait_for_room(body, hand_W=body.X_WG(side))
 
 
 def _off_m(body: Body, side: Side, X_WG: SE3) -> float:

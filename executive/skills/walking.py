@@ -18,6 +18,7 @@ from executive.skills.obstructions import in_the_way
 from executive.skills.script import Script, give_up
 from executive.skills.stepping import is_at_stance, miss, step_to
 from executive.skills.support import surroundings
+from executive.skills.zone import in_the_path
 from robot.messages import Obstacle, Stand, Walk
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import wrap_angle
@@ -44,6 +45,8 @@ LOOK_EVERY_S = 1.0
 LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
 STOP_TIMEOUT_S = 5.0
+MOVING_M_S = 0.03
+LET_PASS_S = 6.0
 
 
 def walk_to(body: Body, goal: Stance) -> Script[None]:
@@ -65,6 +68,8 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
             return
         words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
+        x_m, y_m = (blocker.X_WO.p[i] - body.X_WS.p[i] for i in range(2))
+        yield from _let_pass(body, math.atan2(y_m, x_m))
         body.phase = words
     assert blocker is not None
     raise give_up(
@@ -128,11 +133,26 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
         body.progress = 1.0 - follower.remaining_m / follower.total_m
         watch.look_ahead(follower)
         watch.check_progress(follower.remaining_m)
-        blocker = watch.blocker(follower)
+        blocker = _person_ahead(body, twist) or watch.blocker(follower)
         if blocker is not None:
             return blocker
         yield
     return None
+
+
+def _person_ahead(body: Body, twist: Twist) -> Obstacle | None:
+    """Somebody so near that the next steps would be towards them."""
+    if math.hypot(twist.forward_m_s, twist.left_m_s) < MOVING_M_S:
+        return None
+    aside_rad = math.atan2(twist.left_m_s, twist.forward_m_s)
+    return in_the_path(body, body.X_WS.yaw_rad + aside_rad)
+
+
+def _let_pass(body: Body, towards_rad: float) -> Script[None]:
+    """Stand for a while as long as somebody is near on that side."""
+    end_s = body.now_s + LET_PASS_S
+    while body.now_s < end_s and in_the_path(body, towards_rad) is not None:
+        yield
 
 
 def turn_by(body: Body, angle_rad: float) -> Script[None]:

@@ -125,13 +125,14 @@ class WorldModel:
     def bump(self, obstacles: tuple[Obstacle, ...], now_s: float) -> None:
         """Take what else the sensors see: a person out of the camera's view may be one of it."""
         for name, track in self._people.items():
-            if track.X_WO is None or track.missing or now_s - track.seen_s < UNSEEN_S:
+            never = math.isinf(track.seen_s)
+            if track.X_WO is None or track.missing or never or now_s - track.seen_s < UNSEEN_S:
                 continue
             for obstacle in obstacles:
                 if math.dist(obstacle.X_WO.p[:2], track.X_WO.p[:2]) < SAME_PERSON_M:
                     x, y, _ = obstacle.X_WO.p
                     X_WO = SE3((x, y, track.X_WO.p[2]), track.X_WO.quat_wxyz)
-                    self._people[name] = msgspec.structs.replace(track, X_WO=X_WO)
+                    self._people[name] = Track(id=name, X_WO=X_WO, seen_s=now_s)
                     break
 
 

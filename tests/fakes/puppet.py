@@ -46,6 +46,8 @@ class Puppet:
     blind: bool = False
     miss_m: float = 0.0
     unmapped: tuple[m.Obstacle, ...] = ()
+    people: dict[str, SE3] = field(default_factory=dict)
+    people_seen: bool = True
     drift_m_s: float = 0.0
     sent: list[m.BodyCommand] = field(default_factory=list)
     time_s: float = 0.0
@@ -106,6 +108,10 @@ class Puppet:
             X_WB=self.X_WS,
             fix_age_s=0.0,
             tracks=tracks,
+            people=tuple(
+                m.Track(id=name, X_WO=X_WO, seen_s=self.time_s, missing=not self.people_seen)
+                for name, X_WO in self.people.items()
+            ),
             unmapped=self.unmapped,
         )
 

@@ -1,0 +1,88 @@
+"""Nobody is walked into or reached into: feet and hands wait while a person is near."""
+
+import math
+
+import pytest
+
+from executive.skills.parameters import FloorPose, NavigateParams, PickParams
+from executive.skills.zone import PATIENCE_S, ZONE_M
+from robot.messages import MoveArm, MoveHand, Walk
+from robot.se3 import SE3
+from tests.fakes.stage import Stage
+
+AWAY = SE3((9.0, 9.0, 0.0))
+THERE = NavigateParams(pose=FloorPose(x_m=2.5, y_m=-2.0, yaw_rad=0.0))
+
+
+@pytest.fixture
+def stage():
+    return Stage()
+
+
+def comes(stage, words: str, X_WO, *, for_s: float = math.inf):
+    """Ann steps to a place when a phase begins, and leaves again."""
+    tick, since = stage.puppet.tick, []
+
+    def step_in():
+        tick()
+        now_s = stage.puppet.time_s
+        if not since and stage.skill.body.phase.startswith(words):
+            since.append(now_s)
+        here = since and now_s - since[0] < for_s
+        stage.puppet.people["ann"] = X_WO() if here else AWAY
+
+    stage.puppet.tick = step_in
+
+
+def before(stage, m: float):
+    X_WS = stage.puppet.X_WS
+    return SE3((X_WS.p[0] + m * math.cos(X_WS.yaw_rad), X_WS.p[1] + m * math.sin(X_WS.yaw_rad), 0))
+
+
+def test_walking_stops_for_somebody_ahead_and_goes_on_when_they_leave(stage):
+    comes(stage, "walking", lambda: before(stage, 0.6), for_s=3.0)
+    report = stage.run(THERE)
+    assert report.status == "succeeded", report
+    assert "stopping for Ann" in stage.phases
+
+
+def test_not_a_step_is_sent_while_they_stand_there(stage):
+    comes(stage, "walking", lambda: before(stage, 0.6), for_s=4.0)
+    stage.run(THERE, until_phase="stopping")
+    sent = len(stage.commands(Walk))
+    for _ in range(40):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    assert len(stage.commands(Walk)) == sent
+
+
+def test_somebody_behind_is_no_reason_to_stop(stage):
+    comes(stage, "walking", lambda: before(stage, -0.6))
+    report = stage.run(THERE)
+    assert report.status == "succeeded"
+    assert "stopping for Ann" not in stage.phases
+
+
+def test_the_arm_waits_and_then_goes_on(stage):
+    comes(stage, "reaching", lambda: SE3((1.7, 0.3, 0.0)), for_s=3.0)
+    report = stage.run(PickParams(object_id="cup"))
+    assert report.status == "succeeded", report
+    assert "waiting for Ann to step back" in stage.phases
+
+
+def test_the_arm_does_not_move_on_while_they_are_near(stage):
+    comes(stage, "reaching", lambda: SE3((1.7, 0.3, 0.0)), for_s=8.0)
+    stage.run(PickParams(object_id="cup"), until_phase="waiting for Ann")
+    sent = len(stage.commands(MoveArm)) + len(stage.commands(MoveHand))
+    for _ in range(60):
+        stage.puppet.tick()
+        stage.skill.step(stage.puppet.time_s)
+    assert len(stage.commands(MoveArm)) + len(stage.commands(MoveHand)) == sent
+
+
+def test_somebody_who_stays_ends_the_reach_with_a_name(stage):
+    comes(stage, "reaching", lambda: SE3((1.7, 0.3, 0.0)), for_s=2 * PATIENCE_S)
+    report = stage.run(PickParams(object_id="cup"))
+    assert report.failure.code == "person_near"
+    assert "Ann" in report.failure.cause
+    assert ZONE_M == 0.5
