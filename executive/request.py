@@ -9,7 +9,8 @@ import msgspec
 
 from executive.knowledge import Knowledge
 from executive.scene import CannotMean, Scene
-from executive.trees.tasks import Series, understand
+from executive.trees.parts import Part
+from executive.trees.tasks import understand
 from executive.validation import check
 from intents import dialogue, parser
 from intents.goals import Goal
@@ -58,7 +59,7 @@ class Understood(msgspec.Struct, frozen=True, kw_only=True):
 
     text: str
     goals: tuple[Goal, ...]
-    task: Series
+    task: Part
     held: tuple[str, ...] = ()
     holds: tuple[str, ...] = ()
 

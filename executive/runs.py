@@ -70,6 +70,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     clamped: int
     refused: int
     placed: tuple[Placed, ...] = ()
+    expected: tuple[Expected, ...] = ()
     late: tuple[str, ...] = ()
     folder: str = ""
 
@@ -77,6 +78,14 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     def real_time_factor(self) -> float:
         """Simulated seconds a second of wall time."""
         return self.simulated_s / self.wall_s if self.wall_s > 0.0 else 0.0
+
+
+class Expected(msgspec.Struct, frozen=True, kw_only=True):
+    """Something that a mission expected at its end, whether it was so, and what was found."""
+
+    check: str
+    so: bool
+    found: str = ""
 
 
 class Placed(msgspec.Struct, frozen=True, kw_only=True):

@@ -67,6 +67,11 @@ class Compiler:
         self._calls: list[Path] = []
         self._count = 0
 
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The missions that are called."""
+        return tuple(mission.path for mission in self._files.values() if mission is not None)
+
     # --- missions ---
 
     def mission(self, mission: Mission, bound: dict[str, Bound]) -> p.Part:
@@ -336,7 +341,7 @@ class Compiler:
     def _repeat(self, record: s.RepeatStep, node: Node, scope: Scope) -> p.Part:
         times = self._within(record.repeat, 1, MAX_ROUNDS, node, "repeat")
         bodies = self._bodies(record.do, scope, times)
-        return p.Loop(name=f"{times} times", bodies=bodies, at_most=times)
+        return p.Loop(name="once" if times == 1 else f"{times} times", bodies=bodies, at_most=times)
 
     def _while(self, record: s.WhileStep, node: Node, scope: Scope) -> p.Part | None:
         finding = self._conditions.read(node.entries["while"][1], scope, self.scene)

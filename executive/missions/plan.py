@@ -1,0 +1,270 @@
+"""A dry run: every step with its path, about how long it takes, and whether the way is free.
+
+Times are typical ones, measured in `--fast` runs (docs/missions.md): the planned way over a typical
+speed, and a fixed span for what is done there. The robot's place is followed from step to step;
+things are taken to be where the world file puts them (oracle), which a real robot has to find out.
+What turns out only on the way (a branch's answer, the rounds of a `while`, recoveries) is named,
+not guessed: a branch counts with its longer side, a `while` with one round.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import msgspec
+
+from executive.request import Setting
+from executive.skills import parameters as k
+from executive.skills.visiting import AT_PERSON_M, stances_around, stances_at
+from executive.trees import parts as p
+from robot.bringup import entry
+from robot.errors import Failure
+from robot.messages import Place
+from robot.planning.requests import BasePath, BasePathRequest, Stance, Surroundings
+from robot.planning.solve import Solver
+from robot.se3 import SE3, wrap_angle
+
+WALK_M_S, TURN_RAD_S = 0.30, 0.5
+BEGIN_S = 1.5
+"""Of every step on foot: planning, tucking the arms in, coming to a stand."""
+PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 24.0, 24.0, 4.0, 1.5, 0.1
+"""What is done on the spot, the walk there left out."""
+BALANCE_S = {"stand": 0.5, "squat": 4.0, "one_leg": 8.0, "lean": 4.0, "hold": 0.5}
+"""Taking a posture and coming back from it."""
+MAX_PATHS = 200
+"""Ways that are planned, about 30 ms each; later ones are straight lines."""
+
+
+class Row(msgspec.Struct, frozen=True, kw_only=True):
+    """A step of the plan.
+
+    Attributes:
+        path: where it stands in the mission.
+        depth: how deep.
+        name: for people.
+        kind: "step", or what holds steps ("loop", "branch", ...).
+        takes_s: about how long it takes; None where it cannot be said.
+        problem: why it would fail as things stand; empty if nothing is known against it.
+    """
+
+    path: str
+    depth: int
+    name: str
+    kind: str
+    takes_s: float | None = None
+    problem: str = ""
+
+
+class Plan(msgspec.Struct, frozen=True, kw_only=True):
+    """A dry run: its rows, the time in all, and how many steps will not work."""
+
+    rows: tuple[Row, ...]
+    total_s: float
+    problems: int
+
+
+def forecast(task: p.Part, where: Setting, *, done: frozenset[str] = frozenset()) -> Plan:
+    """What a task would take, step by step.
+
+    Args:
+        task: what is to be done.
+        where: robot and world.
+        done: paths of what is left out.
+    """
+    rows: list[Row] = []
+    total_s = _Forecaster(where, done, rows).part(task, "", 0)
+    problems = sum(1 for row in rows if row.problem)
+    return Plan(rows=tuple(rows), total_s=round(total_s, 1), problems=problems)
+
+
+def forecast_lines(task: p.Part, where: Setting) -> list[str]:
+    """A dry run in words, a line a step."""
+    return lines(forecast(task, where))
+
+
+def lines(plan: Plan) -> list[str]:
+    """A plan in words, a line a step."""
+    width = max((len(row.path) for row in plan.rows), default=0)
+    found: list[str] = []
+    for row in plan.rows:
+        takes = "" if not row.takes_s else f"about {row.takes_s:.0f} s"
+        text = f"  {row.path:{width}}  {'  ' * row.depth}{row.name}"
+        found.append(f"{text:60}  {takes}".rstrip())
+        if row.problem:
+            found.append(f"  {'':{width}}  {'  ' * row.depth}  will not work: {row.problem}")
+    minutes, seconds = divmod(round(plan.total_s), 60)
+    total = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
+    found.append(f"In all about {total}, without recoveries.")
+    return found
+
+
+class _Forecaster:
+    """Follows the robot through a task."""
+
+    def __init__(self, where: Setting, done: frozenset[str], rows: list[Row]) -> None:
+        self._where, self._done, self._rows = where, done, rows
+        self._knowledge = where.knowledge
+        self._around = Surroundings(map=where.world_map)
+        self._solver: Solver | None = None
+        self._ways: dict[tuple[Stance, Stance], BasePath | Failure] = {}
+        self._stance: SE3 = entry.attribute("sim.atlas:start_pose")(where.world)
+        self._on: dict[str, str] = {item.id: item.on for item in where.world.objects}
+
+    def part(self, part: p.Part, path: str, depth: int) -> float:
+        """Add the rows of a part; returns how long it takes [s]."""
+        if f"{path}/" in self._done or path in self._done:
+            return 0.0
+        match part:
+            case p.Errand():
+                return self._errand(part, path, depth)
+            case p.Series():
+                return self._series(part, path, depth)
+            case p.Branch():
+                self._row(path, depth, part.name, "branch")
+                spans = [self.part(c, w, depth + 1) for w, c in p.children(part, path)]
+                return max(spans)
+            case p.Parallel():
+                self._row(path, depth, part.name, "parallel")
+                return max(self.part(c, w, depth + 1) for w, c in p.children(part, path))
+            case p.Loop():
+                return self._loop(part, path, depth)
+            case p.Retry() | p.Timeout():
+                return self.part(part.part, path, depth)
+            case p.OnFail():
+                return self.part(part.part, path, depth)
+            case p.Always():
+                span_s = self.part(part.part, path, depth)
+                return span_s + self.part(part.after, p.below(path, "always"), depth)
+            case p.GiveUp() | p.Expect():
+                self._row(path, depth, part.name, "step", takes_s=0.0)
+                return 0.0
+
+    def _row(
+        self,
+        path: str,
+        depth: int,
+        name: str,
+        kind: str,
+        *,
+        takes_s: float | None = None,
+        problem: str = "",
+    ) -> None:
+        if path:
+            row = Row(
+                path=path, depth=depth, name=name, kind=kind, takes_s=takes_s, problem=problem
+            )
+            self._rows.append(row)
+
+    def _series(self, part: p.Series, path: str, depth: int) -> float:
+        if path and part.parts:
+            self._row(path, depth, part.name, "series")
+        inside = depth + 1 if path else depth
+        return sum(self.part(child, at, inside) for at, child in p.children(part, path))
+
+    def _loop(self, part: p.Loop, path: str, depth: int) -> float:
+        self._row(path, depth, part.name, "loop")
+        spans = [self.part(c, w, depth + 1) for w, c in p.children(part, path)]
+        if part.question is not None:
+            return spans[0]
+        before = len(self._rows)  # one more round, from where the first ones end
+        last_s = self.part(part.bodies[-1], p.of_round(path, len(spans) + 1), depth + 1)
+        del self._rows[before:]
+        return sum(spans) + last_s * (part.at_most - len(spans))
+
+    # --- steps ---
+
+    def _errand(self, errand: p.Errand, path: str, depth: int) -> float:
+        takes_s, problem = self._takes(errand)
+        self._row(path, depth, errand.name, "step", takes_s=round(takes_s, 1), problem=problem)
+        return takes_s
+
+    def _takes(self, errand: p.Errand) -> tuple[float, str]:
+        """How long a step takes [s], and why it would fail."""
+        params = errand.params
+        match params:
+            case k.NavigateParams():
+                return self._navigate(params)
+            case k.PickParams():
+                span_s, problem = self._go(self._place_of(params.object_id))
+                self._on.pop(params.object_id, None)
+                return span_s + PICK_S, problem
+            case k.PlaceParams():
+                span_s, problem = self._go(self._knowledge.place(params.place_id or ""))
+                self._on[params.object_id] = params.place_id or ""
+                return span_s + PLACE_S, problem
+            case k.SearchParams():
+                return self._search(params)
+            case k.LookParams():
+                return LOOK_S, ""
+            case k.BalanceParams():
+                return params.duration_s + BALANCE_S[params.mode], ""
+            case k.WaitParams():
+                return params.duration_s or 0.0, ""
+            case _:
+                return SAY_S, ""
+
+    def _search(self, params: k.SearchParams) -> tuple[float, str]:
+        asked = [self._knowledge.place(place_id) for place_id in params.place_ids]
+        span_s, problem = self._go(next(iter(asked), None) or self._place_of(params.object_id))
+        return span_s + SEARCH_S, problem
+
+    def _place_of(self, object_id: str) -> Place | None:
+        return self._knowledge.place(self._on.get(object_id, ""))
+
+    def _navigate(self, params: k.NavigateParams) -> tuple[float, str]:
+        if params.by is not None:
+            by = params.by
+            X_SG = SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0))
+            self._stance = self._stance @ X_SG
+            walked_s = math.hypot(by.forward_m, by.left_m) / WALK_M_S
+            return BEGIN_S + walked_s + abs(by.turn_rad) / TURN_RAD_S, ""
+        if params.pose is not None:
+            yaw_rad = params.pose.yaw_rad
+            goal = (params.pose.x_m, params.pose.y_m, yaw_rad or self._stance.yaw_rad)
+            return self._walk([goal])
+        if params.person_id is not None:
+            person = next(q for q in self._knowledge.map.people if q.id == params.person_id)
+            away_m = AT_PERSON_M + person.radius_m
+            return self._walk(stances_around(person.X_WO.p, self._stance, distance_m=away_m))
+        return self._go(self._knowledge.place(params.place_id or ""))
+
+    def _go(self, place: Place | None) -> tuple[float, str]:
+        """Walk to a place, unless it is not known where that is."""
+        return self._walk(stances_at(place, self._stance)) if place is not None else (0.0, "")
+
+    def _walk(self, goals: list[Stance]) -> tuple[float, str]:
+        """To the first of some stances that a way leads to."""
+        x_m, y_m, _ = self._stance.p
+        start = (round(x_m, 3), round(y_m, 3), round(self._stance.yaw_rad, 3))
+        problem = ""
+        for goal in goals:
+            way = self._way(start, goal)
+            if isinstance(way, Failure):
+                problem = problem or way.cause
+                continue
+            self._stance = SE3.from_xy_yaw(*goal)
+            turn_rad = sum(_turns([start, *way.waypoints]))
+            return BEGIN_S + way.length_m / WALK_M_S + 0.3 * turn_rad / TURN_RAD_S, ""
+        return BEGIN_S, problem or "no way leads there"
+
+    def _way(self, start: Stance, goal: Stance) -> BasePath | Failure:
+        known = self._ways.get((start, goal))
+        if known is not None:
+            return known
+        if len(self._ways) >= MAX_PATHS:
+            length_m = math.dist(start[:2], goal[:2])
+            return BasePath(waypoints=(goal,), length_m=length_m, clearance_m=0.0)
+        self._solver = self._solver or Solver(self._where.description)
+        request = BasePathRequest(start=start, goal=goal, around=self._around)
+        way = self._solver.solve(request)
+        assert isinstance(way, BasePath | Failure)
+        self._ways[start, goal] = way
+        return way
+
+
+def _turns(stances: list[Stance]) -> Iterator[float]:
+    """How far is turned between stances [rad]."""
+    for before, after in pairwise(stances):
+        yield abs(wrap_angle(after[2] - before[2]))

@@ -1,0 +1,38 @@
+"""A mission's task made again from what the journal says of it: for replays, and to go on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from executive.missions.check import Options, check
+from executive.missions.run import digest, understood
+from executive.request import Setting, Understood
+from robot.errors import ConfigError, Problem
+
+
+def restore(made_from: dict[str, Any], folder: Path, where: Setting) -> Understood:
+    """The task of a mission that was submitted in a run.
+
+    Args:
+        made_from: its origin, see `executive.missions.run.origin`.
+        folder: of the run.
+        where: robot and world of the run.
+
+    Raises:
+        ConfigError: the files are gone, changed or wrong.
+    """
+    if "mission" not in made_from:
+        raise ConfigError(f"{folder}: it is not known what the job was made from")
+    path = Path(str(made_from["mission"]))
+    options = Options(
+        params=made_from.get("params", {}),
+        world=where.world_name,
+        robot=where.robot_name,
+        vary_seed=where.vary_seed,
+    )
+    checked = check(path, options)
+    if digest(checked) != made_from.get("digest"):
+        cure = "put the file back as it was, or run the mission anew"
+        raise ConfigError([Problem("the mission was changed since", str(path), suggestion=cure)])
+    return understood(checked)

@@ -1,0 +1,108 @@
+"""Runs a checked mission: the same work as a sentence, with steps left out, limits and faults."""
+
+from __future__ import annotations
+
+import hashlib
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec.structs import replace
+
+from executive import commands, doing, runs
+from executive.jobs import Limits
+from executive.missions.check import Checked, Options, check
+from executive.overseeing import oversee
+from executive.request import Understood
+from robot.bringup.overseen import Handle
+
+
+class Run(msgspec.Struct, frozen=True, kw_only=True):
+    """What `humanoid mission run` is asked: the mission, and how it is run.
+
+    Attributes:
+        path: of the file.
+        said: beside it.
+        how: as for a sentence; world and robot are the mission's.
+    """
+
+    path: str
+    said: Options
+    how: commands.Do
+
+
+def run(wanted: Run) -> int:
+    """Check a mission whole, then run it; returns the exit status.
+
+    Raises:
+        RobotError: something in the file is wrong (ConfigError), or a part does not start.
+    """
+    checked = check(Path(wanted.path), wanted.said)
+    folder = wanted.how.folder or _folder(checked)
+    runs.check_free(folder)
+    wanted = replace(wanted, how=replace(wanted.how, folder=folder))
+    if wanted.how.fast:
+        return commands.work_off(_job(checked, wanted), wanted.how)
+    plain = msgspec.to_builtins(wanted, enc_hook=str)
+    task = {"as_json": wanted.how.as_json, "run": plain}
+    return oversee("executive.missions.run:overseen", task, as_json=wanted.how.as_json)
+
+
+def overseen(handle: Handle, task: dict[str, Any]) -> int:
+    """Run a mission in an executive of its own, or go on with it; returns the exit status.
+
+    Raises:
+        RobotError: as `run` does.
+    """
+    wanted = msgspec.convert(task["run"], Run, dec_hook=lambda kind, value: kind(value))
+    checked = check(Path(wanted.path), wanted.said)
+    return commands.work_off(_job(checked, wanted), wanted.how, handle=handle)
+
+
+def understood(checked: Checked) -> Understood:
+    """A mission as what can be submitted to an executive."""
+    return Understood(text=checked.mission.record.name, goals=(), task=checked.task)
+
+
+def limits(checked: Checked) -> Limits:
+    """What the whole job may take; the duration is in the task, so that `always` follows it."""
+    speed_m_s = checked.mission.record.limits.speed_m_s
+    return Limits() if speed_m_s is None else Limits(speed_m_s=speed_m_s)
+
+
+def origin(checked: Checked, options: Options) -> dict[str, Any]:
+    """What a mission's task is made from, for the journal: enough to make it again."""
+    return {
+        "mission": str(checked.mission.path),
+        "params": dict(options.params),
+        "digest": digest(checked),
+        "from": options.first,
+    }
+
+
+def digest(checked: Checked) -> str:
+    """Hash (SHA-256, the first 16 digits) of the mission's file and those that it calls."""
+    found = hashlib.sha256()
+    for path in checked.files:
+        found.update(path.read_bytes() + b"\0")
+    return found.hexdigest()[:16]
+
+
+def _folder(checked: Checked) -> Path:
+    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    return runs.folder_for(checked.mission.record.name, stamp=stamp)
+
+
+def _job(checked: Checked, wanted: Run) -> doing.Job:
+    return doing.Job(
+        understood=understood(checked),
+        where=checked.where,
+        seed=wanted.how.seed,
+        runtime_name="fast" if wanted.how.fast else "live",
+        folder=wanted.how.folder,
+        limits=limits(checked),
+        origin=origin(checked, wanted.said),
+        done=checked.done,
+        faults=checked.faults,
+    )
