@@ -62,6 +62,10 @@ PAUSE = Key[str](
 PAUSED = Key[bool](
     "paused", bool, writer="guard", meaning="whether the robot stands, paused", initial=False
 )
+RESTLESS = Key[bool](
+    "restless", bool, writer="task", meaning="whether a skill did not come to rest in its time",
+    initial=False,
+)  # fmt: skip
 HELP = Key[str](
     "help", str, writer="task", meaning="what a person is asked to help with, or empty", initial=""
 )
@@ -88,7 +92,7 @@ SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robo
 
 KEYS: tuple[Key[Any], ...] = (
     NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE, RECOVERIES,
-    PHASE, SAID, HELP, SPEED_LIMIT,
+    PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
 )  # fmt: skip
 """The whole table."""
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.blackboard import HEALTH, PAUSE, STOP, Blackboard
+from executive.blackboard import HEALTH, PAUSE, RESTLESS, STOP, Blackboard
 from executive.ladder import Level
 
 Predicate = Callable[[Blackboard], bool]
@@ -38,5 +38,5 @@ def must_hold(board: Blackboard) -> bool:
 
 
 def must_pause(board: Blackboard) -> bool:
-    """A person wants the robot to stand for a while."""
-    return bool(board.read(PAUSE))
+    """A person wants the robot to stand for a while, or a skill left it moving."""
+    return bool(board.read(PAUSE)) or board.read(RESTLESS)

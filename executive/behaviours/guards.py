@@ -6,7 +6,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import ABORT, HEALTH, PAUSED, STOP, Writer
+from executive.blackboard import ABORT, HEALTH, PAUSE, PAUSED, RESTLESS, STOP, Writer
 from robot.errors import Failure, failure
 
 HOLD_LIMIT_S = 20.0
@@ -24,6 +24,10 @@ class EndTask(Behaviour):
         self._stage = stage
         self._guard = guard
         self._asked = ""
+
+    def initialise(self) -> None:
+        """The robot has come to a stand, as far as it goes."""
+        self._stage.task.set(RESTLESS, False)  # noqa: FBT003
 
     def update(self) -> Status:
         """Say why, once; a stop that is over gives way to what else is wrong."""
@@ -80,7 +84,7 @@ class Hold(Behaviour):
 
 
 class Rest(Behaviour):
-    """Says that the robot stands, paused; RUNNING until it is told to go on."""
+    """Says that the robot stands, or stands paused; RUNNING until it is told to go on."""
 
     def __init__(self, stage: Stage, guard: Writer) -> None:
         """Write as `guard`."""
@@ -90,11 +94,15 @@ class Rest(Behaviour):
 
     def initialise(self) -> None:
         """The body is at rest from here on."""
-        self._guard.set(PAUSED, True)  # noqa: FBT003
-        self._stage.record("paused")
+        self._stage.task.set(RESTLESS, False)  # noqa: FBT003
+        if self._stage.board.read(PAUSE):
+            self._guard.set(PAUSED, True)  # noqa: FBT003
+            self._stage.record("paused")
 
     def update(self) -> Status:
-        """Stay."""
+        """Stay; a pause may have been asked for since."""
+        if self._stage.board.read(PAUSE) and not self._stage.board.read(PAUSED):
+            self.initialise()
         return Status.RUNNING
 
     def terminate(self, new_status: Status) -> None:  # noqa: ARG002

@@ -9,7 +9,7 @@ import msgspec
 
 from executive.behaviours.breakpoints import Breakpoints
 from executive.behaviours.scope import Scope
-from executive.blackboard import FAILURE, HELP, NOW, PHASE, RECOVERIES, Blackboard, Writer
+from executive.blackboard import FAILURE, HELP, NOW, PHASE, RECOVERIES, RESTLESS, Blackboard, Writer
 from executive.journal import Journal
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill, SkillReport
@@ -155,6 +155,8 @@ class Stage:
         if report.status == "running" and not late:
             self.phase(report.phase)
             return
+        if late:
+            self.task.set(RESTLESS, True)  # noqa: FBT003
         self._stopping = [other for other in self._stopping if other is not entry]
         self.release(entry.skill)
         self.record("stopped", step=entry.step, took_s=round(took_s, 3), in_time=not late)

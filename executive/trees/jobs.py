@@ -17,7 +17,7 @@ from py_trees.composites import Composite
 
 from executive.behaviours.scope import Scope
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import FAILURE, GOAL, RECOVERIES
+from executive.blackboard import FAILURE, GOAL, RECOVERIES, RESTLESS
 from executive.jobs import OVER, UNDER_WAY, Job, JobState, side_by_side
 from robot.errors import Failure, failure
 
@@ -157,7 +157,8 @@ class Jobs(Composite):
 
     def _at_end(self, work: Work) -> bool:
         over = work.ending is not None or work.node.status in (Status.SUCCESS, Status.FAILURE)
-        return over and self._stage.at_rest(work.scope)
+        moves = self._stage.board.read(RESTLESS) and work.job.began_s is not None
+        return over and not moves and self._stage.at_rest(work.scope)
 
     def _finish(self, ended: list[Work]) -> list[Job]:
         """Give jobs their final states."""

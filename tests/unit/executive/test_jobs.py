@@ -6,6 +6,7 @@ import pytest
 
 from executive.app import JobError
 from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
+from executive.behaviours.stage import STOP_TIMEOUT_S
 from executive.blackboard import HELP
 from executive.jobs import Job, Limits, side_by_side
 from executive.skills.parameters import (
@@ -14,6 +15,7 @@ from executive.skills.parameters import (
     PickParams,
     SayParams,
     SearchParams,
+    StopParams,
     WaitParams,
 )
 from executive.trees.idioms import in_order
@@ -430,3 +432,18 @@ def test_a_jobs_speed_limit_holds_while_the_job_has_its_turn():
     rig.submit(WAIT, resources=HEAD)
     rig.run()
     assert seen == {"NavigateParams": 0.2, "WaitParams": float("inf")}
+
+
+def test_a_job_whose_skill_does_not_rest_is_over_only_when_the_robot_was_brought_to_a_stand():
+    lives = {NavigateParams: [Script(steps=LONG, stop_steps=LONG)], StopParams: [Script(steps=6)]}
+    rig = Rig(lives)
+    rig.begin(WALK).tick(3)
+    rig.executive.cancel(1)
+    rig.tick(int(STOP_TIMEOUT_S / TICK_S) + 3)
+    assert rig.executive.outcome is None
+    assert rig.run().code == "cancelled"
+    stand = rig.troupe.made[-1]
+    assert isinstance(stand.params, StopParams)
+    assert stand.calls.count("step") == 7
+    rig.troupe.scripts[NavigateParams] = [Script(steps=3)]
+    assert rig.begin(WALK).run() is True
