@@ -20,7 +20,7 @@ Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "ask
 
 WAIT_S = 3.0
 STEP_BACK_M = 0.3
-EYE_LEVEL_M = 0.7
+EYE_LEVEL_M = 1.1
 
 
 def _retry(_errand: Errand, _reason: Failure) -> tuple[Errand, ...]:
