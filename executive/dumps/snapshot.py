@@ -9,6 +9,8 @@ import msgspec
 from executive.dumps.model import Node, Run, State
 
 _GUARDS = frozenset({"sequence", "selector"})
+WORKINGS = frozenset({"round", "again", "caught", "as_it_ended", "matches"})
+"""Kinds of nodes by which loops, attempts and handlers do their work (`executive.trees.flow`)."""
 
 
 class Shown(msgspec.Struct, kw_only=True):
@@ -60,20 +62,27 @@ def snapshot(run: Run, t_s: float | None = None, *, everything: bool = False) ->
 def inner(run: Run) -> set[int]:
     """The nodes that mean nothing to people, in the whole run.
 
-    Those are: what stands around the jobs, save guards that had something to do; choices of a
-    remedy that were never made; and nodes around a single one of the same name.
+    Those are: what stands around the jobs, save guards that had something to do; the workings of
+    loops and attempts; deadlines that were kept; choices of a remedy that were never made; and
+    nodes around a single one of the same name.
     """
     hidden = _around_jobs(run)
     for _, node in reversed(list(run.walk())):
         if node.id in hidden:
             continue
-        if node.kind == "recover" and not node.changes:
+        if _is_working(node):
             hidden.add(node.id)
         elif len(below := _visible_below(run, node, hidden)) == 1:
             child = run.nodes[below[0]]
             if child.name == node.name and not node.title:
                 hidden.add(node.id)
     return hidden
+
+
+def _is_working(node: Node) -> bool:
+    if node.kind == "deadline":
+        return all(change.state != "failed" for change in node.changes)
+    return node.kind in WORKINGS or (node.kind == "recover" and not node.changes)
 
 
 def _visible_below(run: Run, node: Node, hidden: set[int]) -> list[int]:

@@ -9,11 +9,11 @@ import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Composite, Selector
-from py_trees.decorators import Decorator
+from py_trees.decorators import Decorator, OneShot
 
 from executive.dumps.model import State
-from executive.dumps.snapshot import Shown
-from executive.trees.idioms import Alternatives
+from executive.dumps.record import kind
+from executive.dumps.snapshot import WORKINGS, Shown
 from executive.trees.recovery import Recover
 
 Style = Literal["unicode", "ascii", "colour"]
@@ -50,18 +50,36 @@ def lines(node: Behaviour, depth: int = 0, *, past: State | None = None) -> Iter
 
     `past` is the state of a subtree that its parent has left behind: py_trees forgets it.
     """
+    if _was_done(node):
+        past = "done"
     node = _plain(node)
-    if isinstance(node, Recover) and not node.feedback_message:
+    if _is_working(node):
         return
     state = past if past and node.status is Status.INVALID else _STATES[node.status]
+    if isinstance(node, Recover) and node.parent and node.parent.children[-1] is not node:
+        state = "done"  # it fails by design, so that the remedy behind it has its turn
     note = node.feedback_message if not node.children else ""
     yield Line(depth, node.name, state, note)
-    left: State = "failed" if isinstance(node, Selector) else "done"
+    for child, left in _left_behind(node, past):
+        yield from lines(child, depth + 1, past=left)
+
+
+def _left_behind(node: Behaviour, past: State | None) -> Iterator[tuple[Behaviour, State | None]]:
+    """The children, each with the state that it was left behind in."""
+    chooses = isinstance(node, Selector)
+    left: State = "failed" if chooses else "done"
     current = node.current_child if isinstance(node, Composite) else None
     ahead = current is None
     for child in node.children:
         ahead = ahead or child is current
-        yield from lines(child, depth + 1, past=past if ahead else left)
+        yield child, past if ahead else left
+        if ahead and past == "failed" and not chooses and not _was_done(child):
+            past = None  # what comes after the one that failed was never begun
+
+
+def _was_done(node: Behaviour) -> bool:
+    """Whether it is a step that is not done again because it was done."""
+    return isinstance(node, OneShot) and node.final_status is Status.SUCCESS
 
 
 def text(node: Behaviour, *, marks: dict[State, str] = MARKS) -> str:
@@ -96,18 +114,20 @@ def _drawn(depth: int, shown: Shown, style: Style) -> str:
 
 
 def _plain(node: Behaviour) -> Behaviour:
-    """What stands behind decorators, and behind alternatives of which only one was needed."""
+    """What stands behind decorators, and behind nodes around a single one of the same name."""
     while True:
         if isinstance(node, Decorator):
             node = node.decorated
-        elif (isinstance(node, Alternatives) and _untried(node)) or (
-            len(node.children) == 1 and node.name == "task"
-        ):
-            node = node.children[0]
-        else:
+            continue
+        below = [child for child in node.children if not _is_working(child)]
+        if len(below) != 1 or node.name not in ("task", below[0].name):
             return node
+        node = below[0]
 
 
-def _untried(node: Alternatives) -> bool:
-    """Whether no recovery has been looked for."""
-    return all(not child.feedback_message for child in node.children[1:])
+def _is_working(node: Behaviour) -> bool:
+    """Whether it is only there to make a loop, an attempt or a choice work, and did no more."""
+    if isinstance(node, Recover):
+        return not node.feedback_message
+    what = kind(node)
+    return what in WORKINGS or (what == "deadline" and node.status is not Status.FAILURE)

@@ -38,7 +38,7 @@ def test_a_recovery_shows_what_was_tried():
         (0, "task", "running"),
         (1, "pick", "running"),
         (2, "pick", "failed"),
-        (2, "recover", "failed"),
+        (2, "recover", "done"),
         (2, "look again, then retry", "running"),
         (3, "look for cup", "done"),
         (3, "pick", "running"),
