@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 from executive.skills.approaching import approach, come_nearer, withdraw
 from executive.skills.asking import ask, stance_of
 from executive.skills.context import SkillContext
@@ -24,7 +26,7 @@ from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME, stow_arms
 from executive.skills.support import UPRIGHT_RAD, surroundings, tilt
-from robot.messages import ObjectInfo
+from robot.messages import ObjectInfo, Side
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
 
@@ -54,6 +56,7 @@ class Pick(ScriptedSkill):
         self._begin_s = 0.0
         self._X_WG_pre: SE3 | None = None
         self._X_WG_closed: SE3 | None = None
+        self._closing: Side | None = None
 
     def script(self) -> Script[None]:
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""
@@ -78,6 +81,13 @@ class Pick(ScriptedSkill):
         body.progress = 0.85
         yield from withdraw(body, plan, plan.carry_rad, what=info.name)
         check_grips(body)
+
+    def halt(self) -> Script[None]:
+        """Fingers that were closing open again: what is between them is not held for certain."""
+        if self._closing is not None:
+            with contextlib.suppress(GaveUp):  # then they stay as they are
+                yield from open_fingers(self.body, self._closing)
+        yield from super().halt()
 
     def _check_hands(self, info: ObjectInfo) -> bool:
         """Whether the object is in a hand already; gives up if the hand wanted is not free."""
@@ -133,6 +143,7 @@ class Pick(ScriptedSkill):
         )
         body.phase = f"closing the {side} fingers"
         self._tare_n = body.hand(side).load_n
+        self._closing = side
         gap_m = yield from close_fingers(body, side)
         self._X_WG_closed = body.X_WG(side)
         X_GO = centred(body.X_WG(side).inverse() @ last_seen(body, info, X_WO))
@@ -148,6 +159,7 @@ class Pick(ScriptedSkill):
                 upright=tilt(X_WO) < UPRIGHT_RAD,
             )
         )
+        self._closing = None
         set_payload(body, side, info.mass_kg)
 
     def _reach(self, info: ObjectInfo, plan: PickPlan) -> Script[tuple[PickPlan, SE3]]:
@@ -189,6 +201,7 @@ class Pick(ScriptedSkill):
     def _draw_back(self, plan: PickPlan) -> Script[None]:
         """Put down what may hang between the fingers, open them, and go back to the pre-grasp."""
         body, side = self.body, plan.side
+        self._closing = None
         body.context.holdings.release(side)
         set_payload(body, side, 0.0)
         body.phase = "drawing the hand back"
