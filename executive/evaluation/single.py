@@ -16,14 +16,16 @@ from executive import faults, loop, request, runtimes
 from executive.app import Executive
 from executive.evaluation.campaign import Run
 from executive.evaluation.record import Record
+from executive.history import agreement
 from executive.journal import Journal
 from executive.resources import needed_by
 from executive.session import RATES_HZ
 from executive.skills.context import SkillContext
-from executive.trees.build import build, finished
+from executive.trees.build import Done, build
 from executive.trees.parts import errands
 from robot.bringup import entry
 from robot.errors import ConfigError, Failure, failure
+from robot.planning.worker import Planner
 
 NUDGED, JUDGE = "sim.world:nudged", "sim.judge:judge"
 SETTLE_S = 2.0
@@ -85,10 +87,7 @@ class _Trial:
                 kill=self._kill,
             )
             stack.callback(injector.close)
-            context = SkillContext(
-                link=runtime.link, planner=slow, description=where.description, seed=run.seed
-            )
-            reason = self._work(runtime, context, journal, injector)
+            reason = self._work(runtime, slow, journal, injector)
             took_s = runtime.clock.now_s()
             runtime.advance(SETTLE_S)
             return self._record(runtime, reason, took_s=took_s, struck=len(injector.struck))
@@ -96,14 +95,14 @@ class _Trial:
     def _work(
         self,
         runtime: loop.Runtime,
-        context: SkillContext,
+        planner: Planner,
         journal: Journal,
         injector: faults.Injector,
     ) -> Failure | None:
         """Executives one after the other until one of them comes to an end."""
         end_s = runtime.clock.now_s() + self.run.case.limit_s
         while True:
-            executive = self._executive(context, journal)
+            executive = self._executive(runtime, planner, journal)
 
             def over(of: Executive = executive) -> bool:
                 late = runtime.clock.now_s() > end_s
@@ -122,12 +121,26 @@ class _Trial:
                 return failure("internal", "the executive was killed")
             runtime.advance(RESTART_S)
 
-    def _executive(self, context: SkillContext, journal: Journal) -> Executive:
-        """An executive with the task, less what the journal says is done."""
-        done = finished({"event": e.event, **e.data} for e in journal.recent)
+    def _executive(self, runtime: loop.Runtime, planner: Planner, journal: Journal) -> Executive:
+        """An executive with the task; a second one knows only what journal and world tell it."""
+        where, task = self.where, self.understood.task
+        context = SkillContext(
+            link=runtime.link, planner=planner, description=where.description, seed=self.run.seed
+        )
+        done: Done = frozenset()
+        if journal.recent:  # somebody was here before
+            found = agreement.look(
+                list(journal.recent),
+                task,
+                link=runtime.link,
+                knowledge=where.knowledge,
+                robot=where.description,
+            )
+            done = found.done
+            for held in found.held:
+                context.holdings.take(held)
         executive = Executive(context, journal, rates_hz=RATES_HZ)
         executive.stage.recovers = self.run.recovery
-        task = self.understood.task
         executive.submit(
             lambda stage: build(task, stage, done=done),
             text=self.understood.text,
