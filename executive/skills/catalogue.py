@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from executive.skills.balance import Balance
 from executive.skills.context import SkillContext
+from executive.skills.follow import Follow
+from executive.skills.gesture import Gesture
+from executive.skills.give import Give
 from executive.skills.look import Look
 from executive.skills.navigate import Navigate
 from executive.skills.parameters import (
     BalanceParams,
+    FollowParams,
+    GestureParams,
+    GiveParams,
     LookParams,
     NavigateParams,
     PickParams,
@@ -42,6 +48,12 @@ def make(parameters: SkillParams, context: SkillContext) -> Skill:
             return Search(parameters, context)
         case BalanceParams():
             return Balance(parameters, context)
+        case GiveParams():
+            return Give(parameters, context)
+        case FollowParams():
+            return Follow(parameters, context)
+        case GestureParams():
+            return Gesture(parameters, context)
         case SayParams():
             return Say(parameters, context)
         case WaitParams():

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
+from executive.skills.asking import stance_of
+from executive.skills.body import Body
 from executive.skills.context import SkillContext
 from executive.skills.looking import see, turn_head
 from executive.skills.parameters import LookParams
@@ -12,8 +16,12 @@ FACE_HEIGHT_M = 1.5
 GAZE_S = 0.5
 
 
+AROUND_RAD = (0.0, 0.9, -0.9, 0.0)
+AROUND_M, AROUND_HEIGHT_M = 2.0, 0.8
+
+
 class Look(ScriptedSkill):
-    """Look at an object until it is seen; at a place, a person or a point for a moment."""
+    """Look at an object until it is seen; at a place, a person, a point, all sides for a moment."""
 
     resources = frozenset({"head"})
 
@@ -25,6 +33,9 @@ class Look(ScriptedSkill):
     def script(self) -> Script[None]:
         """Turn the head; the body stays."""
         body, wanted = self.body, self.parameters
+        if wanted.around:
+            yield from look_around(body)
+            return
         if wanted.object_id is not None:
             body.phase = f"looking at the {body.object_info(wanted.object_id).name}"
             yield from see(body, wanted.object_id)
@@ -39,5 +50,20 @@ class Look(ScriptedSkill):
         else:
             assert wanted.p_W is not None
             body.phase, p_W = "looking", wanted.p_W
+        yield from turn_head(body, p_W)
+        yield from body.wait(GAZE_S)
+
+
+def look_around(body: Body) -> Script[None]:
+    """Let the eyes rest ahead, to the left and to the right; the body stays."""
+    body.phase = "looking around"
+    x_m, y_m, yaw_rad = stance_of(body.X_WS)
+    for aside_rad in AROUND_RAD:
+        at_rad = yaw_rad + aside_rad
+        p_W = (
+            x_m + AROUND_M * math.cos(at_rad),
+            y_m + AROUND_M * math.sin(at_rad),
+            AROUND_HEIGHT_M,
+        )
         yield from turn_head(body, p_W)
         yield from body.wait(GAZE_S)

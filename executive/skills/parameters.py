@@ -11,6 +11,10 @@ from robot.messages import Side
 from robot.se3 import SE3, Vector3
 
 BalanceMode = Literal["stand", "squat", "one_leg", "lean", "hold"]
+GestureKind = Literal[
+    "wave", "point", "nod", "shake_head", "bow",
+    "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
+]  # fmt: skip
 
 MAX_DURATION_S = 600.0
 MAX_DISPLACEMENT_M = 20.0
@@ -83,16 +87,17 @@ class PlaceParams(Parameters, frozen=True, kw_only=True):
 
 
 class LookParams(Parameters, frozen=True, kw_only=True):
-    """Turn the head towards an object, a place, a person or a point p_W."""
+    """Turn the head towards an object, a place, a person or a point p_W, or to all sides."""
 
     object_id: str | None = None
     place_id: str | None = None
     person_id: str | None = None
     p_W: Vector3 | None = None
+    around: Literal[True] | None = None
 
     def __post_init__(self) -> None:
         """Check that there is one target."""
-        _exactly_one(self, "object_id", "place_id", "person_id", "p_W")
+        _exactly_one(self, "object_id", "place_id", "person_id", "p_W", "around")
         if self.p_W is not None:
             _finite(*self.p_W)
 
@@ -120,6 +125,36 @@ class BalanceParams(Parameters, frozen=True, kw_only=True):
             raise ValueError(f"duration_s must be 0 to {MAX_DURATION_S:g}, not {self.duration_s}")
         if self.mode == "one_leg" and self.side not in (None, "left", "right"):
             raise ValueError(f"a leg is left or right, not {self.side}")
+
+
+class GiveParams(Parameters, frozen=True, kw_only=True):
+    """Hand what is held to a person."""
+
+    object_id: str
+    person_id: str
+
+
+class FollowParams(Parameters, frozen=True, kw_only=True):
+    """Walk behind a person, until they stop or, if one is given, until they are at a place."""
+
+    person_id: str
+    place_id: str | None = None
+
+
+class GestureParams(Parameters, frozen=True, kw_only=True):
+    """Make a sign, towards an object, a place or a person if one is given."""
+
+    kind: GestureKind
+    object_id: str | None = None
+    place_id: str | None = None
+    person_id: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is at most one target, and one to point at."""
+        targets = [self.object_id, self.place_id, self.person_id]
+        given = sum(target is not None for target in targets)
+        if given > 1 or (self.kind == "point" and not given):
+            raise ValueError(f"a gesture ({self.kind}) is towards one thing, not {given}")
 
 
 class SayParams(Parameters, frozen=True, kw_only=True):
@@ -155,6 +190,9 @@ SkillParams = (
     | LookParams
     | SearchParams
     | BalanceParams
+    | GiveParams
+    | FollowParams
+    | GestureParams
     | SayParams
     | WaitParams
     | StopParams

@@ -52,6 +52,8 @@ class Puppet:
     sent: list[m.BodyCommand] = field(default_factory=list)
     time_s: float = 0.0
     slips_at_s: float = math.inf
+    pull_n: float = 0.0
+    """How hard somebody pulls at what a hand holds; they take it when the hand opens."""
     turned_rad: float = 0.0
 
     def __post_init__(self) -> None:
@@ -285,6 +287,9 @@ class Puppet:
             self._openings[side] = new
 
     def _release(self, side: str, thing: Thing) -> None:
+        if self.pull_n:
+            del self.holding[side]
+            return
         above_m = thing.X_WO.p[2] - thing.height_m / 2 - self.surface_m
         assert above_m < 0.025, f"{side} hand opened {above_m:.3f} m above the surface"
         rest = (*thing.X_WO.p[:2], self.surface_m + thing.height_m / 2)
@@ -304,7 +309,7 @@ class Puppet:
         if side in self.holding:
             thing = self.things[self.holding[side][0]]
             lifted = thing.X_WO.p[2] - thing.height_m / 2 > self.surface_m + 0.005
-            load_n = 9.81 * thing.mass_kg if lifted else 0.0
+            load_n = (9.81 * thing.mass_kg if lifted else 0.0) + self.pull_n
         return m.HandState(
             X_NG=self.X_WN.inverse() @ self.X_WS @ self._hands[side],
             opening_m=self._openings[side],

@@ -1,0 +1,164 @@
+"""Signs to people: wave, point, nod, shake the head, bow, raise an arm."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from executive.skills.asking import stance_of
+from executive.skills.context import SkillContext
+from executive.skills.looking import look_at, turn_head
+from executive.skills.parameters import GestureParams
+from executive.skills.reaching import move_arm, posture_rad
+from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.skill import Resource
+from executive.skills.stowing import HOME, stow_arm
+from executive.skills.walking import stand_still, turn_by
+from robot.messages import Side
+from robot.planning.requests import Joints
+from robot.se3 import SE3, Array, Vector3, wrap_angle
+
+BOW_RAD, BOW_S = 0.35, 0.8
+NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
+TIMES = 3
+RAISED: dict[str, float] = {"shoulder_pitch": -1.5, "shoulder_roll": 0.45, "elbow": -1.5}
+WAVE_RAD = 0.35
+POINT_M = (0.40, 0.34, 0.28)
+AHEAD_RAD = 0.9
+"""What is further to the side than this is turned to before it is pointed at."""
+ARMS: dict[str, tuple[Side, ...]] = {
+    "raise_left_arm": ("left",),
+    "raise_right_arm": ("right",),
+    "raise_both_arms": ("left", "right"),
+}
+HEAD_ONLY = ("nod", "shake_head")
+
+
+class Gesture(ScriptedSkill):
+    """Make a sign and come back to how the body stood."""
+
+    def __init__(self, parameters: GestureParams, context: SkillContext) -> None:
+        """Which, towards what."""
+        super().__init__(context)
+        self.parameters = parameters
+        arms: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
+        self.resources = frozenset({"head"}) if parameters.kind in HEAD_ONLY else arms
+
+    def script(self) -> Script[None]:
+        """Face whom it is for, then make it."""
+        kind, p_W = self.parameters.kind, self._target()
+        self.body.phase = kind.replace("_", " ")
+        if p_W is not None:
+            if kind not in HEAD_ONLY:
+                yield from self._face(p_W)
+            yield from turn_head(self.body, p_W)
+        if kind in HEAD_ONLY:
+            yield from self._move_head(p_W)
+        elif kind == "bow":
+            yield from stand_still(self.body, pitch_rad=BOW_RAD)
+            yield from self.body.wait(BOW_S)
+            yield from stand_still(self.body)
+        elif kind == "point":
+            assert p_W is not None
+            yield from self._point(p_W)
+        else:
+            yield from self._raise(waving=kind == "wave")
+
+    def _target(self) -> Vector3 | None:
+        """The point of the world that it is towards."""
+        body, wanted = self.body, self.parameters
+        if wanted.person_id is not None:
+            x_m, y_m, _ = body.X_WPerson(wanted.person_id).p
+            return (x_m, y_m, EYE_M)
+        if wanted.place_id is not None:
+            return body.place(wanted.place_id).X_WP.p
+        if wanted.object_id is None:
+            return None
+        track = body.track(wanted.object_id)
+        if track is None or track.X_WO is None:
+            name = body.object_info(wanted.object_id).name
+            raise give_up("object_not_seen", f"the {name} has not been seen yet")
+        return track.X_WO.p
+
+    def _face(self, p_W: Vector3) -> Script[None]:
+        """Turn the body towards a point that is far to the side."""
+        X_WS = self.body.X_WS
+        to_rad = math.atan2(p_W[1] - X_WS.p[1], p_W[0] - X_WS.p[0])
+        aside_rad = wrap_angle(to_rad - X_WS.yaw_rad)
+        if abs(aside_rad) > AHEAD_RAD:
+            yield from turn_by(self.body, aside_rad)
+            yield from stand_still(self.body)
+
+    def _move_head(self, p_W: Vector3 | None) -> Script[None]:
+        """Up and down, or left and right, about where the eyes are to rest."""
+        body = self.body
+        x_m, y_m, yaw_rad = stance_of(body.X_WS)
+        if p_W is not None:
+            yaw_rad = math.atan2(p_W[1] - y_m, p_W[0] - x_m)
+        for step in range(2 * TIMES + 1):
+            side = 0.0 if step == 2 * TIMES else (1.0 if step % 2 else -1.0)
+            nod = self.parameters.kind == "nod"
+            aim_rad = yaw_rad if nod else yaw_rad + side * SHAKE_RAD
+            height_m = EYE_M + (side * NOD_M if nod else 0.0)
+            at = (x_m + HEAD_AHEAD_M * math.cos(aim_rad), y_m + HEAD_AHEAD_M * math.sin(aim_rad))
+            yield from turn_head(body, (*at, height_m))
+
+    def _raise(self, *, waving: bool) -> Script[None]:
+        """Raise the arms that are free, wave with them if asked for, and bring them in again."""
+        body = self.body
+        free = body.context.holdings.free_sides()
+        wanted: tuple[Side, ...] = ARMS.get(self.parameters.kind, free[:1])
+        sides: tuple[Side, ...] = tuple(side for side in wanted if side in free)
+        if not sides:
+            raise give_up("hands_full", "there is no free hand for that")
+        for side in sides:
+            yield from move_arm(body, side, self._raised(side, 0.0))
+        for turn_rad in (WAVE_RAD, -WAVE_RAD) * TIMES if waving else ():
+            yield from move_arm(body, sides[0], self._raised(sides[0], turn_rad))
+        if not waving:
+            yield from body.wait(1.0)
+        for side in sides:
+            yield from stow_arm(body, side)
+
+    def _raised(self, side: Side, turn_rad: float) -> Joints:
+        """Joints with the forearm up, turned to a side by the upper arm."""
+        description, sign = self.body.description, 1.0 if side == "left" else -1.0
+        names = description.groups[f"{side}_arm"]
+        wanted = dict(zip(names, posture_rad(self.body, side, HOME), strict=True))
+        for name, value in RAISED.items():
+            wanted[f"{side}_{name}"] = sign * value if name.endswith("roll") else value
+        wanted[f"{side}_shoulder_yaw"] = turn_rad
+        return tuple(wanted[name] for name in names)
+
+    def _point(self, p_W: Vector3) -> Script[None]:
+        """Stretch the nearer free arm towards a point."""
+        body = self.body
+        look_at(body, p_W)
+        X_SP = body.X_WS.inverse().apply(p_W)
+        nearer: Side = "left" if X_SP[1] > 0.0 else "right"
+        free = body.context.holdings.free_sides()
+        if not free:
+            raise give_up("hands_full", "there is no free hand to point with")
+        side = nearer if nearer in free else free[0]
+        aside_m = 0.17 if side == "left" else -0.17
+        shoulder = np.array(body.X_WS.apply((0.0, aside_m, body.description.shoulder_height_m)))
+        for attempt, reach_m in enumerate(POINT_M):
+            try:
+                yield from move_arm(body, side, _pointing(shoulder, np.array(p_W), reach_m))
+                break
+            except GaveUp as end:
+                out = end.failure.code in ("out_of_reach", "goal_in_collision", "no_path")
+                if not out or attempt + 1 == len(POINT_M):
+                    raise
+        yield from body.wait(1.0)
+        yield from stow_arm(body, side)
+
+
+def _pointing(shoulder: Array, p_W: Array, reach_m: float) -> SE3:
+    """X_WG with the hand on the line from the shoulder to a point, looking along it, level."""
+    x = (p_W - shoulder) / max(float(np.linalg.norm(p_W - shoulder)), 1e-6)
+    y = np.cross([0.0, 0.0, 1.0], x)
+    y /= max(float(np.linalg.norm(y)), 1e-6)
+    return SE3.from_rotation(np.stack([x, y, np.cross(x, y)], axis=1), shoulder + reach_m * x)

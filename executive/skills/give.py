@@ -1,0 +1,131 @@
+"""Hand over what is held: go to the person, hold it out, let go when they pull."""
+
+from __future__ import annotations
+
+import math
+
+from executive.skills.body import Body
+from executive.skills.context import SkillContext
+from executive.skills.gripping import LEAST_GAP_M, open_fingers, set_payload
+from executive.skills.holding import Held
+from executive.skills.looking import look_at
+from executive.skills.parameters import GiveParams
+from executive.skills.reaching import move_arm, posture_rad
+from executive.skills.script import GaveUp, Script, give_up
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.stowing import HOME, stow_arms
+from executive.skills.visiting import stances_around, walk_to_any
+from robot.messages import PersonInfo, Side
+from robot.se3 import SE3
+
+BEFORE_PERSON_M = 0.95
+"""From the person's middle to the feet; the hand comes half of the way."""
+FACE_M = 1.5
+HELD_OUT_M = ((0.36, 0.12, 1.02), (0.33, 0.16, 0.98), (0.30, 0.20, 0.92))
+SETTLE_S = 0.6
+PULL_N, PULLED_M, PULL_S = 3.0, 0.02, 0.15
+TAKE_S, ASK_AGAIN_S = 20.0, 8.0
+CLEAR_S = 0.8
+NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
+
+
+class Give(ScriptedSkill):
+    """Give a held object to a person; ends with the hand empty, or the object back in it."""
+
+    resources = frozenset({"legs", "head", "left_arm", "right_arm", "voice"})
+
+    def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
+        """What to whom."""
+        super().__init__(context)
+        self.parameters = parameters
+
+    def script(self) -> Script[None]:
+        """Go there, hold it out, wait for the pull, let go, draw the hand back."""
+        body = self.body
+        info = body.object_info(self.parameters.object_id)
+        person = body.person(self.parameters.person_id)
+        held = body.context.holdings.find(info.id)
+        if held is None:
+            raise give_up("not_holding", f"no hand holds the {info.name}", object=info.id)
+        body.companion = person.id
+        yield from stow_arms(body)
+        yield from go_before(body, person)
+        body.phase = f"holding out the {info.name}"
+        yield from hold_out(body, held)
+        look_at(body, (*body.X_WPerson(person.id).p[:2], FACE_M))
+        yield from body.wait(SETTLE_S)
+        words = f"Please take the {info.name}."
+        body.context.say(words)
+        body.phase = f"waiting for {person.name} to take the {info.name}"
+        if (yield from pulled(body, held.side, ask_again=words)):
+            yield from self._let_go(held)
+            return
+        body.phase = f"keeping the {info.name}"
+        yield from move_arm(body, held.side, held.carry_rad, keep_upright=held.upright)
+        raise give_up(
+            "not_taken",
+            f"{person.name} did not take the {info.name} within {TAKE_S:.0f} s",
+            object=info.id,
+            person=person.id,
+        )
+
+    def _let_go(self, held: Held) -> Script[None]:
+        """Open, give them time to draw it out, and bring the arm home."""
+        body, side = self.body, held.side
+        body.phase = "letting go"
+        body.context.holdings.release(side)
+        set_payload(body, side, 0.0)
+        yield from open_fingers(body, side)
+        yield from body.wait(CLEAR_S)
+        body.phase = f"bringing the {side} arm in"
+        yield from move_arm(
+            body, side, posture_rad(body, side, HOME), allowed=(held.object_id,), speed=0.6
+        )
+
+
+def go_before(body: Body, person: PersonInfo) -> Script[None]:
+    """Stand before a person, as near as a hand-over needs."""
+    body.phase = f"walking to {person.name}"
+    p_W = body.X_WPerson(person.id).p
+    stances = stances_around(p_W, body.X_WS, distance_m=BEFORE_PERSON_M)
+    yield from walk_to_any(body, stances, name=person.name)
+
+
+def hold_out(body: Body, held: Held) -> Script[None]:
+    """Bring the object forward at the height of a person's hands, upright."""
+    sign = 1.0 if held.side == "left" else -1.0
+    for attempt, (ahead_m, aside_m, height_m) in enumerate(HELD_OUT_M):
+        X_SG = body.X_WS.inverse() @ body.X_WG(held.side)
+        at = SE3((ahead_m, sign * aside_m, height_m), X_SG.quat_wxyz)
+        try:
+            yield from move_arm(body, held.side, body.X_WS @ at, keep_upright=held.upright)
+        except GaveUp as end:
+            if attempt + 1 == len(HELD_OUT_M) or end.failure.code not in NOT_THERE:
+                raise
+        else:
+            return
+
+
+def pulled(body: Body, side: Side, *, ask_again: str) -> Script[bool]:
+    """Wait until somebody pulls at what a hand holds out; False if nobody does.
+
+    A pull shows as a change of the wrist's load, as the hand giving way, or as fingers that meet.
+    """
+    rest_n, X_NG_rest = body.hand(side).load_n, body.hand(side).X_NG
+    begin_s, since_s, asked = body.now_s, math.inf, False
+    while body.now_s - begin_s < TAKE_S:
+        yield
+        hand = body.hand(side)
+        given_way_m = math.dist(hand.X_NG.p, X_NG_rest.p)
+        if hand.opening_m < LEAST_GAP_M:
+            return True
+        if abs(hand.load_n - rest_n) < PULL_N and given_way_m < PULLED_M:
+            since_s = math.inf
+        elif math.isinf(since_s):
+            since_s = body.now_s
+        elif body.now_s - since_s >= PULL_S:
+            return True
+        if not asked and body.now_s - begin_s > ASK_AGAIN_S:
+            asked = True
+            body.context.say(ask_again)
+    return False
