@@ -34,7 +34,8 @@ def dump(
     *,
     kind: FormatName = "html",
     at: Annotated[
-        float | None, typer.Option("--at", help="Show the tree at this time [s], not at the end.")
+        float | None,
+        typer.Option("--at", help="Show the tree at this time, in seconds, not at the end."),
     ] = None,
     output: Annotated[
         Path | None,

@@ -45,7 +45,7 @@ def snapshot(run: Run, t_s: float | None = None, *, everything: bool = False) ->
         everything: also what is only there to hold the tree together.
     """
     when_s = run.end_s if t_s is None else t_s
-    hidden: set[int] = set() if everything else inner(run)
+    hidden: set[int] = set() if everything else inner(run) | _idle(run, when_s)
     roots: list[Shown] = []
     above: list[tuple[int, list[Shown]]] = []
     for depth, node in run.walk():
@@ -77,6 +77,18 @@ def inner(run: Run) -> set[int]:
             if child.name == node.name and not node.title:
                 hidden.add(node.id)
     return hidden
+
+
+def _idle(run: Run, t_s: float) -> set[int]:
+    """Guards that have nothing to do at a time, and choices of a remedy still to be made."""
+    around = {node.parent for node in run.nodes.values() if node.kind == "jobs"}
+    idle: set[int] = set()
+    for _, node in run.walk():
+        state = node.at(t_s).state
+        guard = node.parent in around and node.kind in _GUARDS and state != "running"
+        if node.parent in idle or guard or (node.kind == "recover" and state == "waiting"):
+            idle.add(node.id)
+    return idle
 
 
 def _is_working(node: Node) -> bool:

@@ -16,11 +16,13 @@ from executive.dumps.dot import quoted
 from executive.dumps.formats import FORMATS, Wish, render
 from executive.dumps.model import Run
 from executive.dumps.snapshot import Shown, snapshot
-from executive.dumps.text import picture
-from executive.skills.parameters import PickParams
+from executive.dumps.text import lines, picture
+from executive.skills.parameters import NavigateParams, PickParams
+from executive.trees.build import build
+from executive.trees.parts import Always, Branch, Loop, Retry, Series, Timeout
 from tests.fakes.long_run import LongRun
 from tests.fakes.recorded import Recorded, read
-from tests.fakes.rig import PICK, WAIT
+from tests.fakes.rig import PICK, WAIT, WALK
 from tests.fakes.scripted_skills import Script
 
 HOSTILE = "</script><script>alert(1)</script>\"'&\\<!--\x1b[31m\n]]>\u202e{x}|é杯"
@@ -147,3 +149,59 @@ def test_a_picture_is_of_the_time_that_was_asked_for(recovered):
     begin = render(recovered, "text", Wish(t_s=0.0)).decode()
     assert "look again" not in begin
     assert "look again" in render(recovered, "text").decode()
+
+
+def test_a_mission_is_shown_without_the_workings_of_its_loops():
+    rig = Recorded()
+    parts = (
+        Loop(name="patrol", bodies=(WALK,), at_most=2),
+        Retry(name="try twice", part=PICK, attempts=2),
+        Timeout(name="in time", part=WALK, limit_s=20.0),
+        Always(name="tidy", part=WALK, after=WAIT),
+        Branch(name="if seen", question=lambda _: False, then=PICK, otherwise=WAIT),
+    )
+    node = build(Series(name="task", parts=parts), rig.stage)
+    rig.executive.submit(lambda _: node, text="a mission")
+    rig.run()
+    expected = [
+        "+ a mission",
+        "  + patrol",
+        "    + walk",
+        "    + walk",
+        "  + try twice",
+        "    + pick",
+        "  + in time",
+        "    + walk",
+    ]
+    shown = re.sub(
+        r"(:.*|  \(.*)$", "", picture(snapshot(rig.read()), style="ascii"), flags=re.MULTILINE
+    )
+    assert shown.splitlines()[: len(expected)] == expected
+    words = ("another round", "again", "remember", "as it ended", "recover")
+    assert not any(word in shown for word in words)
+    assert "no\n" in shown  # the answer to the question
+
+
+def test_a_guard_is_shown_while_it_has_something_to_do():
+    rig = Recorded({NavigateParams: [Script(steps=50, stop_steps=3)]})
+    rig.begin(WALK).tick(3)
+    rig.executive.pause("wait")
+    rig.tick(20)
+    rig.executive.resume()
+    rig.tick(3)
+    run = rig.read()
+    assert "pause" in picture(snapshot(run, 0.5))
+    assert "pause" not in picture(snapshot(run, 0.1))
+    assert "pause" not in picture(snapshot(run, run.end_s))
+
+
+def test_a_running_tree_is_shown_as_its_journal_is():
+    rig = Recorded({PickParams: [Script(steps=2, code="grasp_missed"), Script(steps=9)]})
+    node = build(Series(name="task", parts=(WALK, PICK, WAIT)), rig.stage)
+    rig.executive.submit(lambda _: node, text="task")
+    for _ in range(10):
+        rig.tick()
+        live = [(line.depth, line.name, line.state) for line in lines(node)]
+        (root,) = snapshot(rig.read())
+        told = [(depth, shown.name, shown.state) for depth, shown in root.walk()]
+        assert live == told
