@@ -8,7 +8,7 @@ by goal, what it takes.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, get_args
 
 import msgspec
 
@@ -19,6 +19,10 @@ from executive.scene import Scene, cannot
 from executive.skills.parameters import (
     BalanceParams,
     FloorPose,
+    FollowParams,
+    GestureKind,
+    GestureParams,
+    GiveParams,
     LookParams,
     NavigateParams,
     PickParams,
@@ -35,6 +39,7 @@ from intents import goals
 from robot.messages import ObjectInfo, Place
 
 MAX_TIMES, MAX_STEPS = 50, 500
+AROUND = "around"
 
 
 def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
@@ -110,7 +115,40 @@ def _go_to_person(person: goals.Person, scene: Scene) -> Errand:
     return Errand(name=f"go to {found.name}", params=NavigateParams(person_id=found.id))
 
 
+def _follow(goal: goals.Follow, scene: Scene) -> Part:
+    person = scene.person(goal.person)
+    place = scene.places(goal.to)[0] if goal.to else None
+    params = FollowParams(person_id=person.id, place_id=place.id if place else None)
+    return Errand(name=f"follow {person.name}", params=params)
+
+
+def _gesture(goal: goals.Gesture, scene: Scene) -> Part:
+    words = goal.kind.replace("_", " ")
+    known = [kind for kind in get_args(GestureKind) if kind == goal.kind]
+    if not known:
+        can = ", ".join(kind.replace("_", " ") for kind in get_args(GestureKind))
+        raise cannot("unsupported", f"this robot cannot {words}", suggestion=f"it can {can}")
+    params = GestureParams(kind=known[0], **_towards(goal.at, scene))
+    return Errand(name=f"{words} at {goal.at}" if goal.at else words, params=params)
+
+
+def _towards(name: str | None, scene: Scene) -> dict[str, str]:
+    """What a gesture is for: a person, a place or an object, by its name."""
+    if name is None:
+        return {}
+    person = scene.knowledge.person(name)
+    if person is not None or name == goals.OPERATOR:
+        return {"person_id": (person or scene.person(goals.Person(who="operator"))).id}
+    if scene.knowledge.places(name):
+        return {"place_id": scene.places(name)[0].id}
+    *color, noun = name.split(maxsplit=1)
+    query = goals.ObjectQuery(name=noun, color=color[0] if color else None)
+    return {"object_id": scene.object(query).id}
+
+
 def _look_at(goal: goals.LookAt, scene: Scene) -> Part:
+    if goal.place == AROUND:
+        return Errand(name="look around", params=LookParams(around=True))
     if goal.object is not None:
         info = scene.object(goal.object)
         params = SearchParams(object_id=info.id)  # it ends with the object in sight
@@ -201,12 +239,26 @@ def _place(goal: goals.Place, scene: Scene) -> Part:
     return _put(info, goal.object, target, scene)
 
 
+def _give(goal: goals.Give, scene: Scene) -> Part:
+    return _hand_over(goal.object, goal.to, scene)
+
+
+def _hand_over(query: goals.ObjectQuery, to: goals.Person, scene: Scene) -> Part:
+    """Give an object to a person, after fetching it unless it is in the hand by then."""
+    info, person = scene.object(query), scene.person(to)
+    name, in_hand = full_name(info), info.id in scene.held
+    fetch = None if in_hand else _pick_one(info, query, scene)
+    scene.put_down(info.id)
+    params = GiveParams(object_id=info.id, person_id=person.id)
+    give = _about(info, f"give {name} to {person.name}", params, carries=True)
+    if fetch is None:
+        return give
+    return Series(name=f"bring {name} to {person.name}", parts=(fetch, give))
+
+
 def _bring(goal: goals.Bring, scene: Scene) -> Part:
     if isinstance(goal.to, goals.Person):
-        raise cannot(
-            "unsupported", "this robot cannot hand things over yet",
-            suggestion="name a place to put it, such as the table",
-        )  # fmt: skip
+        return _hand_over(goal.object, goal.to, scene)
     if goal.object.count not in (None, 1):
         found = scene.objects(goal.object)
         parts = [_put(info, goal.object, goal.to, scene) for info in found]
@@ -361,6 +413,9 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.Pick: _pick,
     goals.Place: _place,
     goals.Bring: _bring,
+    goals.Give: _give,
+    goals.Follow: _follow,
+    goals.Gesture: _gesture,
     goals.Greet: _greet,
     goals.Meet: _meet,
     goals.Say: _say,
@@ -378,13 +433,10 @@ HANDLERS: dict[type[Any], Handler] = {
 """What each kind of goal takes. One that is not here is refused as unsupported."""
 
 _MISSING: dict[type[Any], str] = {
-    goals.Give: "this robot cannot hand things over yet",
-    goals.Follow: "this robot cannot follow people yet",
     goals.Guide: "this robot cannot guide people yet",
     goals.Open: "this robot cannot open things yet",
     goals.Close: "this robot cannot close things yet",
     goals.Switch: "this robot cannot switch things yet",
-    goals.Gesture: "this robot has no gestures yet",
     goals.Answer: "this robot cannot answer questions yet",
     goals.Tell: "this robot cannot find that out yet",
     goals.Pause: "there is nothing to pause before it has begun",

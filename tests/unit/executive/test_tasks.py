@@ -70,8 +70,8 @@ def test_several_things_are_fetched_one_after_the_other():
         ("pick up the crate", "no_grasp", "cm"),
         ("pick up the anvil", "invalid_goal", "kg"),
         ("put the red cup on the loft", "out_of_reach", "high"),
-        ("bring me the bottle", "unsupported", "hand"),
-        ("follow ann", "unsupported", "follow"),
+        ("open the door", "unsupported", "open"),
+        ("clap", "unsupported", "clap"),
         ("stand on one leg for 500 seconds", "invalid_goal", "leg"),
         ("pick up the red cup, the blue cup and the bottle", "hands_full", "hands"),
     ],
@@ -112,3 +112,21 @@ def test_knowledge_has_the_colour_out_of_the_name_and_finds_places_by_synonym():
     assert [place.id for place in knowledge.places("Desk")] == ["table"]
     assert knowledge.places("moon") == ()
     assert knowledge.person(None).id == "operator"
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("give the red cup to ann", ["pick up the red cup", "give the red cup to ann"]),
+        ("follow ann to the table", ["follow ann"]),
+        ("follow ann", ["follow ann"]),
+        ("wave at ann, then nod", ["wave at ann", "nod"]),
+        ("point at the red cup", ["point at red cup"]),
+        ("point at the table", ["point at table"]),
+        ("look around", ["look around"]),
+    ],
+)
+def test_what_is_about_people_is_understood(text, names):
+    outcome = request(text, WHERE)
+    assert not isinstance(outcome, Refused), outcome
+    assert [errand.name.lower() for errand in errands(outcome.task)] == names
