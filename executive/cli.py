@@ -7,19 +7,17 @@ from __future__ import annotations
 
 import importlib.metadata
 import sys
-import traceback
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
-import msgspec
 import typer
 
 from executive.dumps import cli as dumps
+from executive.ending import ended_by
 from executive.evaluation.cli import evaluate
 from executive.history import cli as history
-from robot.errors import ConfigError, RobotError
-
-FAILED, INVALID, BROKEN = 1, 2, 3
+from executive.missions import cli as missions
+from robot.errors import ConfigError
 
 app = typer.Typer(
     name="humanoid",
@@ -36,6 +34,7 @@ app.add_typer(model_app, name="model")
 app.command(name="eval")(evaluate)
 history.register(app)
 dumps.register(app)
+missions.register(app)
 
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
@@ -288,28 +287,5 @@ def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
     try:
         app(prog_name="humanoid")
-    except ConfigError as error:
-        problems = [str(problem) for problem in error.problems]
-        _last_words("Not done:", problems, "correct that, then try again", status=INVALID)
-    except RobotError as error:
-        cure = "try again; humanoid doctor says whether something is missing"
-        _last_words("Broken:", [str(error)], cure, status=BROKEN)
-    except KeyboardInterrupt:
-        _last_words("Stopped on request.", [], "", status=FAILED)
-    except Exception:  # the last words must not be a bare traceback
-        lines = traceback.format_exc().splitlines()
-        cure = "that is a mistake in this software: report the lines above, with the run folder"
-        _last_words("Broken:", lines, cure, status=BROKEN)
-
-
-def _last_words(heading: str, lines: list[str], cure: str, *, status: int) -> NoReturn:
-    """Say what went wrong and what to do, as JSON where that was asked for, and leave."""
-    if "--json" in sys.argv:
-        outcome = "invalid" if status == INVALID else "failed"
-        record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
-        typer.echo(msgspec.json.encode(record))
-        sys.exit(status)
-    typer.echo("\n  ".join([heading, *lines]), err=True)
-    if cure:
-        typer.echo(f"What to do: {cure}", err=True)
-    sys.exit(status)
+    except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
+        sys.exit(ended_by(error, as_json="--json" in sys.argv))

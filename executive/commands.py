@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import typer
@@ -15,9 +16,13 @@ from executive import doctor as examination
 from executive import doing, request, runs, runtimes, walking
 from executive.app import Executive
 from executive.dumps.writer import along
+from executive.history import going_on
 from executive.loop import Interrupts
+from executive.overseeing import oversee
 from executive.progress import Lines, LiveTree, Progress, Silent
+from intents.goals import from_builtins, to_builtins
 from intents.outcomes import Question
+from robot.bringup.overseen import Handle
 from robot.clock import WallClock
 from robot.errors import Failure
 from robot.messages import BodyState
@@ -58,12 +63,69 @@ def do(options: Do) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    vary_seed = options.seed if options.vary else None
-    where = request.setting(options.world, options.robot, vary_seed=vary_seed)
+    where = _setting(options)
     asking = at_terminal() and not options.as_json
     understood = request.request(options.text, where, ask=ask if asking else None)
     if isinstance(understood, request.Refused):
         return refuse(understood, as_json=options.as_json)
+    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    folder = options.folder or runs.folder_for(options.text, stamp=stamp)
+    runs.check_free(folder)
+    options = msgspec.structs.replace(options, folder=folder)
+    if options.fast:
+        return carry_out(options, understood, where)
+    task = {
+        "as_json": options.as_json,
+        "options": msgspec.to_builtins(options, enc_hook=str),
+        "goals": to_builtins(understood.goals),
+    }
+    return oversee("executive.commands:do_overseen", task, as_json=options.as_json)
+
+
+def do_overseen(handle: Handle, task: dict[str, Any]) -> int:
+    """Do a task in an executive of its own, or go on with it; returns the exit status.
+
+    Raises:
+        RobotError: as `do` does.
+    """
+    options = msgspec.convert(task["options"], Do, dec_hook=_made)
+    where = _setting(options)
+    understood = request.meant(options.text, from_builtins(task["goals"]), where)
+    if isinstance(understood, request.Refused):
+        return refuse(understood, as_json=options.as_json)
+    return carry_out(options, understood, where, handle=handle)
+
+
+def _made(kind: type[Any], value: object) -> object:
+    """A path, from plain data."""
+    return kind(value)
+
+
+def _setting(options: Do) -> request.Setting:
+    vary_seed = options.seed if options.vary else None
+    return request.setting(options.world, options.robot, vary_seed=vary_seed)
+
+
+def carry_out(
+    options: Do,
+    understood: request.Understood,
+    where: request.Setting,
+    *,
+    handle: Handle | None = None,
+) -> int:
+    """Do a task that was understood (or go on with it); the exit status."""
+    job = doing.Job(
+        understood=understood,
+        where=where,
+        seed=options.seed,
+        runtime_name="fast" if options.fast else "live",
+        folder=options.folder,
+    )
+    return work_off(job, options, handle=handle)
+
+
+def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> int:
+    """Open the runtime, do a job (or go on with it), say how it ended; the exit status."""
     kind: runtimes.Kind = "fast" if options.fast else "live"
     show = along(
         _silent if options.as_json else _on_screen,
@@ -71,22 +133,17 @@ def do(options: Do) -> int:
         on=options.dump_on,
         formats=options.dump_format,
     )
-    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
-    folder = options.folder or runs.folder_for(options.text, stamp=stamp)
-    runs.check_free(folder)
-    job = doing.Job(
-        understood=understood,
-        where=where,
-        seed=options.seed,
-        runtime_name=kind,
-        folder=folder,
-    )
+    where = job.where
     interrupts = Interrupts()
     with (
         interrupts.listen(),
-        runtimes.opened(kind, where, seed=options.seed, folder=folder) as (runtime, planner),
+        runtimes.opened(kind, where, seed=options.seed, folder=options.folder, handle=handle) as (
+            runtime,
+            planner,
+        ),
     ):
-        summary = doing.do(
+        work = going_on.do if handle is not None and handle.deaths else doing.do
+        summary = work(
             job,
             runtime,
             planner,

@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
 from executive import loop, runs
 from executive.app import Executive, Outcome
+from executive.faults import FaultPlan, Injector, SlowPlanner
+from executive.jobs import UNLIMITED, Limits
+from executive.journal import Event
 from executive.knowledge import full_name
 from executive.progress import Progress
 from executive.request import Setting, Understood
-from executive.runs import Placed, Summary
+from executive.runs import Expected, Placed, Summary
 from executive.session import Session
 from executive.skills.parameters import PlaceParams
 from executive.trees.parts import errands
@@ -27,13 +32,29 @@ Show = Callable[[Executive], Progress]
 
 
 class Job(msgspec.Struct, frozen=True, kw_only=True):
-    """What is to be done, where, and how it is kept."""
+    """What is to be done, where, and how it is kept.
+
+    Attributes:
+        understood: the task.
+        where: robot and world.
+        seed: of everything random.
+        runtime_name: "fast" or "live".
+        folder: of the run.
+        limits: what it may take.
+        origin: what the task is made from, for the journal (default: the goals).
+        done: paths of steps that are left out.
+        faults: what goes wrong on purpose.
+    """
 
     understood: Understood
     where: Setting
     seed: int
     runtime_name: str
     folder: Path | None
+    limits: Limits = UNLIMITED
+    origin: dict[str, Any] | None = None
+    done: frozenset[str] = frozenset()
+    faults: tuple[FaultPlan, ...] = ()
 
 
 def do(
@@ -57,33 +78,64 @@ def do(
         time_of_day: for the journal's sibling file.
         interrupts: looked at every tick.
     """
-    begun_s, start_s = wall.now_s(), runtime.clock.now_s()
-    with ExitStack() as stack:
-        session = Session(
-            runtime,
-            planner,
-            description=job.where.description,
-            interrupts=interrupts,
-            seed=job.seed,
-            folder=job.folder,
-            time_of_day=time_of_day,
-        )
-        stack.enter_context(session)
-        progress = stack.enter_context(show(session.executive))
-        session.on_tick(progress.update)
+    slow = SlowPlanner(planner) if job.faults else None
+    session = Session(
+        runtime,
+        slow or planner,
+        description=job.where.description,
+        interrupts=interrupts,
+        seed=job.seed,
+        folder=job.folder,
+        time_of_day=time_of_day,
+    )
+
+    def begin() -> None:
         header = runs.header(
-            job.where, text=job.understood.text, seed=job.seed, runtime=job.runtime_name
+            job.where,
+            text=job.understood.text,
+            seed=job.seed,
+            runtime=job.runtime_name,
         )
-        runs.begin(session.journal, header, now_s=start_s, folder=job.folder)
-        session.submit(job.understood)
+        now_s = runtime.clock.now_s()
+        runs.begin(session.journal, header, now_s=now_s, folder=job.folder)
+        injector = Injector(
+            job.faults, runtime, session.journal, begin_s=now_s, seed=job.seed, planner=slow
+        )
+        session.on_tick(lambda: injector.tick(runtime.clock.now_s()))
+        stack.callback(injector.close)
+        session.submit(job.understood, limits=job.limits, origin=job.origin, done=job.done)
+
+    with ExitStack() as stack:
+        return see_through(session, job, begin=begin, show=show, wall=wall)
+
+
+def see_through(
+    session: Session, job: Job, *, begin: Callable[[], None], show: Show, wall: Clock
+) -> Summary:
+    """Begin, or go on, and run a session until nothing is left to do; write its summary."""
+    runtime = session.runtime
+    begun_s, start_s = wall.now_s(), runtime.clock.now_s()
+    expected: list[Expected] = []
+    with session, show(session.executive) as progress:
+        session.journal.listen(lambda event: _note(event, expected))
+        session.on_tick(progress.update)
+        begin()
         session.run()
         outcome = session.executive.outcome
         assert outcome is not None
         past_s = runtime.clock.now_s() - start_s
         summary = _summary(job, runtime, outcome, past_s, wall.now_s() - begun_s)
+        summary = replace(summary, expected=tuple(expected))
     if job.folder is not None:
         runs.save(job.folder, "summary.json", summary)
     return summary
+
+
+def _note(event: Event, expected: list[Expected]) -> None:
+    """Keep what a mission expected, for the summary."""
+    if event.event == "expect":
+        found = {key: event.data[key] for key in ("check", "so", "found")}
+        expected.append(msgspec.convert(found, Expected))
 
 
 def _summary(
@@ -157,6 +209,9 @@ def closing(summary: Summary) -> list[str]:
         f"({item.x_m:.2f}, {item.y_m:.2f}, {item.z_m:.2f}) m"
         for item in summary.placed
     ]
+    for item in summary.expected:
+        instead = f": {item.found}" if item.found and not item.so else ""
+        lines.append(f"  {'as expected' if item.so else 'NOT SO     '}  {item.check}{instead}")
     pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
     lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
     recovered = "1 recovery" if summary.recoveries == 1 else f"{summary.recoveries} recoveries"

@@ -175,6 +175,7 @@ _SENTENCES: dict[str, str] = {
     "help": "asks: {question}",
     "answer": "was told: {answer}",
     "fault": "fault injected: {fault}",
+    "resumed": "going on: {why}",
     "said": "says: {text}",
     "warning": "warning: {text}",
 }

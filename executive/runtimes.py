@@ -10,6 +10,7 @@ from typing import Literal
 
 from executive.loop import Runtime
 from executive.request import Setting
+from robot.bringup.overseen import Handle
 from robot.planning.worker import Planner
 
 Kind = Literal["fast", "live"]
@@ -17,7 +18,12 @@ Kind = Literal["fast", "live"]
 
 @contextmanager
 def opened(
-    kind: Kind, where: Setting, *, seed: int, folder: Path | None
+    kind: Kind,
+    where: Setting,
+    *,
+    seed: int,
+    folder: Path | None,
+    handle: Handle | None = None,
 ) -> Generator[tuple[Runtime, Planner]]:
     """Start a runtime and a planner, and leave nothing behind.
 
@@ -26,6 +32,7 @@ def opened(
         where: robot and world.
         seed: of everything random.
         folder: of this run, for the processes' logs (None: a temporary one).
+        handle: of a live run whose processes the process above looks after.
 
     Raises:
         RobotError: if a part cannot be built or a process does not start.
@@ -49,5 +56,6 @@ def opened(
             folder=logs,
             seed=seed,
             variation_seed=where.vary_seed,
+            handle=handle,
         )
         yield stack.enter_context(runtime), planner

@@ -72,6 +72,7 @@ class Session:
         context = SkillContext(
             link=runtime.link, planner=planner, description=description, seed=seed
         )
+        self.holdings = context.holdings
         self.executive = Executive(context, self.journal, rates_hz=RATES_HZ)
         self._listeners: list[OnTick] = [Recorder(self.executive).update]
         self._open = ExitStack()

@@ -27,7 +27,7 @@ class Feeder:
         inputs: Iterable[Event],
         *,
         restore: Restore,
-        injector: Injector | None = None,
+        injector: Injector,
     ) -> None:
         """Feed nothing yet.
 
@@ -35,7 +35,7 @@ class Feeder:
             session: that begins anew.
             inputs: events of what came from outside, in order.
             restore: makes the task of a submission again.
-            injector: of faults that a person injected.
+            injector: of the faults.
         """
         self._session = session
         self._left = deque(inputs)
@@ -50,6 +50,7 @@ class Feeder:
     def feed(self) -> None:
         """Ask for what the next tick carries out; inject what came after this one."""
         now_s = self._session.runtime.clock.now_s()
+        self._injector.tick(now_s)
         while self._left:
             event = self._left[0]
             ahead_s = 0.0 if event.event == "fault" else PERIOD_S
@@ -57,8 +58,7 @@ class Feeder:
                 return
             self._left.popleft()
             if event.event == "fault":
-                if self._injector is not None:
-                    self._injector.strike(dict(event.data), now_s)
+                self._injector.strike(dict(event.data), now_s)
             else:
                 self._ask(dict(event.data), event)
 

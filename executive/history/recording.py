@@ -53,9 +53,8 @@ class Recording(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def inputs(self) -> list[Event]:
-        """What came from outside: requests, and faults that a person injected."""
-        kinds = {"request", "fault"} if self.header.attended else {"request"}
-        return [event for event in self.events if event.event in kinds]
+        """What came from outside: requests and faults, whoever or whatever plan injected them."""
+        return [event for event in self.events if event.event in ("request", "fault")]
 
 
 def load(folder: Path) -> Recording:

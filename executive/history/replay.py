@@ -123,10 +123,8 @@ def opened(
         journal=Journal(lines=checked),
     )
     session.executive.attended = recorded.header.attended
-    injector = None
-    if recorded.header.attended:
-        begin_s = runtime.clock.now_s()
-        injector = Injector((), runtime, session.journal, begin_s=begin_s, planner=slow)
+    begin_s = runtime.clock.now_s()
+    injector = Injector((), runtime, session.journal, begin_s=begin_s, planner=slow)
     feeder = Feeder(
         session,
         recorded.inputs,

@@ -4,41 +4,64 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Protocol, Self
 
 import msgspec
 
 from robot.bringup import entry, private_folder
 from robot.bringup.body_clock import BodyClock
+from robot.bringup.overseen import RUN_FILE, Handle
 from robot.bringup.processes import PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import topics
 from robot.bus.run import Run
 from robot.bus.zenoh_bus import ZenohBus
-from robot.clock import Clock, WallClock
-from robot.errors import ConfigError, Failure, failure
+from robot.clock import Clock, Waker, WallClock
+from robot.errors import BusError, ConfigError, Failure, ProcessError, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
 
 START_S = 20.0
 POLL_S = 0.005
-RUN_FILE = "run.json"
 PARSE, FAULT = "sim.faults:parse", "sim.live:FAULT"
 MAX_LAG_S = 0.25
+
+
+class Crew(Protocol):
+    """The robot's processes, looked after by this process or by the one above it."""
+
+    @property
+    def restarted(self) -> Sequence[str]:
+        """Names of processes that were started again, in order."""
+        ...
+
+    def check(self) -> Failure | None:
+        """The first death that cannot be mended; None while all is well."""
+        ...
+
+    def pid(self, name: str) -> int:
+        """Process id of one of them."""
+        ...
+
+    def close(self) -> None:
+        """Stop them, or leave that to the process above. Idempotent."""
+        ...
 
 
 class LiveRuntime:
     """A robot in a simulated world, on the wall clock; a context manager.
 
-    Attributes (`run`, `clock`, `link` and `supervisor` from entering on):
+    It starts the processes itself; with a `handle` it has the process above start them, or attaches
+    to those that run there already (`robot.bringup.overseer`).
+
+    Attributes (`run`, `clock` and `link` from entering on):
         run: what the processes were told.
         clock: the body's time (simulated seconds).
         link: the executive's handle on the body.
-        supervisor: the processes.
         timing: how well the loops kept their time: the newest report of each, by process.
     """
 
@@ -52,6 +75,7 @@ class LiveRuntime:
         variation_seed: int | None = None,
         wall: Clock | None = None,
         processes: tuple[Process, ...] = PROCESSES,
+        handle: Handle | None = None,
     ) -> None:
         """Check everything that can be checked before a process starts.
 
@@ -63,6 +87,7 @@ class LiveRuntime:
             variation_seed: shuffles start and objects.
             wall: the wall clock; another one in tests.
             processes: what to run.
+            handle: on the process above, where that one looks after the processes.
 
         Raises:
             ConfigError: if world or robot cannot be used.
@@ -79,7 +104,12 @@ class LiveRuntime:
             variation_seed=variation_seed,
         )
         self._processes = processes
+        self._handle = handle
+        self._crew: Crew | None = None
+        self._bus: ZenohBus | None = None
+        self._private: Path | None = None
         self._wall = wall or WallClock()
+        self._waker = Waker()
         self._folder = folder
         self._failure: Failure | None = None
         self._due_s = 0.0
@@ -90,35 +120,40 @@ class LiveRuntime:
         Raises:
             BusError, ProcessError: if bus or processes cannot be started; nothing is left then.
         """
-        private = private_folder.create()
         try:
-            self._start(private)
-        except BaseException:
-            private_folder.remove(private)
-            raise
-        try:
-            self.supervisor.__enter__()
+            self._start()
             self._wait_for_body()
         except BaseException:
             self.close()
             raise
         return self
 
-    def _start(self, private: Path) -> None:
-        """Open the bus, and get everything ready for the processes."""
+    def _start(self) -> None:
+        """Get hold of the processes and of the bus."""
+        if self._handle is not None:
+            private = self._handle.folder
+            self.run = msgspec.structs.replace(self._plan, sockets=str(private))
+            self._handle.start(self.run)
+            self._join(private)
+            self._crew = self._handle
+            return
+        private = self._private = private_folder.create()
         self.run = msgspec.structs.replace(self._plan, sockets=str(private))
         self.run.save(private / RUN_FILE)
-        self.supervisor = Supervisor(
-            private / RUN_FILE,
-            logs=self._folder / "logs",
-            clock=self._wall,
-            processes=self._processes,
+        self._join(private)
+        logs = self._folder / "logs"
+        supervisor = Supervisor(
+            private / RUN_FILE, logs=logs, clock=self._wall, processes=self._processes
         )
-        self._bus = ZenohBus("executive", private)
-        self.clock = BodyClock(self._bus, self._wall)
-        self.link = BusLink(self._bus, self.clock)
+        self._crew = supervisor.__enter__()
+
+    def _join(self, private: Path) -> None:
+        """Open the bus."""
+        bus = self._bus = ZenohBus("executive", private)
+        self.clock = BodyClock(bus, self._wall)
+        self.link = BusLink(bus, self.clock)
         self._timings = [
-            self._bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
+            bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
         ]
 
     def __exit__(
@@ -130,6 +165,13 @@ class LiveRuntime:
         """Stop everything."""
         self.close()
 
+    @property
+    def supervisor(self) -> Crew:
+        """The processes. Raises ProcessError before they are started."""
+        if self._crew is None:
+            raise ProcessError("the robot's processes were not started")
+        return self._crew
+
     def failure(self) -> Failure | None:
         """Why the run cannot go on, None while it can."""
         if self._failure is None:
@@ -137,12 +179,22 @@ class LiveRuntime:
         return self._failure
 
     def advance(self, duration_s: float) -> None:
-        """Let `duration_s` of wall time pass since the last call returned; late calls catch up."""
+        """Let `duration_s` of wall time pass since the last call returned; late calls catch up.
+
+        `wake` cuts it short; the next call then returns when this one would have.
+        """
         now_s = self._wall.now_s()
-        self._due_s = max(self._due_s + duration_s, now_s - MAX_LAG_S)
-        while self.failure() is None and (now_s := self._wall.now_s()) < self._due_s:
-            self._wall.sleep_until(min(self._due_s, now_s + duration_s))
+        due_s = max(self._due_s + duration_s, now_s - MAX_LAG_S)
+        while self.failure() is None and (now_s := self._wall.now_s()) < due_s:
+            if self._waker.wait(min(due_s - now_s, duration_s)):
+                break
+        else:
+            self._due_s = due_s
         self._read_timing()
+
+    def wake(self) -> None:
+        """Let `advance` return at once; from any thread, and from a signal handler."""
+        self._waker.wake()
 
     def inject(self, fault: Mapping[str, Any]) -> None:
         """Make a fault (`sim.faults`, as plain data) happen now, in simulation only.
@@ -158,14 +210,17 @@ class LiveRuntime:
         if fault["fault"] == "kill":
             os.kill(self.supervisor.pid(parsed.process), signal.SIGKILL)
         else:
-            self._bus.publish(entry.attribute(FAULT), parsed)
+            self._opened().publish(entry.attribute(FAULT), parsed)
 
     def close(self) -> None:
         """Controller first (it damps the motors), then the rest; write `timing.json`."""
-        self.supervisor.close()
-        self._read_timing()
-        self._bus.close()
-        private_folder.remove(Path(self.run.sockets))
+        if self._crew is not None:
+            self._crew.close()
+        if self._bus is not None:
+            self._read_timing()
+            self._bus.close()
+        if self._private is not None:
+            private_folder.remove(self._private)
         if self.timing:
             self._folder.mkdir(parents=True, exist_ok=True)
             (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
@@ -185,6 +240,11 @@ class LiveRuntime:
                 break
             self._wall.sleep_until(self._wall.now_s() + POLL_S)
         self._due_s = self._wall.now_s()
+
+    def _opened(self) -> ZenohBus:
+        if self._bus is None:
+            raise BusError("the bus is not open")
+        return self._bus
 
     def _read_timing(self) -> None:
         for reader in self._timings:

@@ -25,6 +25,11 @@ class Process:
     death: str
     restarts: int = 0
 
+    def may_start_again(self, starts_s: list[float], now_s: float) -> bool:
+        """Whether it may, after the starts at these times (the first of them was no restart)."""
+        recent = [start_s for start_s in starts_s[1:] if start_s > now_s - RESTART_WINDOW_S]
+        return len(recent) < self.restarts
+
 
 RESTART_WINDOW_S = 60.0
 
@@ -34,6 +39,12 @@ PROCESSES: tuple[Process, ...] = (
     Process("perception", "robot.perception.main", "always", death="localisation_lost", restarts=3),
 )
 """In the order of starting; they are stopped in the order of `STOP_ORDER`."""
+
+EXECUTIVE = Process("executive", "executive.main", "always", death="internal", restarts=2)
+"""Has the terminal, asks for the others, and ends before them: see `robot.bringup.overseer`.
+
+When it dies the robot finishes its step and stands; the third death in a minute is the last.
+"""
 
 STOP_ORDER = ("controller", "perception", "plant")
 """The controller first, while there is still a plant that takes its last command: damping."""

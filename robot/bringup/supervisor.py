@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import IO, Self
 
 import robot
-from robot.bringup.processes import PROCESSES, RESTART_WINDOW_S, STOP_ORDER, Process
+from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
 from robot.clock import Clock
 from robot.errors import Failure, ProcessError, failure
 
@@ -93,6 +93,10 @@ class Supervisor:
         """Process id of a child."""
         return self._children[name].popen.pid
 
+    def knows(self, name: str) -> bool:
+        """Whether there is a child of that name."""
+        return name in self._children
+
     def check(self) -> Failure | None:
         """Look after the children; the first death that cannot be mended is what failed.
 
@@ -128,22 +132,18 @@ class Supervisor:
         self._children[entry.name] = _Child(entry, popen, log, [*starts_s, self._clock.now_s()])
 
     def _spawn(self, entry: Process, output: IO[bytes]) -> subprocess.Popen[bytes]:
-        root = str(Path(robot.__file__).parent.parent)
-        paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
         return subprocess.Popen(
-            [sys.executable, "-m", entry.module, str(self._run_file), str(os.getpid())],
+            command(entry, self._run_file),
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=subprocess.STDOUT,
-            env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(paths)},
+            env=environment(),
             start_new_session=True,
         )
 
     def _mended(self, child: _Child) -> bool:
         """Start it again if its table entry still allows that."""
-        since_s = self._clock.now_s() - RESTART_WINDOW_S
-        restarts = sum(1 for start_s in child.starts_s[1:] if start_s > since_s)
-        if restarts >= child.entry.restarts:
+        if not child.entry.may_start_again(child.starts_s, self._clock.now_s()):
             return False
         self.restarted.append(child.entry.name)
         self._start(child.entry)
@@ -173,6 +173,18 @@ class Supervisor:
         until_s = self._clock.now_s() + STOP_S
         while child.poll() is None and self._clock.now_s() < until_s:
             self._clock.sleep_until(self._clock.now_s() + POLL_S)
+
+
+def command(entry: Process, run_file: Path) -> list[str]:
+    """How a process of the table is started by this one."""
+    return [sys.executable, "-m", entry.module, str(run_file), str(os.getpid())]
+
+
+def environment() -> dict[str, str]:
+    """What a process of the table is started with: this package, wherever it lies."""
+    root = str(Path(robot.__file__).parent.parent)
+    paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
+    return {**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(paths)}
 
 
 def describe_exit(code: int) -> str:

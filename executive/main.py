@@ -1,0 +1,69 @@
+"""The executive as a process of its own, under an overseer that starts it again when it dies.
+
+It runs whatever front end it is told to (`robot.bringup.overseen.Front`): a task, a mission, the
+prompt. It has the terminal of the process above it; both are in one group, so Ctrl-C comes here.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import msgspec
+
+from executive.ending import ended_by
+from robot.bringup import entry
+from robot.bringup.overseen import FRONT_FILE, Front, Handle
+from robot.bringup.overseer import CRASHED
+from robot.bus.lifeline import tie_to_parent
+from robot.clock import WallClock
+from robot.errors import RobotError
+
+POLL_S = 0.02
+
+Run = Callable[[Handle, dict[str, Any]], int]
+
+
+def main(private: str, parent_pid: str, number: str) -> int:
+    """Load, build, run, close; returns the exit status. A spare waits for its turn in between."""
+    tie_to_parent(int(parent_pid))
+    folder = Path(private)
+    try:
+        run, front = _turn(folder, int(number))
+        return run(Handle(folder, deaths=front.deaths), front.options)
+    except (RobotError, KeyboardInterrupt) as error:
+        return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
+    except Exception:  # the overseer starts another one, which goes on where this one was
+        traceback.print_exc()
+        return CRASHED
+
+
+def _turn(folder: Path, number: int) -> tuple[Run, Front]:
+    """Load everything, then wait until as many executives have died as `number` says."""
+    stop = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    clock = WallClock()
+    run: Run = entry.attribute(_read(folder).entry)
+    while (front := _read(folder)).deaths < number:
+        clock.sleep_until(clock.now_s() + POLL_S)
+    signal.signal(signal.SIGINT, stop)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, _hang_up)
+    return run, front
+
+
+def _read(folder: Path) -> Front:
+    return msgspec.json.decode((folder / FRONT_FILE).read_bytes(), type=Front)
+
+
+def _hang_up(_number: int, _frame: FrameType | None) -> None:
+    """A closed terminal is a wish to stop, like SIGTERM."""
+    signal.raise_signal(signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

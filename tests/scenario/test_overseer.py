@@ -1,0 +1,178 @@
+"""The process in the terminal and the executive below it: whoever dies, it ends in order."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.fakes.waiting import eventually
+
+PARENT = """
+import sys, json
+from pathlib import Path
+from robot.bringup import lowering, overseer
+from robot.bringup.processes import Process
+lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
+overseer.SPARE_AFTER_S = json.loads(sys.argv[2])
+STUB = "tests.fakes.stub_process"
+three = (Process("plant", STUB, "simulation", death="plant_lost"),
+         Process("controller", STUB, "always", death="controller_lost"))
+ended = overseer.oversee("tests.fakes.fronts:front", json.loads(sys.argv[1]),
+                         tell=print, processes=three)
+print("ended", ended.status, ended.reason)
+sys.exit(ended.status)
+"""
+
+
+class Shell:
+    """A terminal's shell, with the overseer as its job."""
+
+    def __init__(self, folder: Path, *, spare_after_s: float = 60.0, **options) -> None:
+        self.folder = folder
+        options = {"folder": str(folder), **options}
+        self.job = subprocess.Popen(
+            [sys.executable, "-c", PARENT, json.dumps(options), json.dumps(spare_after_s)],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+
+    @property
+    def told(self) -> list[str]:
+        path = self.folder / "told"
+        return path.read_text().splitlines() if path.exists() else []
+
+    def ups(self) -> list[int]:
+        """Process ids of the executives that came up, in order."""
+        return [int(line.split()[1]) for line in self.told if line.startswith("up")]
+
+    def wait_up(self, count: int = 1) -> int:
+        assert eventually(lambda: len(self.ups()) >= count, within_s=60.0), self.told
+        return self.ups()[-1]
+
+    def end(self) -> tuple[int, str]:
+        """Exit status and output, once it has ended and all below it are gone."""
+        text, _ = self.job.communicate(timeout=60.0)
+        assert eventually(lambda: not self.left(), within_s=5.0), self.left()
+        return self.job.returncode, text
+
+    def left(self) -> list[str]:
+        """Processes of the job that are still there."""
+        found = []
+        for entry in Path("/proc").iterdir():
+            try:
+                words = (entry / "cmdline").read_bytes()
+                state = (entry / "stat").read_text().rpartition(")")[2].split()
+            except (OSError, NotADirectoryError):
+                continue
+            if f" {self.job.pid}" in words.replace(b"\0", b" ").decode() and state[0] != "Z":
+                found.append(words.replace(b"\0", b" ").decode())
+        return found
+
+
+@pytest.fixture
+def shell(tmp_path):
+    shells = []
+
+    def make(**options) -> Shell:
+        shells.append(Shell(tmp_path, **options))
+        return shells[-1]
+
+    yield make
+    for one in shells:
+        if one.job.poll() is None:
+            os.killpg(one.job.pid, signal.SIGKILL)
+
+
+@pytest.mark.parametrize("status", [0, 1, 2, 3])
+def test_the_executives_exit_status_is_the_shells(shell, status):
+    assert shell(status=status).end()[0] == status
+
+
+def test_a_killed_executive_is_started_again_and_the_robot_stays(shell, tmp_path):
+    job = shell(dies=1, ends=False)
+    second = job.wait_up(2)
+    pids = [
+        int((tmp_path / "logs" / f"{name}.pid").read_text()) for name in ("plant", "controller")
+    ]
+    assert job.told[1] == f"up {second} 1"
+    os.kill(pids[0], 0)
+    os.kill(second, signal.SIGTERM)
+    status, text = job.end()
+    assert status == 1
+    assert "The executive was killed by SIGKILL. The robot finishes its step and stands" in text
+    assert (tmp_path / "logs" / "plant.log").read_text().count("ready") == 1
+
+
+def test_a_spare_takes_over_at_once(shell):
+    job = shell(ends=False, dies=0, spare_after_s=0.0)
+    first = job.wait_up()
+    assert eventually(lambda: len(job.left()) == 4, within_s=30.0)
+    time.sleep(4.0)  # it loads
+    os.kill(first, signal.SIGKILL)
+    killed_s = time.monotonic()
+    second = job.wait_up(2)
+    assert time.monotonic() - killed_s < 2.0
+    os.kill(second, signal.SIGTERM)
+    assert job.end()[0] == 1
+
+
+@pytest.mark.parametrize("how", ["kill", "exception"])
+def test_the_third_death_in_a_minute_is_the_last(shell, how):
+    job = shell(dies=99, how=how)
+    status, text = job.end()
+    assert status == 3
+    assert len(job.ups()) == 3
+    assert "3 times within a minute; the robot squatted; its motors damp" in text
+
+
+def test_a_mistake_before_there_is_a_robot_is_not_tried_again(shell):
+    job = shell(dies=99, how="exception", robot=False)
+    status, text = job.end()
+    assert status == 3
+    assert len(job.ups()) == 1
+    assert "a mistake on purpose" in text
+
+
+def test_a_dead_plant_is_told_to_the_executive(shell, tmp_path):
+    job = shell(ends=False)
+    job.wait_up()
+    os.kill(int((tmp_path / "logs" / "plant.pid").read_text()), signal.SIGKILL)
+    assert job.end()[0] == 3
+    assert job.told[-1] == "lost plant_lost"
+
+
+def test_ctrl_c_reaches_the_executive_once(shell):
+    job = shell(ends=False)
+    job.wait_up()
+    os.killpg(job.job.pid, signal.SIGINT)
+    assert job.end()[0] == 1
+    assert job.told[-1] == "heard [2]"
+
+
+def test_a_term_to_the_job_is_passed_on(shell):
+    job = shell(ends=False)
+    job.wait_up()
+    job.job.send_signal(signal.SIGTERM)
+    assert job.end()[0] == 1
+    assert job.told[-1] == "heard [15]"
+
+
+def test_a_closed_terminal_is_a_wish_to_stop(shell):
+    job = shell(ends=False)
+    job.wait_up()
+    os.killpg(job.job.pid, signal.SIGHUP)
+    assert job.end()[0] == 1
+    assert job.told[-1] == "heard [15]"
+
+
+def test_nothing_is_left_of_a_job_that_is_killed(shell):
+    job = shell(ends=False, spare_after_s=0.0)
+    job.wait_up()
+    assert eventually(lambda: len(job.left()) == 4, within_s=30.0)
+    job.job.kill()
+    job.job.wait()
+    assert eventually(lambda: not job.left(), within_s=5.0), job.left()
