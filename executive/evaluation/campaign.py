@@ -14,11 +14,11 @@ from typing import Any
 
 import msgspec
 
-from executive import faults
+from executive import faults, request
+from executive.jobs import UNLIMITED, Limits
 from robot import config
 from robot.bringup import entry
 from robot.errors import CATALOGUE, ConfigError, Problem
-from robot.model import description
 
 READ_CHECKS = "sim.judge:read"
 SHIPPED = Path(__file__).parent / "campaign.yaml"
@@ -92,14 +92,13 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     """
     node = config.read_yaml(path)
     cases = config.convert(node, Campaign, file=str(path)).cases
-    body = description.load(robot)
-    world = functools.cache(entry.world)
+    setting = settings(robot)
     problems = [
         Problem(
             f"{case.name}: {text}", file=str(path), line=config.line_of(node, f"$.cases[{index}]")
         )
         for index, case in enumerate(cases)
-        for text in problems_of(case, world, body)
+        for text in problems_of(case, setting)
     ]
     names = [case.name for case in cases]
     problems += [
@@ -111,7 +110,49 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     return cases
 
 
-def problems_of(case: Case, load_world: Callable[[str], Any], body: Any) -> list[str]:
+class Meant(msgspec.Struct, frozen=True, kw_only=True):
+    """What a case's mission is, and where it is done."""
+
+    understood: request.Understood
+    where: request.Setting
+    faults: tuple[faults.FaultPlan, ...] = ()
+    limits: Limits = UNLIMITED
+
+
+def settings(robot: str) -> Callable[[str], request.Setting]:
+    """Worlds by name, each read once, with a robot in them."""
+
+    @functools.cache
+    def setting(world: str) -> request.Setting:
+        return request.setting(world, robot)
+
+    return setting
+
+
+def meant(case: Case, setting: Callable[[str], request.Setting]) -> Meant:
+    """Understand a case's mission: a sentence, or a mission file, which brings its own world.
+
+    Raises:
+        ConfigError: if it cannot be meant.
+    """
+    if case.mission.endswith((".yaml", ".yml")):
+        from executive.missions import check, load, run
+
+        checked = check.check(load.find(case.mission), check.Options(samples=True))
+        return Meant(
+            understood=run.understood(checked),
+            where=checked.where,
+            faults=checked.faults,
+            limits=run.limits(checked),
+        )
+    where = setting(case.world)
+    understood = request.request(case.mission, where)
+    if isinstance(understood, request.Refused):
+        raise ConfigError(f"{case.mission!r}: {understood.reason}")
+    return Meant(understood=understood, where=where)
+
+
+def problems_of(case: Case, setting: Callable[[str], request.Setting]) -> list[str]:
     """Everything wrong with a case that can be found without running it."""
     found = [
         f"unknown failure code {code!r}; {config.nearest(code, list(CATALOGUE))}"
@@ -123,10 +164,10 @@ def problems_of(case: Case, load_world: Callable[[str], Any], body: Any) -> list
     if not 0.0 < case.limit_s < math.inf:
         found.append("limit_s is a time above 0")
     try:
-        world = load_world(case.world)
-        entry.attribute(READ_CHECKS)(case.truth, world)
+        given = meant(case, setting)
+        entry.attribute(READ_CHECKS)(case.truth, given.where.world)
         for data in case.faults:
-            faults.verify(faults.plan(data).fault, world, body)
+            faults.verify(faults.plan(data).fault, given.where.world, given.where.description)
     except ConfigError as error:
         found += [str(problem) for problem in error.problems]
     return found

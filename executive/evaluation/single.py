@@ -12,9 +12,9 @@ from typing import Any
 
 import msgspec
 
-from executive import faults, loop, request, runtimes
+from executive import faults, loop, runtimes
 from executive.app import Executive
-from executive.evaluation.campaign import Run
+from executive.evaluation.campaign import Run, meant, settings
 from executive.evaluation.record import Record
 from executive.history import agreement
 from executive.journal import Journal
@@ -24,7 +24,7 @@ from executive.skills.context import SkillContext
 from executive.trees.build import Done, build
 from executive.trees.parts import errands
 from robot.bringup import entry
-from robot.errors import ConfigError, Failure, failure
+from robot.errors import Failure, failure
 from robot.planning.worker import Planner
 
 NUDGED, JUDGE = "sim.world:nudged", "sim.judge:judge"
@@ -55,13 +55,10 @@ class _Trial:
     def __init__(self, run: Run, folder: Path) -> None:
         self.run, self.folder = run, folder
         case, seed = run.case, run.seed
-        where = request.setting(case.world, run.robot)
-        world = entry.attribute(NUDGED)(where.world, seed, start=case.start)
-        self.where = msgspec.structs.replace(where, world=world)
-        understood = request.request(case.mission, self.where)
-        if isinstance(understood, request.Refused):
-            raise ConfigError(f"{case.mission!r}: {understood.reason}")
-        self.understood = understood
+        given = meant(case, settings(run.robot))
+        world = entry.attribute(NUDGED)(given.where.world, seed, start=case.start)
+        self.given = given
+        self.where = msgspec.structs.replace(given.where, world=world)
         self.codes: list[str] = []
         self.recoveries = 0
         self.killed = False
@@ -78,7 +75,7 @@ class _Trial:
             assert isinstance(runtime, faults.Injects)
             slow = faults.SlowPlanner(planner)
             injector = faults.Injector(
-                tuple(faults.plan(data) for data in run.case.faults),
+                (*self.given.faults, *(faults.plan(data) for data in run.case.faults)),
                 runtime,
                 journal,
                 begin_s=runtime.clock.now_s(),
@@ -123,7 +120,7 @@ class _Trial:
 
     def _executive(self, runtime: loop.Runtime, planner: Planner, journal: Journal) -> Executive:
         """An executive with the task; a second one knows only what journal and world tell it."""
-        where, task = self.where, self.understood.task
+        where, task = self.where, self.given.understood.task
         context = SkillContext(
             link=runtime.link, planner=planner, description=where.description, seed=self.run.seed
         )
@@ -143,8 +140,9 @@ class _Trial:
         executive.stage.recovers = self.run.recovery
         executive.submit(
             lambda stage: build(task, stage, done=done),
-            text=self.understood.text,
+            text=self.given.understood.text,
             resources=needed_by(errand.params for errand in errands(task)),
+            limits=self.given.limits,
         )
         return executive
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from datetime import datetime
 from pathlib import Path
 
@@ -96,7 +95,16 @@ def chosen(options: Options) -> tuple[Case, ...]:
     if not options.missions:
         return tuple(cases) or campaign.load(campaign.SHIPPED, robot=options.robot)
     every: list[Case | None] = [*cases] or [None]
-    return tuple(_own(mission, case, options) for mission in options.missions for case in every)
+    own = [_own(mission, case, options) for mission in options.missions for case in every]
+    setting = campaign.settings(options.robot)
+    problems = [
+        Problem(f"{case.name}: {text}")
+        for case in own
+        for text in campaign.problems_of(case, setting)
+    ]
+    if problems:
+        raise ConfigError(problems)
+    return tuple(own)
 
 
 def _own(mission: str, fault: Case | None, options: Options) -> Case:
@@ -125,12 +133,12 @@ def _go_through(results: Results, runs: list[Run], options: Options, console: Co
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
         TextColumn("{task.fields[last]}"),
     )  # fmt: skip
-    with Progress(*columns, console=console, disable=options.as_json) as bar:
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
         task = bar.add_task("eval", total=done + len(runs), completed=done, last="")
         for record in work:
             results.add(record)
             bar.update(task, advance=1, last=_short(record))
-            if not sys.stderr.isatty() and not options.as_json:
+            if not console.is_terminal:
                 console.print(f"{len(results.records)}/{done + len(runs)} {_short(record)}")
 
 
