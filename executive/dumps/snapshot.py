@@ -132,7 +132,8 @@ def _guarded(node: Node) -> bool:
 
 def _shown(node: Node, t_s: float) -> Shown:
     change = node.at(t_s)
-    note = change.note if change.state not in ("waiting", "done") else ""
+    tells = change.state not in ("waiting", "done") or node.kind == "recover"
+    note = change.note if tells else ""
     name = node.title or node.name
     return Shown(
         id=node.id, kind=node.kind, name=name, state=change.state, note=note,

@@ -66,7 +66,7 @@ function pooled(index) {
 
 function drawName(slot, row, top) {
   const { node } = row, there = inView(node, now), state = there ? stateAt(node, now) : "waiting";
-  const note = state === "running" || state === "failed" || state === "waiting" ? noteAt(node, now) : "";
+  const note = state === "running" || state === "failed" || state === "waiting" || node.kind === "recover" ? noteAt(node, now) : "";
   const shut = folded.has(node.id), chosen_ = node.id === selected;
   slot.node = node;
   if (slot.top !== top) { slot.top = top; slot.element.style.transform = `translateY(${top}px)`; }

@@ -134,12 +134,13 @@ function thing(pen, id, sights, at, carried) {
   pen.setLineDash([]);
   pen.globalAlpha = 1;
   const text = (known?.name || id) + (held ? " (held)" : missing ? " (missing)" : "");
-  pen.textAlign = "left";
+  const over = x + 9 + pen.measureText(text).width > sizes.map[0], side = over ? x - 7 : x + 7;
+  pen.textAlign = over ? "right" : "left";
   pen.lineWidth = 3;
   pen.strokeStyle = colours.ground;
-  pen.strokeText(text, x + 7, y + 4);
+  pen.strokeText(text, side, y + 4);
   pen.fillStyle = colours.text;
-  pen.fillText(text, x + 7, y + 4);
+  pen.fillText(text, side, y + 4);
   pen.textAlign = "center";
 }
 

@@ -51,7 +51,7 @@ def test_people_see_the_steps_and_not_what_holds_them_together(recovered):
         "> task  (0.1 s)",
         "  > pick  (0.1 s)",
         "    x pick: scripted grasp_missed  (0.1 s)",
-        "    + recover",
+        "    + recover: look again, then retry (1 of 2)",
         "    > look again, then retry  (0.1 s)",
         "      + look for cup",
         "      > pick: working  (0.1 s)",
