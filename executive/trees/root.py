@@ -1,4 +1,4 @@
-"""The whole tree: sense || come to rest || (emergency > recovery > pause > jobs > idle).
+"""The whole tree: sense || come to rest || (emergency > pause > recovery > jobs > idle).
 
 Every tick senses first, then sees interrupted skills through, then does the first thing in the
 order of urgency that applies. Recoveries of single steps live inside the jobs
@@ -48,8 +48,8 @@ class Tree:
         )
         choices = [
             self._stand_and("emergency", "has to end?", must_end, EndTask(stage, guard)),
-            recovery,
             self._stand_and("pause", "is to pause?", must_pause, Rest(stage, guard)),
+            recovery,
             self.jobs,
             Running("idle"),
         ]

@@ -107,3 +107,19 @@ def test_stopped_at_any_tick_the_body_rests_and_can_go_on(at, paused, then):
     if then:
         assert jobs[2].state == "done", jobs[2].failure
     run.rests()
+
+
+def test_what_shares_no_part_of_the_body_is_done_side_by_side():
+    run = Run([])
+    numbers = [
+        run.session.submit(understood(text))
+        for text in ("squat for three seconds", "look at the table", "say hello", "squat")
+    ]
+    run.ticks = 0
+    run.session.run()
+    jobs = {job.number: job for job in run.executive.jobs}
+    squat, look, hello, again = (jobs[number] for number in numbers)
+    assert {job.state for job in (squat, look, hello, again)} == {"done"}
+    assert squat.began_s == look.began_s == hello.began_s
+    assert hello.took_s < look.took_s < squat.took_s
+    assert again.began_s > squat.began_s + squat.took_s

@@ -20,6 +20,7 @@ from executive.skills.parameters import (
 )
 from executive.trees.idioms import in_order
 from executive.trees.recovery import Errand
+from robot.messages import LidarScan
 from tests.fakes.rig import PICK, TICK_S, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 
@@ -447,3 +448,32 @@ def test_a_job_whose_skill_does_not_rest_is_over_only_when_the_robot_was_brought
     assert stand.calls.count("step") == 7
     rig.troupe.scripts[NavigateParams] = [Script(steps=3)]
     assert rig.begin(WALK).run() is True
+
+
+def test_a_paused_robot_does_not_lose_its_jobs_when_a_sensor_falls_silent():
+    rig = Rig({NavigateParams: [Script(steps=20)]}, rates_hz={"sensors/lidar": 10.0})
+    rig.link.messages["lidar"] = scan(0.0)
+    rig.begin(WALK).tick(5)
+    rig.executive.pause()
+    rig.tick(1000)
+    assert rig.executive.state == "paused"
+    assert states(rig) == {1: "paused"}
+    rig.executive.resume()
+    rig.tick(20)
+    assert rig.events("hold") == ["hold"]
+    rig.link.messages["lidar"] = scan(1e6)
+    assert rig.run() is True
+
+
+def test_a_pause_while_a_sensor_is_silent_is_one_too():
+    rig = Rig({NavigateParams: [Script(steps=20)]}, rates_hz={"sensors/lidar": 10.0})
+    rig.link.messages["lidar"] = scan(0.0)
+    rig.begin(WALK).tick(30)
+    assert rig.events("hold") == ["hold"]
+    rig.executive.pause()
+    rig.tick(10)
+    assert rig.executive.state == "paused"
+
+
+def scan(stamp_s):
+    return LidarScan(stamp_s=stamp_s, angle_min_rad=0, angle_step_rad=0.1, ranges_m=())
