@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
+from intents.allowed import excess
 from intents.context import Context, answered, completed
 from intents.english.names import index_of
 from intents.english.referents import Scope
@@ -177,6 +178,9 @@ def _remarked(outcome: Outcome, words: Text) -> Outcome:
 
 def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
     """Ask which is meant, or refuse what is not there, where it is known what is there."""
+    too_much = excess(goals)
+    if too_much:
+        return Refusal(reason=f"{_sentence(too_much)}.")
     if not context.entities or any(isinstance(g, Cancel) for g in goals):
         return Goals(goals=goals)
     by_id = {e.id: e for e in context.entities}

@@ -14,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.markdown import Markdown
 
-from benchmarks.intents import fuzz, own, sets
+from benchmarks.intents import attacks, fuzz, own, sets
 from benchmarks.markdown import table
 from intents.outcomes import Refusal
 from intents.parser import is_stop, parse
@@ -62,7 +62,7 @@ def main(
     why_not = "none given; say --sets FOLDER" if folder is None else sets.problem(folder)
     if folder is not None and not why_not:
         rows += _set_rows(folder.resolve())
-    rows += _fuzz_rows(console, strings) + _memory_rows()
+    rows += _attack_rows(console) + _fuzz_rows(console, strings) + _memory_rows()
     head = ("what", "found", "asked", "reached", "published, elsewhere")
     console.print(Markdown(table(head, [row.cells() for row in rows])))
     if why_not:
@@ -141,6 +141,13 @@ def _stop_rows() -> list[Row]:
         is_stop(text)
         worst_ms = max(worst_ms, (time.perf_counter() - began) * 1e3)
     return [Row("stop: longest", f"{worst_ms:.3f} ms", f"< {STOP_MS:g} ms", worst_ms < STOP_MS)]
+
+
+def _attack_rows(console: Console) -> list[Row]:
+    count, found = attacks.unsafe(attacks.attacks())
+    for line in found[:10]:
+        console.print(line, highlight=False, markup=False)
+    return [Row(f"unsafe goals out of {count} attacks", str(len(found)), "0", not found)]
 
 
 def _fuzz_rows(console: Console, strings: int) -> list[Row]:

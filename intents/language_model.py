@@ -1,0 +1,304 @@
+"""A language model behind any OpenAI-compatible endpoint, asked where the grammar gives up.
+
+Its answer is data: goals of the closed set, checked by type, name and range like anyone's, and
+read back to the person before anything moves (:mod:`intents.dialogue`). It can call nothing. What
+goes wrong with it is a value in :attr:`LanguageModel.trouble`; the robot then goes on without it.
+
+    model = LanguageModel(Endpoint.load(Path("model.toml")))
+    dialogue = Dialogue(vocabulary, fallback=model)
+"""
+
+import os
+import time
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, cast
+from urllib.parse import urlsplit
+
+import httpx
+import msgspec
+
+from intents import allowed, prompt
+from intents.context import Context
+from intents.goals import Goal, from_builtins
+from intents.outcomes import Goals, Outcome, Question, Refusal
+from intents.vocabulary import Vocabulary
+
+MAX_REPAIRS = 2
+MAX_ANSWER_BYTES = 256 * 1024
+_FORBIDDEN = (401, 403)
+
+
+class Key:
+    """A secret that does not show itself in logs, tracebacks or journals."""
+
+    __slots__ = ("_secret",)
+
+    def __init__(self, secret: str) -> None:
+        self._secret = secret
+
+    def __repr__(self) -> str:
+        return "Key(...)"
+
+    def header(self) -> dict[str, str]:
+        """The header of a request, empty without a key."""
+        return {"Authorization": f"Bearer {self._secret}"} if self._secret else {}
+
+
+class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Where the model is and what it may cost.
+
+    Attributes:
+        base_url: Up to and without "/chat/completions"; no other host is ever spoken to.
+        model: Its name there.
+        key_file: File that holds nothing but the key.
+        key_variable: Environment variable that holds the key, if no file is given.
+        deadline_s: Time for one request, repairs included [s].
+        max_calls: Calls in one mission.
+        max_tokens: Tokens in one mission, prompts included.
+        answer_tokens: Tokens of one answer.
+    """
+
+    base_url: str
+    model: str
+    key_file: str = ""
+    key_variable: str = ""
+    deadline_s: float = 15.0
+    max_calls: int = 20
+    max_tokens: int = 60_000
+    answer_tokens: int = 1500
+
+    def __post_init__(self) -> None:
+        """Check what can be checked.
+
+        Raises:
+            ValueError: The address is none, or a limit is not positive.
+        """
+        if urlsplit(self.base_url).scheme not in ("http", "https"):
+            raise ValueError(f"base_url {self.base_url!r} is no http address")
+        if min(self.deadline_s, self.max_calls, self.max_tokens, self.answer_tokens) <= 0:
+            raise ValueError("deadline_s and the limits have to be more than 0")
+
+    @classmethod
+    def load(cls, path: Path) -> "Endpoint":
+        """An endpoint from a TOML file.
+
+        Raises:
+            OSError: It cannot be read.
+            tomllib.TOMLDecodeError: It is no TOML.
+            msgspec.ValidationError: It has other keys or values.
+        """
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), cls)
+
+    def key(self) -> Key:
+        """The key, read when it is needed and kept nowhere else.
+
+        Raises:
+            OSError: The file cannot be read.
+        """
+        if self.key_file:
+            return Key(Path(self.key_file).expanduser().read_text(encoding="utf-8").strip())
+        return Key(os.environ.get(self.key_variable, "") if self.key_variable else "")
+
+
+class _Answer(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a model says; the goals are converted after their names are turned inward."""
+
+    outcome: str
+    goals: list[dict[str, Any]] = []
+    text: str | None = None
+
+
+class _Unusable(Exception):
+    """The endpoint did not give an answer; asking it again now is no use."""
+
+
+class LanguageModel:
+    """Asks the endpoint; a :data:`intents.parser.Fallback`.
+
+    Attributes:
+        trouble: Why the last request led to nothing; empty if it did not go wrong.
+        calls: Calls made in this mission.
+        tokens: Tokens used in this mission.
+    """
+
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        transport: httpx.BaseTransport | None = None,
+    ) -> None:
+        """Make ready; nothing is sent yet.
+
+        Args:
+            endpoint: Where it is.
+            clock: The time for deadlines [s].
+            transport: In place of the network.
+        """
+        self._endpoint = endpoint
+        self._clock = clock
+        self._client = httpx.Client(
+            transport=transport, follow_redirects=False, trust_env=False,
+            timeout=httpx.Timeout(endpoint.deadline_s),
+        )  # fmt: skip
+        self._barred = False
+        self.trouble = ""
+        self.calls = 0
+        self.tokens = 0
+
+    def begin_mission(self) -> None:
+        """Begin the budget of calls and tokens anew."""
+        self.calls = self.tokens = 0
+
+    def close(self) -> None:
+        """Give connections back."""
+        self._client.close()
+
+    def __call__(self, text: str, vocabulary: Vocabulary, context: Context) -> Outcome | None:
+        """What the model makes of a sentence; None if it is of no help, with ``trouble`` set."""
+        self.trouble = ""
+        until_s = self._clock() + self._endpoint.deadline_s
+        talk = prompt.messages(text, vocabulary, context)
+        schema = prompt.answer_schema(vocabulary)
+        try:
+            for _ in range(1 + MAX_REPAIRS):
+                said = self._ask(talk, schema, until_s)
+                outcome = _read(said, vocabulary)
+                if not isinstance(outcome, str):
+                    return outcome
+                self.trouble = f"the language model's answer was no use: {outcome}"
+                told = f"That is not valid: {outcome}. Answer again, with one JSON object."
+                talk = [
+                    *talk,
+                    {"role": "assistant", "content": said[:4000]},
+                    {"role": "user", "content": told},
+                ]
+        except _Unusable as why:
+            self.trouble = str(why)
+        return None
+
+    def _ask(self, talk: list[dict[str, str]], schema: dict[str, Any], until_s: float) -> str:
+        """One call.
+
+        Raises:
+            _Unusable: No budget or time is left, or the endpoint does not answer as it should.
+        """
+        self._may_ask(until_s)
+        self.calls += 1
+        body = {
+            "model": self._endpoint.model,
+            "messages": talk,
+            "temperature": 0,
+            "max_tokens": self._endpoint.answer_tokens,
+            "response_format": {
+                "type": "json_schema",
+                "json_schema": {"name": "robot_goals", "schema": schema},
+            },
+        }
+        try:
+            raw = self._post(body, until_s)
+        except (httpx.HTTPError, httpx.InvalidURL, OSError) as error:
+            raise _Unusable(
+                f"the language model cannot be reached ({type(error).__name__})"
+            ) from None
+        said, used = _content(raw)
+        self.tokens += used or (len(str(talk)) + len(raw)) // 3
+        return said
+
+    def _may_ask(self, until_s: float) -> None:
+        if self._barred:
+            raise _Unusable("the language model does not accept the key")
+        if self.calls >= self._endpoint.max_calls or self.tokens >= self._endpoint.max_tokens:
+            raise _Unusable("the language model's budget for this mission is spent")
+        if self._clock() >= until_s:
+            raise _Unusable("the language model did not answer in time")
+
+    def _post(self, body: dict[str, Any], until_s: float) -> bytes:
+        """The body of the reply, within the deadline and a limit of size."""
+        url = self._endpoint.base_url.rstrip("/") + "/chat/completions"
+        timeout = httpx.Timeout(max(until_s - self._clock(), 0.001))
+        headers = self._endpoint.key().header()
+        received = bytearray()
+        with self._client.stream("POST", url, json=body, headers=headers, timeout=timeout) as reply:
+            if reply.status_code in _FORBIDDEN:
+                self._barred = True
+            if not reply.is_success:
+                raise _Unusable(f"the language model answered {reply.status_code}")
+            for chunk in reply.iter_bytes():
+                received += chunk
+                if len(received) > MAX_ANSWER_BYTES:
+                    raise _Unusable("the language model's answer is too long")
+                if self._clock() >= until_s:
+                    raise _Unusable("the language model did not answer in time")
+        return bytes(received)
+
+
+class _Message(msgspec.Struct):
+    content: str | None = None
+
+
+class _Choice(msgspec.Struct):
+    message: _Message
+    finish_reason: str | None = None
+
+
+class _Usage(msgspec.Struct):
+    total_tokens: int = 0
+
+
+class _Completion(msgspec.Struct):
+    choices: list[_Choice] = []
+    usage: _Usage | None = None
+
+
+def _content(raw: bytes) -> tuple[str, int]:
+    """The words of the first choice, and the tokens used.
+
+    Raises:
+        _Unusable: It is no completion.
+    """
+    try:
+        completion = msgspec.json.decode(raw, type=_Completion)
+    except (msgspec.DecodeError, UnicodeDecodeError):
+        raise _Unusable("the language model's endpoint does not speak the protocol") from None
+    used = max(completion.usage.total_tokens, 0) if completion.usage else 0
+    if not completion.choices:
+        raise _Unusable("the language model gave no answer")
+    return completion.choices[0].message.content or "", used
+
+
+def _read(said: str, vocabulary: Vocabulary) -> Outcome | str:
+    """The outcome that an answer stands for, or what is wrong with it."""
+    try:
+        answer = msgspec.json.decode(_json_in(said), type=_Answer)
+    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
+        return str(error)[:300]
+    text = allowed.spoken(answer.text or "")
+    if answer.outcome == "refusal":
+        return Refusal(reason=text or "I cannot do that.", parser="model")
+    if answer.outcome == "question":
+        return Question(question=text, parser="model") if text else "a question has no text"
+    if answer.outcome != "goals":
+        return "outcome is to be goals, question or refusal"
+    goals = _goals(answer.goals)
+    if isinstance(goals, str):
+        return goals
+    wrong = allowed.fault(goals, vocabulary)
+    return wrong or Goals(goals=goals, parser="model")
+
+
+def _json_in(said: str) -> str:
+    """The answer without a fence of back quotes around it."""
+    plain = said.strip()
+    if plain.startswith("```"):
+        plain = plain.removeprefix("```json").removeprefix("```").rstrip("`").strip()
+    return plain
+
+
+def _goals(data: object) -> tuple[Goal, ...] | str:
+    try:
+        return from_builtins(cast("list[dict[str, Any]]", data))
+    except (msgspec.ValidationError, RecursionError) as error:
+        return str(error)[:300]
