@@ -1,4 +1,4 @@
-"""The tables of health and of recovery as pages: `python -m executive.pages docs`.
+"""The tables of health, recovery and evaluation as pages: `python -m executive.pages docs`.
 
 Each page keeps what people wrote; what stands between its markers is made of the code's tables.
 """
@@ -10,12 +10,16 @@ import sys
 from pathlib import Path
 
 from executive import health
+from executive.evaluation.campaign import SHIPPED, Campaign
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import HELP, REMEDIES, STEP_BACK_M, WAIT_S
+from robot import config
 from robot.bus.topics import BY_NAME
 from robot.errors import CATALOGUE
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
+
+PAGES = ("health.md", "recovery.md", "evaluation.md")
 
 WHAT = {
     "retry": "nothing first; it is planned anew, with another seed",
@@ -89,7 +93,24 @@ def budgets() -> str:
     )
 
 
+def campaign() -> str:
+    """What is expected of the robot under every fault."""
+    cases = config.load(SHIPPED, Campaign).cases
+    rows = [
+        [
+            case.name,
+            case.mission,
+            ", ".join(str(fault["fault"]) for fault in case.faults) or "-",
+            case.expect if case.recovers else " or ".join(f"`{code}`" for code in case.codes),
+            case.why,
+        ]
+        for case in cases
+    ]
+    return _table(["case", "mission", "fault", "expected", "that is"], rows)
+
+
 TABLES = {
+    "campaign": campaign,
     "silences": silences,
     "grades": grades,
     "rules": rules,
@@ -114,6 +135,6 @@ def _table(head: list[str], rows: list[list[str]]) -> str:
 
 
 if __name__ == "__main__":
-    for page in ("health.md", "recovery.md"):
+    for page in PAGES:
         path = Path(sys.argv[1]) / page
         path.write_text(filled(path.read_text(encoding="utf-8")), encoding="utf-8")

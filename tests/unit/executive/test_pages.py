@@ -4,19 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from executive.pages import TABLES, filled
+from executive.pages import PAGES, TABLES, filled
 
 DOCS = Path(__file__).parents[3] / "docs"
 
 
-@pytest.mark.parametrize("name", ["health.md", "recovery.md"])
+@pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_up_to_date(name):
     text = (DOCS / name).read_text(encoding="utf-8")
     assert filled(text) == text, "python -m executive.pages docs"
 
 
 def test_every_table_has_its_place():
-    text = "".join(
-        (DOCS / name).read_text(encoding="utf-8") for name in ("health.md", "recovery.md")
-    )
+    text = "".join((DOCS / name).read_text(encoding="utf-8") for name in PAGES)
     assert all(f"<!-- table: {name} -->" in text for name in TABLES)
