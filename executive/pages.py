@@ -33,7 +33,7 @@ WHAT = {
 
 def silences() -> str:
     """What the silence of a topic means."""
-    rows = [
+    rows: list[list[str]] = [
         [
             f"`{name}`",
             f"{BY_NAME[name].rate_hz:g} Hz",
@@ -96,7 +96,7 @@ def budgets() -> str:
 def campaign() -> str:
     """What is expected of the robot under every fault."""
     cases = config.load(SHIPPED, Campaign).cases
-    rows = [
+    rows: list[list[str]] = [
         [
             case.name,
             case.mission,
