@@ -49,6 +49,7 @@ class Growth:
         self._renewed: dict[int, float] = {}
         self._titles: list[str] = []
         self._remedied_s = -1.0
+        self._at_work: dict[str, dict[int, None]] = {}  # running skills by name
 
     def remedied(self, t_s: float) -> None:
         """A remedy was chosen: the node that did so is about to fail, as it always does."""
@@ -77,6 +78,8 @@ class Growth:
         node = self._known(told.id)
         before = self._statuses.get(node.id, "invalid")
         self._statuses[node.id] = told.status
+        if node.kind == "skill":
+            self._note_work(node, told.status)
         if told.status == "running" and before in ("success", "failure"):
             self._renew(t_s, node)
         if node.kind == "check" and told.status in ("success", "failure"):
@@ -101,12 +104,20 @@ class Growth:
             if _past(asks):
                 asks.changes.append(Change(t_s, "waiting"))
 
-    def phase(self, t_s: float, step: str, text: str) -> None:
-        """Take a ``phase`` event: a running skill of that name says something else of itself."""
-        for number, status in self._statuses.items():
+    def phase(self, t_s: float, data: Mapping[str, Any]) -> None:
+        """Take a ``phase`` event: a running skill says something else of itself."""
+        step, text, path = str(data["step"]), str(data["phase"]), str(data.get("id", ""))
+        for number in self._at_work.get(step, ()):
             node = self._nodes[number]
-            if status == "running" and node.kind == "skill" and node.name == step:
+            if not path or not node.step or node.step == path:
                 node.changes.append(Change(t_s, "running", text))
+
+    def _note_work(self, node: Node, status: Status) -> None:
+        at_work = self._at_work.setdefault(node.name, {})
+        if status == "running":
+            at_work[node.id] = None
+        else:
+            at_work.pop(node.id, None)
 
     def _known(self, number: int) -> Node:
         try:
@@ -169,6 +180,7 @@ class Growth:
             node = self._nodes[stack.pop()]
             if node.gone_s is None:
                 node.gone_s = t_s
+                self._note_work(node, "invalid")
                 if self._statuses.pop(node.id, "invalid") == "running":
                     node.changes.append(Change(t_s, "stopped"))
             stack.extend(node.children)

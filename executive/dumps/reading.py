@@ -61,12 +61,13 @@ class Reader:
             "run": self._run,
             "tree": self._growth.tree,
             "node": self._node,
-            "phase": self._phase,
+            "phase": self._growth.phase,
             "board": self._board,
             "health": self._health,
             "failure": troubles.failure,
             "recovery": self._recovery,
             "no recovery": troubles.no_recovery,
+            "again": troubles.again,
             "done": troubles.done,
             "outcome": troubles.outcome,
             "fault": troubles.fault,
@@ -133,9 +134,6 @@ class Reader:
     def _recovery(self, t_s: float, data: Mapping[str, Any]) -> None:
         self._troubles.recovery(t_s, data)
         self._growth.remedied(t_s)
-
-    def _phase(self, t_s: float, data: Mapping[str, Any]) -> None:
-        self._growth.phase(t_s, str(data["step"]), str(data["phase"]))
 
     def _board(self, t_s: float, data: Mapping[str, Any]) -> None:
         self.run.board.append(BoardChange(t_s, str(data["key"]), data["value"]))

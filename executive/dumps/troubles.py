@@ -53,6 +53,10 @@ class Troubles:
         """A remedy was chosen."""
         self._tried(t_s, data, f"{data['remedy']} ({data['count']})")
 
+    def again(self, t_s: float, data: Mapping[str, Any]) -> None:
+        """An attempt of a mission failed, and there is another one."""
+        self._tried(t_s, data, f"try again ({data['count']})")
+
     def no_recovery(self, t_s: float, data: Mapping[str, Any]) -> None:
         """There is no further remedy."""
         self._tried(t_s, data, f"no further recovery: {data['why']}")

@@ -15,8 +15,15 @@ SENTENCES: Mapping[str, str] = {
     "no recovery": "{step}: no recovery, {why}",
     "hold": "standing still: {why}",
     "pause": "pausing: {why}",
-    "paused": "paused: {why}",
+    "paused": "paused: the robot stands",
+    "break": "held at a breakpoint",
     "resume": "going on",
+    "resumed": "going on: {why}",
+    "request": "requested: {request}",
+    "again": "{step}: tried again ({count})",
+    "branch": "{name}: {took}",
+    "held": "in the hands: {hands}",
+    "warning": "warning: {text}",
     "stop": "stop: {why}",
     "cancel": "cancelling: {why}",
     "abort": "ending the task: {cause}",
@@ -41,6 +48,9 @@ def sentence(kind: str, data: Mapping[str, Any]) -> str:
         level = str(data.get("level", ""))
         well = f"{data.get('name', '')} is well again"
         return well if level == "OK" else f"{level.lower()}: {data.get('cause', '')}"
+    if kind == "expect":
+        found = f" ({data['found']})" if data.get("found") else ""
+        return f"{'' if data.get('so') else 'not '}as expected: {data.get('check', '')}{found}"
     if kind == "fault":
         keys = [f"{key} {value}" for key, value in data.items() if key != "fault"]
         return ", ".join([f"fault injected: {data.get('fault', '')}", *keys])
