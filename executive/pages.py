@@ -101,7 +101,7 @@ def campaign() -> str:
             case.name,
             case.mission,
             ", ".join(str(fault["fault"]) for fault in case.faults) or "-",
-            case.expect if case.recovers else " or ".join(f"`{code}`" for code in case.codes),
+            str(case.expect) if case.recovers else " or ".join(f"`{code}`" for code in case.codes),
             case.why,
         ]
         for case in cases
