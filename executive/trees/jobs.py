@@ -6,6 +6,7 @@ what they know. So it goes on at the step, and at the try of a recovery, where i
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -16,10 +17,12 @@ from py_trees.common import Status
 from py_trees.composites import Composite
 
 from executive.behaviours.scope import Scope
-from executive.behaviours.stage import Stage, failure_data
+from executive.behaviours.stage import Stage, broken, failure_data
 from executive.blackboard import FAILURE, GOAL, RECOVERIES, RESTLESS
 from executive.jobs import OVER, UNDER_WAY, Job, JobState, side_by_side
 from robot.errors import Failure, failure
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(eq=False)
@@ -82,10 +85,20 @@ class Jobs(Composite):
             if work.ending or work.node.status in (Status.SUCCESS, Status.FAILURE):
                 continue  # its body is coming to rest
             with self._stage.turn(work.scope):
-                yield from work.node.tick()
+                yield from self._tick(work)
         self.current_child = turns[0].node if turns else None
         self.status = Status.RUNNING if turns else Status.FAILURE
         yield self
+
+    def _tick(self, work: Work) -> Iterator[Behaviour]:
+        """Tick one job; a mistake in its part of the tree ends that job only."""
+        try:
+            yield from work.node.tick()
+        except Exception as error:
+            log.exception("job %d broke", work.job.number)
+            reason = broken(error)
+            self._stage.fail(reason, step=work.job.text)
+            self.end(work, reason)
 
     def stop(self, new_status: Status = Status.INVALID) -> None:
         """Freeze all jobs: something more urgent has the body."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from executive.jobs import OVER
 from executive.loop import Interrupts
 from executive.request import Understood, request
 from executive.session import Session
@@ -18,8 +19,6 @@ JOB = (
 )
 URGENT = "turn left, then wait one second"
 TICK_S = 0.05
-LONG = 2000
-"""More ticks than the job takes."""
 
 
 def understood(text) -> Understood:
@@ -65,7 +64,16 @@ class Run:
             if kind == "urgent":
                 self.session.submit(TASKS[URGENT], urgent=True)
             else:
-                getattr(self.executive, kind)(*(["enough"] if kind == "stop" else []))
+                {
+                    "pause": self.executive.pause,
+                    "resume": self.executive.resume,
+                    "stop": lambda: self.executive.stop("enough"),
+                    "cancel": self.cancel,
+                }[kind]()
+
+    def cancel(self):
+        if any(job.number == 1 and job.state not in OVER for job in self.executive.jobs):
+            self.executive.cancel(1)
 
     def rests(self):
         assert self.body.mode == "stand"
@@ -79,7 +87,7 @@ kinds = st.sampled_from(["pause", "pause", "resume", "urgent"])
 moments = st.tuples(st.integers(0, 900), kinds)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=5, deadline=None)
 @example(events=[])
 @given(events=st.lists(moments, max_size=5))
 def test_interrupted_at_any_tick_the_job_is_done_once_and_whole(events):
@@ -98,9 +106,14 @@ def test_interrupted_at_any_tick_the_job_is_done_once_and_whole(events):
 
 
 @settings(max_examples=8, deadline=None)
-@given(at=st.integers(0, 900), paused=st.booleans(), then=st.booleans())
-def test_stopped_at_any_tick_the_body_rests_and_can_go_on(at, paused, then):
-    events = [(at, "stop")] + ([(max(0, at - 8), "pause")] if paused else [])
+@given(
+    how=st.sampled_from(["stop", "cancel"]),
+    at=st.integers(0, 900),
+    paused=st.booleans(),
+    then=st.booleans(),
+)
+def test_ended_at_any_tick_the_body_rests_and_can_go_on(how, at, paused, then):
+    events = [(at, how)] + ([(max(0, at - 8), "pause")] if paused else [])
     run = Run(events + ([(at + 2, "urgent")] if then else []))
     jobs = {job.number: job for job in run.executive.jobs}
     assert jobs[1].state in ("cancelled", "done")

@@ -6,6 +6,8 @@ import pytest
 
 from executive.app import JobError
 from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
+from executive.behaviours.conditions import Check
+from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.stage import STOP_TIMEOUT_S
 from executive.blackboard import HELP
 from executive.jobs import Job, Limits, side_by_side
@@ -18,7 +20,7 @@ from executive.skills.parameters import (
     StopParams,
     WaitParams,
 )
-from executive.trees.idioms import in_order
+from executive.trees.idioms import Alternatives, in_order
 from executive.trees.recovery import Errand
 from robot.messages import LidarScan
 from tests.fakes.rig import PICK, TICK_S, WAIT, WALK, Rig
@@ -112,6 +114,26 @@ def test_requests_for_jobs_that_are_not_there_are_refused():
     rig.run()
     with pytest.raises(JobError):
         rig.executive.drop(1)
+
+
+def test_a_mistake_in_one_jobs_tree_ends_that_job_only():
+    def wrong(_board):
+        raise KeyError("a bug")
+
+    rig = Rig({NavigateParams: [Script(steps=20)]})
+    rig.submit(WALK, resources=LEGS)
+    rig.executive.submit(
+        lambda stage: in_order("task", [
+            RunSkill("wait", WAIT.params, stage=stage), Check("?", wrong, board=stage.board)
+        ]),
+        text="broken",
+        resources=HEAD,
+    )  # fmt: skip
+    rig.run()
+    jobs = {job.number: job for job in rig.executive.jobs}
+    assert jobs[1].state == "done"
+    assert jobs[2].failure.code == "internal"
+    assert rig.stage.quiet
 
 
 # --- urgent -------------------------------------------------------------------------------------
@@ -363,9 +385,6 @@ def asking(rig):
     """A job that fails with a code, asks for help, and does the step once more."""
 
     def build(stage):
-        from executive.behaviours.run_skill import RunSkill
-        from executive.trees.idioms import Alternatives
-
         node = Alternatives("pick", RunSkill("pick", PICK.params, stage=stage))
         ask = AskForHelp("please hand me the cup", stage=stage)
         node.add_child(in_order("help", [ask, RunSkill("pick", PICK.params, stage=stage)]))
