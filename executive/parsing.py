@@ -15,6 +15,7 @@ from intents.goals import to_builtins
 from intents.outcomes import Goals, Outcome, Question, to_record
 from intents.parser import parse
 from intents.vocabulary import Vocabulary
+from intents.wording import in_words
 from robot.bringup import entry
 from robot.errors import ConfigError, Problem
 
@@ -61,10 +62,23 @@ def _record(text: str, outcome: Outcome) -> str:
 
 
 def _words(text: str, outcome: Outcome) -> str:
-    """An outcome for people."""
+    """An outcome for people: what is understood, from which words, and the goals."""
     if isinstance(outcome, Goals):
         goals = [msgspec.json.encode(goal).decode() for goal in to_builtins(outcome.goals)]
-        return "\n".join([text, *(f"  {goal}" for goal in goals)])
+        lines = [text, f"  understood: {in_words(outcome.goals)}", *_why(outcome)]
+        return "\n".join([*lines, *(f"  {goal}" for goal in goals)])
     if isinstance(outcome, Question):
-        return f"{text}\n  question: {outcome.question}"
+        choices = [f"    - {choice.label}" for choice in outcome.choices]
+        return "\n".join([text, f"  question: {outcome.question}", *choices])
     return f"{text}\n  refused: {outcome.reason}"
+
+
+def _why(outcome: Goals) -> list[str]:
+    """From which words what was understood; nothing where that is plain."""
+    told = {
+        "stop": ["  why: a cry to stop comes before everything else"],
+        "model": ["  why: the language model read it so"],
+    }.get(outcome.parser, [])
+    clauses = outcome.clauses if len(outcome.clauses) > 1 else ()
+    told += [f"  “{said}”: {in_words(goals) if goals else 'noted'}" for said, goals in clauses]
+    return told + ([f"  {outcome.reason}"] if outcome.reason else [])

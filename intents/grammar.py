@@ -67,11 +67,13 @@ class Grammar(Constructions):
 
     Attributes:
         history: The goals of the sentence before, for "do it again".
+        trace: Each clause as it was said, with what it was read as by itself.
     """
 
     def __init__(self, text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> None:
         super().__init__(text, scope)
         self.history = history
+        self.trace: list[tuple[str, tuple[Goal, ...]]] = []
         self._depth = 0
 
     def read(self) -> list[Goal]:
@@ -113,6 +115,8 @@ class Grammar(Constructions):
             wish = goals[-1:] if self.wanted else []
             self.wanted = False
             found, end = self._one_more(at, goals)
+            if not self._depth:
+                self.trace.append((self.text.raw(at, end), tuple(found)))
             if wish and _same_object(wish[0], found[:1]):
                 found[0] = _as_wished(found[0], goals.pop())
             if goals and found:

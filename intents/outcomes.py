@@ -16,12 +16,14 @@ class Goals(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         parser: Which parser understood it.
         reason: How it was understood, where there is something to remark.
+        clauses: What was said, clause by clause, and what each was read as by itself.
         ms: How long that took [ms].
     """
 
     goals: tuple[Goal, ...]
     parser: ParserName = "grammar"
     reason: str | None = None
+    clauses: tuple[tuple[str, tuple[Goal, ...]], ...] = ()
     ms: float = 0.0
 
 

@@ -124,7 +124,8 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         return Refusal(reason="I heard nothing; say for example “bring me the cup”."), context
     scope = Scope(words.index, context.object, context.person, context.place)
     try:
-        goals = tuple(Grammar(words, scope, context.goals).read())
+        grammar = Grammar(words, scope, context.goals)
+        goals = tuple(grammar.read())
     except Partly as partly:
         return _settled(_partly(text, partly), context, scope)
     except Unclear as unclear:
@@ -138,7 +139,10 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         return Refusal(reason=f"{_sentence(str(error))}."), context
     if not goals:
         return Refusal(reason="I see nothing to do in that."), context
-    return _settled(_remarked(_checked(text, goals, context), words), context, scope)
+    checked = _checked(text, goals, context)
+    if isinstance(checked, Goals):
+        checked = replace(checked, clauses=tuple(grammar.trace))
+    return _settled(_remarked(checked, words), context, scope)
 
 
 def _partly(text: str, partly: Partly) -> Question:
