@@ -128,7 +128,7 @@ def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> in
     """Open the runtime, do a job (or go on with it), say how it ended; the exit status."""
     kind: runtimes.Kind = "fast" if options.fast else "live"
     show = along(
-        _silent if options.as_json else _on_screen,
+        silent if options.as_json else on_screen,
         options.dump,
         on=options.dump_on,
         formats=options.dump_format,
@@ -159,11 +159,12 @@ def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> in
     return summary.exit_status
 
 
-def _silent(_executive: Executive) -> Progress:
+def silent(_executive: Executive) -> Progress:
+    """Show nothing (`--json`)."""
     return Silent()
 
 
-def _on_screen(executive: Executive) -> Progress:
+def on_screen(executive: Executive) -> Progress:
     """A live tree on a terminal, plain lines elsewhere."""
     console = Console()
     if console.is_terminal:

@@ -26,7 +26,7 @@ from executive.lines import BackgroundFile, LineFile, Lines, is_open
 from robot.errors import ConfigError
 
 FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
-RING_LINES = 20_000
+CAPACITY = 20_000
 STALLED_S = 0.5
 
 Listener = Callable[["Event"], None]
@@ -49,9 +49,10 @@ class Journal:
         folder: Path | None = None,
         *,
         wall_s: Callable[[], float] | None = None,
-        capacity: int = RING_LINES,
+        capacity: int = CAPACITY,
         background: bool = False,
         first: int = 0,
+        wall_from: int = 0,
         lines: Lines | None = None,
     ) -> None:
         """Keep a journal.
@@ -62,6 +63,7 @@ class Journal:
             capacity: how many lines may wait for a disk that is full or stalled.
             background: write in a thread, so that a stalled disk cannot stop the caller.
             first: number of the first event, when a journal is gone on with.
+            wall_from: events before that number get no time of day: it stands there already.
             lines: where the lines go in place of a file in `folder`.
         """
         kind = BackgroundFile if background else LineFile
@@ -72,6 +74,7 @@ class Journal:
         if folder is not None and wall_s is not None:
             self._wall = kind(folder / WALL_FILE, capacity=capacity)
         self._wall_s = wall_s
+        self._wall_from = wall_from
         self._count = first
         self._behind_since_s: float | None = None
         self._problem = ""
@@ -102,7 +105,8 @@ class Journal:
             waited = self._lines.waiting
             self._lines.append(encode(entry))
             problem = self._lines.problem or self._stalled(min(waited, self._lines.waiting), now_s)
-        if self._wall is not None and self._wall_s is not None:
+        timed = entry.n >= self._wall_from
+        if timed and self._wall is not None and self._wall_s is not None:
             wall = {"n": entry.n, "wall_s": round(self._wall_s(), 3)}
             self._wall.append(msgspec.json.encode(wall))
         for listener in self._listeners:

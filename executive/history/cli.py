@@ -17,6 +17,7 @@ def register(app: typer.Typer) -> None:
     app.command()(why)
     app.command()(history)
     app.command()(replay)
+    app.command()(resume)
 
 
 def why(run: Run = None, *, as_json: AsJson = False) -> None:
@@ -59,3 +60,21 @@ def replay(run: Run = None, *, as_json: AsJson = False) -> None:
     from executive.history import showing
 
     raise typer.Exit(showing.replay(run, as_json=as_json))
+
+
+def resume(run: Run = None, *, as_json: AsJson = False) -> None:
+    """Go on with a run that was cut off: by kill -9, a crash, a power cut.
+
+    A --fast run is done again up to where it was, proved to be the same, and goes on. Of a live run
+    only the journal is left: a new robot holds what was done against its world, and does again what
+    is not so. (While its robot lives, a live run goes on by itself when its executive dies.)
+
+    [bold]Example[/bold]
+
+      humanoid resume 20261121-134158
+
+    Exit status: as of humanoid do; 1 also if it does not repeat, 2 if nothing is left of it.
+    """
+    from executive.history import resume as command
+
+    raise typer.Exit(command.resume(run, as_json=as_json))

@@ -68,14 +68,13 @@ def do(
 
 
 def newest_job(events: list[Event]) -> list[Event]:
-    """The events since the newest submission, and of what it went on with."""
-    begins = [
-        number
-        for number, event in enumerate(events)
-        if event.event == "request" and event.data.get("request") == "submit"
-        and not event.data.get("origin", {}).get("done")
-    ]  # fmt: skip
-    return events[begins[-1] :] if begins else events
+    """The events since the newest submission that was not one of going on."""
+    begin = 0
+    for number, event in enumerate(events):
+        submitted = event.event == "request" and event.data.get("request") == "submit"
+        if submitted and events[number - 1].event != "resumed":
+            begin = number
+    return events[begin:]
 
 
 def _go_on(session: Session, job: Job, events: list[Event], *, anew: bool) -> None:
@@ -95,7 +94,7 @@ def _go_on(session: Session, job: Job, events: list[Event], *, anew: bool) -> No
         now_s, "resumed", why=_words(found, anew=anew), done=sorted(found.done),
         again=[{"step": step, "why": why} for step, why in found.again],
     )  # fmt: skip
-    session.submit(job.understood, done=found.done)
+    session.submit(job.understood, limits=job.limits, origin=job.origin, done=found.done | job.done)
 
 
 def _words(found: Agreement, *, anew: bool) -> str:

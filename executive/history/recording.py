@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from executive import journal, origin, request
+from executive.faults import FaultPlan
 from executive.journal import FILE, Event
 from executive.request import Refused, Setting, Understood
 from executive.runs import Header
@@ -17,6 +18,7 @@ from robot.bringup import entry
 from robot.errors import ConfigError, Problem
 
 MISSIONS = "executive.missions.restoring:restore"
+MISSION_FAULTS = "executive.missions.restoring:faults"
 
 Restore = Callable[[dict[str, Any], Path, Setting], Understood]
 
@@ -50,6 +52,12 @@ class Recording(msgspec.Struct, frozen=True, kw_only=True):
             if event.event in ("outcome", "request"):
                 return event.event == "outcome"
         return False
+
+    @property
+    def submitted(self) -> Event | None:
+        """The newest submission of a job; None before the first."""
+        asked = (event for event in reversed(self.events) if event.event == "request")
+        return next((event for event in asked if event.data.get("request") == "submit"), None)
 
     @property
     def inputs(self) -> list[Event]:
@@ -116,3 +124,19 @@ def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
     if isinstance(meant, Refused):
         raise ConfigError([Problem(f"{text!r}: {meant.reason}", suggestion=meant.suggestion)])
     return meant
+
+
+def planned_faults(recording: Recording, where: Setting) -> tuple[FaultPlan, ...]:
+    """What was to go wrong on purpose: the plan of the mission, if it was one.
+
+    Raises:
+        ConfigError: if the mission's file is gone or was changed.
+    """
+    submitted = recording.submitted
+    made_from: dict[str, Any] = submitted.data.get("origin", {}) if submitted is not None else {}
+    if "mission" not in made_from:
+        return ()
+    plans: tuple[FaultPlan, ...] = entry.attribute(MISSION_FAULTS)(
+        made_from, recording.folder, where
+    )
+    return plans

@@ -111,8 +111,19 @@ def opened(
     *,
     checked: Checked,
     interrupts: Interrupts | None = None,
+    journal: Journal | None = None,
 ) -> Session:
-    """A session that is asked for everything that was asked for in the recorded one."""
+    """A session that is asked for everything that was asked for in the recorded one.
+
+    Args:
+        recorded: the run.
+        where: its setting, as it is now.
+        runtime: entered, at its beginning.
+        planner: answers the skills' requests.
+        checked: compares the lines of the journal.
+        interrupts: of somebody who is there now.
+        journal: that writes to `checked`, a new one by default.
+    """
     slow = SlowPlanner(planner)
     session = Session(
         runtime,
@@ -120,14 +131,23 @@ def opened(
         description=where.description,
         interrupts=interrupts or Interrupts(),
         seed=recorded.header.seed,
-        journal=Journal(lines=checked),
+        journal=journal or Journal(lines=checked),
     )
     session.executive.attended = recorded.header.attended
-    begin_s = runtime.clock.now_s()
-    injector = Injector((), runtime, session.journal, begin_s=begin_s, planner=slow)
+    plans = recording.planned_faults(recorded, where)
+    injector = Injector(
+        plans,
+        runtime,
+        session.journal,
+        begin_s=runtime.clock.now_s(),
+        seed=recorded.header.seed,
+        planner=slow,
+        kill=_survive,
+    )
+    inputs = [event for event in recorded.inputs if event.event == "request" or not plans]
     feeder = Feeder(
         session,
-        recorded.inputs,
+        inputs,
         restore=lambda event: recording.restore(event, recorded.folder, where),
         injector=injector,
     )
@@ -135,3 +155,7 @@ def opened(
     feeder.feed()
     session.on_tick(feeder.feed)
     return session
+
+
+def _survive() -> None:
+    """A killed executive is one that is not there: the one that does it again lives on."""

@@ -60,7 +60,7 @@ def history(*, count: int, as_json: bool) -> int:
 def replay(run: str | None, *, as_json: bool) -> int:
     """Do a run again and compare; returns the exit status, 1 where it differs."""
     folder = past.find(run)
-    with _progress(f"replaying {folder.name}", quiet=as_json) as follow:
+    with following(f"replaying {folder.name}", quiet=as_json) as follow:
         result = again.replay(folder, follow=follow)
     status = 1 if result.difference else 0
     if as_json:
@@ -73,7 +73,7 @@ def replay(run: str | None, *, as_json: bool) -> int:
             f"in {result.simulated_s:.1f} s of robot time."
         )
     else:
-        typer.echo("\n".join(_differs(result.difference)))
+        typer.echo("\n".join(differs(result.difference)))
     for change in result.changed:
         typer.echo(f"  note: {change}, since it was recorded")
     if result.difference is not None and result.changed:
@@ -83,7 +83,7 @@ def replay(run: str | None, *, as_json: bool) -> int:
     return status
 
 
-def _differs(difference: Difference) -> list[str]:
+def differs(difference: Difference) -> list[str]:
     """The first difference, with what led up to it."""
     lines = [f"Not the same: event {difference.number} is the first that differs."]
     lines += [f"    {event.t_s:9.3f} s  {_short(event)}" for event in difference.before]
@@ -101,7 +101,7 @@ def _short(event: Event) -> str:
 
 
 @contextmanager
-def _progress(words: str, *, quiet: bool) -> Generator[again.Follow]:
+def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
     """A bar over the run's time, on standard error."""
     console = Console(stderr=True, quiet=quiet)
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from executive.missions.check import Options, check
+from executive.faults import FaultPlan
+from executive.missions.check import Checked, Options, check
 from executive.missions.run import digest, understood
 from executive.request import Setting, Understood
 from robot.errors import ConfigError, Problem
@@ -22,6 +23,15 @@ def restore(made_from: dict[str, Any], folder: Path, where: Setting) -> Understo
     Raises:
         ConfigError: the files are gone, changed or wrong.
     """
+    return understood(_checked(made_from, folder, where))
+
+
+def faults(made_from: dict[str, Any], folder: Path, where: Setting) -> tuple[FaultPlan, ...]:
+    """What goes wrong on purpose in that mission; arguments and errors as for `restore`."""
+    return _checked(made_from, folder, where).faults
+
+
+def _checked(made_from: dict[str, Any], folder: Path, where: Setting) -> Checked:
     if "mission" not in made_from:
         raise ConfigError(f"{folder}: it is not known what the job was made from")
     path = Path(str(made_from["mission"]))
@@ -35,4 +45,4 @@ def restore(made_from: dict[str, Any], folder: Path, where: Setting) -> Understo
     if digest(checked) != made_from.get("digest"):
         cure = "put the file back as it was, or run the mission anew"
         raise ConfigError([Problem("the mission was changed since", str(path), suggestion=cure)])
-    return understood(checked)
+    return checked
