@@ -1,12 +1,13 @@
 """Where the nodes of a picture stand: a tidy tree from left to right.
 
 Leaves stand one below the other; a node stands in the middle of its children, in the column of its
-depth. Every node has its box to itself, whatever the tree, and 500 of them remain a list that can
-be read from top to bottom. [Wetherell and Shannon 1979] calls it tidy.
+depth. Every node has its box to itself, whatever the tree ([Wetherell and Shannon 1979] calls it
+tidy), and 500 of them remain a list that can be read from top to bottom, in columns.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
@@ -21,6 +22,8 @@ LINE_HEIGHT, NOTE_HEIGHT = 26.0, 15.0
 NAME_CHARS, NOTE_CHARS = 48, 60
 
 NAME_PX, NOTE_PX = 13, 11
+ASPECT = 1.5
+"""How high a picture may be for its width; a higher one gets another column."""
 
 Measure = Callable[[str, int], float]
 """Width of a text in pixels, in letters of a size."""
@@ -75,12 +78,68 @@ class Picture(msgspec.Struct, kw_only=True):
 
 
 def arrange(roots: Sequence[Shown], measure: Measure) -> Picture:
-    """Lay a snapshot out."""
+    """Lay a snapshot out: in one column, or, where that would be a long strip, in several."""
+    whole = _column(roots, measure)
+    count = round(math.sqrt(whole.height / (ASPECT * max(whole.width, 1.0))))
+    if count < 2:
+        return whole
+    return _beside([_column(part, measure) for part in split(roots, count)])
+
+
+def split(roots: Sequence[Shown], count: int) -> list[list[Shown]]:
+    """A snapshot in parts of about as many leaves each, in order.
+
+    What a leaf stands in comes again in every part that it goes on into.
+    """
+    leaves = sum(1 for root in roots for _, shown in root.walk() if not shown.children)
+    parts: list[list[Shown]] = [[] for _ in range(count)]
+    copies: list[dict[int, Shown]] = [{} for _ in range(count)]
+    path: list[Shown] = []
+    number = 0
+    for root in roots:
+        for depth, shown in root.walk():
+            path[depth:] = [shown]
+            if shown.children:
+                continue
+            part = number * count // leaves
+            number += 1
+            siblings, known = parts[part], copies[part]
+            for above in path:
+                if above.id not in known:
+                    again = any(above.id in before for before in copies[:part])
+                    known[above.id] = _copy(above, again=again)
+                    siblings.append(known[above.id])
+                siblings = known[above.id].children
+    return parts
+
+
+def _copy(shown: Shown, *, again: bool) -> Shown:
+    note = "continued" if again else shown.note
+    return msgspec.structs.replace(shown, note=note, children=[])
+
+
+def _beside(columns: Sequence[Picture]) -> Picture:
+    """Columns side by side."""
+    whole = Picture(width=0.0, height=0.0, boxes=[], edges=[])
+    for column in columns:
+        first = len(whole.boxes)
+        for box in column.boxes:
+            box.x += whole.width
+        whole.boxes += column.boxes
+        whole.edges += [(parent + first, child + first) for parent, child in column.edges]
+        whole.width += column.width
+        whole.height = max(whole.height, column.height)
+    return whole
+
+
+def _column(roots: Sequence[Shown], measure: Measure) -> Picture:
     boxes, edges, depths = _boxes(roots, measure)
     widths: dict[int, float] = {}
     for box, depth in zip(boxes, depths, strict=True):
         widths[depth] = max(widths.get(depth, 0.0), box.width)
-    lefts = {depth: _left(depth, widths) for depth in widths}
+    lefts = [MARGIN]
+    for depth in range(len(widths)):
+        lefts.append(lefts[depth] + widths[depth] + GAP_X)
     below: list[list[int]] = [[] for _ in boxes]
     for parent, child in edges:
         below[parent].append(child)
@@ -115,10 +174,6 @@ def _stack(boxes: list[Box], below: list[list[int]], roots: list[int]) -> None:
             first, last = children[0], children[-1]
             middle = 0.5 * (first.y + 0.5 * first.height + last.y + 0.5 * last.height)
             boxes[index].y = middle - 0.5 * boxes[index].height
-
-
-def _left(depth: int, widths: dict[int, float]) -> float:
-    return MARGIN + sum(widths[level] + GAP_X for level in range(depth))
 
 
 def _boxes(
