@@ -5,7 +5,7 @@ little:
 
 - *inside*: the time spent in `Journal.write`, in the recorder and in a dumper, as a share of all;
 - *in turns*: runs with everything kept and runs with nothing kept (no files, no recorder), one
-  after the other in turns; the medians compared. Noisier, but nothing can hide from it.
+  after the other. Far noisier on a busy machine, but nothing can hide from it.
 """
 
 from __future__ import annotations
