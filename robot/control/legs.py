@@ -210,6 +210,7 @@ class Legs:
             contact=ref.contact,
             max_force_n=[share * weight_n for share in ref.max_force_share],
             rest_acc=rest_acc,
+            strain=ref.strain,
         )
 
     def _com_acc(

@@ -29,6 +29,8 @@ GRAVITY_M_S2 = 9.81
 COM_WEIGHT = 50.0
 SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0
+STRAINED_COM_WEIGHT = 1000.0  # with a push to catch, turning the trunk is worth its while
+STRAINED_PELVIS_WEIGHT = 1.0
 WAIST_WEIGHT = 4.0
 POSTURE_WEIGHT = 0.02
 FORCE_WEIGHT = 1e-5
@@ -53,6 +55,7 @@ class Task:
         contact: which feet bear on the floor.
         max_force_n: cap on each foot's normal force.
         rest_acc: of the joints that are not active, by dof, shape (nv,); 0 for those that are.
+        strain: 0 to 1, how much the centre of mass comes before an upright trunk.
     """
 
     com_acc: Array
@@ -61,6 +64,7 @@ class Task:
     contact: list[bool]
     max_force_n: list[float]
     rest_acc: Array
+    strain: float = 0.0
 
 
 @dataclass(slots=True)
@@ -122,6 +126,7 @@ class WholeBody:
         self._own = as_index(self.dofs)
         patterns = [(True, True), (True, False), (False, True), (False, False)]
         self._programmes = {pattern: self._allocate(pattern) for pattern in patterns}
+        self._strain = 0.0
         self._rows: Array = np.zeros((15, self.size))
         self._weighted: Array = np.zeros((15, self.size))
         self._b: Array = np.zeros(15)
@@ -178,6 +183,8 @@ class WholeBody:
         """Solve for this tick; `ok` is False where the programme has no solution."""
         left, right = task.contact
         programme = self._programmes[left, right]
+        if task.strain != self._strain:
+            self._weigh(task.strain)
         own, size = self._own, self.size
         M_own = dynamics.M[own]
         known = np.dot(M_own, task.rest_acc)
@@ -210,6 +217,15 @@ class WholeBody:
         for k, i in enumerate(programme.feet):
             solution.wrench[i] = x[size + 6 * k : size + 6 * k + 6]
         return solution
+
+    def _weigh(self, strain: float) -> None:
+        """Between upright and at rest, and whatever keeps it from falling."""
+        self._strain = strain
+        com = COM_WEIGHT * (STRAINED_COM_WEIGHT / COM_WEIGHT) ** strain
+        pelvis = PELVIS_WEIGHT * (STRAINED_PELVIS_WEIGHT / PELVIS_WEIGHT) ** strain
+        for programme in self._programmes.values():
+            programme.weight[:3] = com
+        self._own_weight[:3] = self._regular[3:6] = pelvis
 
     def _objective(
         self,

@@ -44,20 +44,29 @@ DEADBAND_M = 0.02
 FREEZE_S = 0.08
 TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
-SHORTEST_SHARE = 0.65
+SHORTEST_SHARE = 0.5
 LONGEST_SHARE = 1.35
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
 ZMP_MARGIN_M = 0.008
 REACH_FORWARD_M = 0.42
-REACH_SIDE_M = 0.42
+CATCH_WIDTH_M = 0.12  # between the feet of a step that catches a push
+ESCAPE_LEAD_M = 0.005  # the DCM nearer to the ZMP than this, or beyond it: it will not come back
+URGENT_DOUBLE_S = 0.05
+URGENT_M = 0.03
+HIP_M = 0.038  # the ZMP beyond the sole that turning the trunk is worth for a while
+REACH_SIDE_M = 0.50
 
 Phase = Literal["stand", "double", "single"]
 
 
 @dataclass(slots=True)
 class Reference:
-    """What the gait wants of the body now; all in N."""
+    """What the gait wants of the body now; all in N.
+
+    `strain` says how far the commanded ZMP lies beyond the soles, 0 to 1: what the trunk's turning
+    must give.
+    """
 
     xi: Point
     zmp: Point
@@ -65,6 +74,7 @@ class Reference:
     contact: list[bool]
     max_force_share: list[float]
     heading_rad: float
+    strain: float = 0.0
     swing: Swing | None = None
     swing_side: Side | None = None
 
@@ -222,10 +232,12 @@ class Gait:
         touches = bears > TOUCHDOWN_LOAD and expected
         stamps = bears > STAMP_LOAD and self.phase_s > STAMP_S
         if touches or stamps or self.phase_s > self.duration_s + LATE_S:
-            self._touch_down(side, measured)
+            self._touch_down(side, measured, xi)
 
-    def _touch_down(self, side: Side, measured: dict[Side, Sole]) -> None:
+    def _touch_down(self, side: Side, measured: dict[Side, Sole], xi: Point) -> None:
         """The swing foot bears: plan the next double support from where it really stands."""
+        xi_ref, _ = self._plan.at(self._plan_time())
+        urgent = math.dist(xi, xi_ref) > URGENT_M
         unused_s = max(0.0, min(MAX_UNUSED_S, self.duration_s - self.phase_s))
         going_on = len(self._landings) > 1
         before = self.support
@@ -241,6 +253,8 @@ class Gait:
             landing = self.planner.next(self.planted[side], self.planted[swing], swing, wish)
             self._landings = self._look_ahead(landing or self._landings[1])
             duration_s = self.description.walking.double_support_s + unused_s
+            if urgent:
+                duration_s = min(duration_s, URGENT_DOUBLE_S)
             self._start_double(duration_s, self._zmp_of(self.planted[before]))
         else:
             self._landings = []
@@ -354,8 +368,11 @@ class Gait:
         wanted_s = self._nominal_s
         if abs(error_at_end(now - planned, zmp, left_s, self.omega_1_s)) > TIMING_DEADBAND_M:
             shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
-            wanted_s = self.phase_s + time_to_reach(now - zmp, end - zmp, self.omega_1_s)
-            wanted_s = max(shortest, min(longest, wanted_s))
+            if now - zmp < ESCAPE_LEAD_M:
+                wanted_s = shortest
+            else:
+                wanted_s = self.phase_s + time_to_reach(now - zmp, end - zmp, self.omega_1_s)
+                wanted_s = max(shortest, min(longest, wanted_s))
         wanted_s = max(wanted_s, self.phase_s + FREEZE_S)
         gain = dt_s / (TIMING_FILTER_S + dt_s)
         self.duration_s += gain * (wanted_s - self.duration_s)
@@ -373,7 +390,7 @@ class Gait:
         s = sign_of(other(self.support))
         forward, left, turn = support.relative(landing)
         forward = max(-REACH_FORWARD_M, min(REACH_FORWARD_M, forward))
-        width = self.description.walking.min_stance_width_m
+        width = min(CATCH_WIDTH_M, self.description.walking.min_stance_width_m)
         left = s * max(width, min(REACH_SIDE_M, s * left))
         return support.offset(forward, left, turn_rad=turn)
 
@@ -382,7 +399,7 @@ class Gait:
         gain = 1.0 + DCM_GAIN_1_S / self.omega_1_s
         x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
         y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
-        return self._polygon.clip((x, y))
+        return self._polygon.clip((x, y), beyond_m=HIP_M)
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
@@ -393,6 +410,7 @@ class Gait:
         elif self.phase == "single":
             self._integral = [0.0, 0.0]
         command = self._command(xi, xi_ref, zmp_ref)
+        strain = max(0.0, min(1.0, -self._polygon.margin_m(command) / HIP_M))
         contact, share = [True, True], [2.0, 2.0]
         swing_side: Side | None = None
         heading = self._stance().yaw
@@ -406,4 +424,6 @@ class Gait:
             lifting = SIDES.index(other(self.support))
             left = max(0.0, 1.0 - self.phase_s / self.duration_s)
             share[lifting] = 0.03 + 1.2 * left
-        return Reference(xi_ref, zmp_ref, command, contact, share, heading, self.swing, swing_side)
+        return Reference(
+            xi_ref, zmp_ref, command, contact, share, heading, strain, self.swing, swing_side
+        )

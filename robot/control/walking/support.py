@@ -32,15 +32,10 @@ class SupportPolygon:
         x, y = point
         return -max(a * x + b * y + c for a, b, c in self.planes)
 
-    def clip(self, point: Point) -> Point:
-        """The nearest point inside."""
+    def clip(self, point: Point, *, beyond_m: float = 0.0) -> Point:
+        """The nearest point inside, or as far towards `point` from there as may be."""
         x, y = point
-        inside = True
-        for a, b, c in self.planes:
-            if a * x + b * y + c > 1e-9:
-                inside = False
-                break
-        if inside:
+        if all(a * x + b * y + c <= 1e-9 for a, b, c in self.planes):
             return point
         best, best_d2 = point, math.inf
         n = len(self.vertices)
@@ -52,7 +47,8 @@ class SupportPolygon:
             d2 = (px - x) ** 2 + (py - y) ** 2
             if d2 < best_d2:
                 best, best_d2 = (px, py), d2
-        return best
+        share = min(1.0, beyond_m / math.sqrt(best_d2))
+        return best[0] + share * (x - best[0]), best[1] + share * (y - best[1])
 
 
 def convex_hull(points: list[Point]) -> list[Point]:

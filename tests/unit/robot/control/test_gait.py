@@ -162,3 +162,17 @@ def test_on_one_leg_the_foot_stays_up_for_as_long_as_asked(pendulum):
     assert up_s == pytest.approx(2.0, abs=0.15)
     assert pendulum.gait.phase == "stand"
     assert pendulum.gait.settled()
+
+
+def test_a_dcm_that_escapes_over_the_stance_foot_hastens_the_step(pendulum, juno):
+    gait = pendulum.gait
+    pendulum.run(1.5, wish=lambda _: Twist(forward_m_s=0.2))
+    while gait.phase != "single" or gait.phase_s < 0.05:
+        pendulum.tick()
+    outward = 1.0 if gait.support == "left" else -1.0
+    foot = gait.planted[gait.support]
+    pendulum.xi[1] = foot.y + outward * 0.12
+    for _ in range(8):
+        pendulum.tick()
+    assert gait.phase == "single"
+    assert gait.duration_s < 0.8 * juno.walking.single_support_s

@@ -62,3 +62,13 @@ def test_one_sole_is_its_rectangle_less_the_margin():
     assert support.clip((1.0, 1.0)) == pytest.approx(
         (HALF_LENGTH_M - MARGIN_M, HALF_WIDTH_M - MARGIN_M)
     )
+
+
+@given(soles, points, st.floats(0.001, 0.05))
+def test_a_point_outside_may_stay_a_little_outside(planted, point, beyond_m):
+    support = polygon(planted)
+    edge, kept = support.clip(point), support.clip(point, beyond_m=beyond_m)
+    assert math.dist(edge, kept) <= beyond_m + 1e-9
+    assert math.dist(kept, point) == pytest.approx(
+        max(0.0, math.dist(edge, point) - beyond_m), abs=1e-9
+    )

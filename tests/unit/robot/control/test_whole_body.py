@@ -155,3 +155,20 @@ def test_indices_without_a_gap_become_a_view():
     assert as_index(np.array([3, 4, 5])) == slice(3, 6)
     gap = np.array([3, 5])
     assert as_index(gap) is gap
+
+
+def test_under_strain_the_trunk_turns_to_move_the_centre_of_mass(body, whole, dynamics):
+    """On one foot, asked for more than the sole can give: strain gives more of it, by turning."""
+    sideways, turned = [], []
+    for strain in (0.0, 0.5, 1.0):
+        task = Task(
+            com_acc=np.array([0.0, -2.5, 0.0]), own_acc=np.zeros(3 + whole.active_count),
+            sole_acc=np.zeros(12), contact=[True, False], max_force_n=[1000.0, 1000.0],
+            rest_acc=np.zeros(body.model.nv), strain=strain,
+        )  # fmt: skip
+        solution = whole.solve(dynamics, task)
+        assert solution.ok
+        sideways.append(float(dynamics.M[1] @ solution.acc) / body.mass_kg)
+        turned.append(abs(float(solution.acc[3])))
+    assert sideways[2] < sideways[1] < sideways[0]
+    assert turned[2] > turned[1] > turned[0]
