@@ -369,7 +369,7 @@ class Compiler:
         return tuple(bodies)
 
     def _for_each(self, record: s.ForEachStep, node: Node, scope: Scope) -> p.Part | None:
-        items = self._each(record, node.entries["in"][1])
+        items = self.each(record, node.entries["in"][1])
         rounds: list[p.Part] = []
         for value in items:
             inside = scope.inside(record.for_each, value)
@@ -377,7 +377,7 @@ class Compiler:
             rounds.append(p.Series(name=f"with {value.value}", parts=parts))
         return p.Series(name=f"for each {record.for_each}", parts=tuple(rounds)) if rounds else None
 
-    def _each(self, record: s.ForEachStep, node: Node) -> list[Bound]:
+    def each(self, record: s.ForEachStep, node: Node) -> list[Bound]:
         """The things of a for_each, by name."""
         if isinstance(record.in_, str):
             return self._described(text_node(record.in_, node))
@@ -405,21 +405,25 @@ class Compiler:
 
     def _mission(self, record: s.MissionStep, node: Node, scope: Scope) -> p.Part | None:
         where = text_node(record.mission, node.entries["mission"][1])
-        called = self._called(where)
+        called = self.called(where)
         if called is None:
             return None
+        bound = self.arguments(called, node, scope, where)
+        if called.record.parameters.keys() - bound.keys():
+            return None
+        return self.mission(called, bound)
+
+    def arguments(self, called: Mission, node: Node, scope: Scope, where: Node) -> dict[str, Bound]:
+        """The values of a called mission's parameters: those of `with`, and defaults."""
         arguments = node.get("with")
         given = {
             name: filled
             for name, (_, value) in (arguments.entries if arguments else {}).items()
             if (filled := scope.fill(value) if value.kind == "text" else value) is not None
         }
-        bound = self.bound(called, given, where=where)
-        if called.record.parameters.keys() - bound.keys():
-            return None
-        return self.mission(called, bound)
+        return self.bound(called, given, where=where)
 
-    def _called(self, where: Node) -> Mission | None:
+    def called(self, where: Node) -> Mission | None:
         """The mission that a step calls, unless it would never end."""
         path = Path(where.file).parent / where.text
         if not path.suffix:

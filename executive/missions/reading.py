@@ -226,9 +226,14 @@ def _members(info: types.UnionType) -> list[types.Type]:
             bare = member.type if isinstance(member, types.Metadata) else member
             if isinstance(bare, types.UnionType):
                 known += _members(bare)
-            elif not isinstance(bare, types.NoneType):
+            elif not isinstance(bare, types.NoneType) and not _is_parameter(bare):
                 known.append(bare)
     return known
+
+
+def _is_parameter(info: types.Type) -> bool:
+    """Whether it stands for a parameter; those are filled in by now."""
+    return isinstance(info, types.StrType) and (info.pattern or "").startswith(r"^\{\{")
 
 
 _MEMBERS: dict[int, list[types.Type]] = {}

@@ -1,0 +1,89 @@
+"""XML as elements that know their line; entities, doctypes and depth are refused at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.parsers import expat
+
+from executive.missions.nodes import read_text
+from robot.errors import ConfigError, Problem
+
+MAX_DEPTH = 100
+MAX_ELEMENTS = 50_000
+
+
+class Element:
+    """A tag with its attributes, its children and its line (from 1)."""
+
+    __slots__ = ("attributes", "children", "file", "line", "tag")
+
+    def __init__(self, tag: str, attributes: dict[str, str], file: str, line: int) -> None:
+        """Begin without children."""
+        self.tag = tag
+        self.attributes = attributes
+        self.children: list[Element] = []
+        self.file = file
+        self.line = line
+
+    def wrong(self, message: str, cure: str = "") -> ConfigError:
+        """The error for something wrong with this element."""
+        return ConfigError([Problem(message, self.file, self.line, None, cure or None)])
+
+
+def read(path: Path) -> Element:
+    """The root of an XML file.
+
+    Raises:
+        ConfigError: it is no XML, too large, too deep, or declares a document type.
+    """
+    return parse(read_text(path), str(path))
+
+
+def parse(text: str, file: str) -> Element:
+    """The root of an XML text; raises ConfigError as `read` does."""
+    builder = _Builder(file)
+    try:
+        builder.parser.Parse(text, True)  # noqa: FBT003, expat's own signature
+    except expat.ExpatError as error:
+        what = expat.errors.messages[error.code]
+        place = Problem(
+            f"not valid XML: {what}", file, error.lineno, error.offset + 1, "see that line"
+        )
+        raise ConfigError([place]) from None
+    assert builder.root is not None
+    return builder.root
+
+
+class _Builder:
+    """Builds elements of expat's events."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.root: Element | None = None
+        self._stack: list[Element] = []
+        self._count = 0
+        self.parser = expat.ParserCreate()
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.StartDoctypeDeclHandler = self._doctype
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, self.file, self.parser.CurrentLineNumber)
+        self._count += 1
+        if len(self._stack) >= MAX_DEPTH:
+            raise element.wrong(f"nested deeper than {MAX_DEPTH} levels", "use SubTrees")
+        if self._count > MAX_ELEMENTS:
+            raise element.wrong(f"more than {MAX_ELEMENTS} elements", "split the file")
+        if self._stack:
+            self._stack[-1].children.append(element)
+        else:
+            self.root = element
+        self._stack.append(element)
+
+    def _end(self, _tag: str) -> None:
+        self._stack.pop()
+
+    def _doctype(self, name: str, *_rest: object) -> None:
+        line = self.parser.CurrentLineNumber
+        text = "document types and entities are not allowed"
+        raise ConfigError([Problem(text, self.file, line, None, f"take <!DOCTYPE {name} ...> out")])

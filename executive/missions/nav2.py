@@ -1,0 +1,97 @@
+"""Waypoints of Nav2 to a mission that walks along them.
+
+Two forms are read: what the RViz panel of Nav2 saves, and a list of poses as ROS prints them::
+
+    waypoints:                                    poses:
+      waypoint0:                                    - pose:
+        pose: [x, y, z]                                 position: {x: 1.0, y: 0.0, z: 0.0}
+        orientation: [w, x, y, z]                       orientation: {x: 0, y: 0, z: 0, w: 1}
+
+Positions are taken in the world's frame; of the orientation the heading is kept.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from executive.missions.btcpp.importing import as_yaml
+from executive.missions.nodes import Node, parse, read_text
+from executive.missions.problems import Problems
+from robot.se3 import SE3
+
+UPRIGHT_RAD = math.radians(5.0)
+"""More than that a waypoint may not lean: nobody walks on a wall."""
+
+
+def mission_of(path: Path) -> str:
+    """The text of a mission that walks along the waypoints of a file.
+
+    Raises:
+        ConfigError: with everything that is wrong in it, by line.
+    """
+    root = parse(read_text(path), str(path))
+    problems = Problems()
+    steps = [step for step in (_step(node, problems) for node in _points(root)) if step]
+    if not steps and len(problems) == 0:
+        problems.add(root, "there are no waypoints in it", "waypoints: or poses:")
+    problems.raise_any()
+    return as_yaml({"name": path.stem.replace("_", " "), "steps": steps})
+
+
+def _points(root: Node) -> list[tuple[str, Node]]:
+    """The waypoints in their order, each with its name."""
+    for key in ("waypoints", "poses"):
+        node = root.get(key)
+        if node is not None and node.kind == "map":
+            return [(name, value) for name, (_, value) in node.entries.items()]
+        if node is not None:
+            return [(f"waypoint {n + 1}", item) for n, item in enumerate(node.items)]
+    return [(f"waypoint {n + 1}", item) for n, item in enumerate(root.items)]
+
+
+def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
+    name, node = point
+    pose = node.get("pose")
+    if pose is not None and pose.kind == "map":  # PoseStamped
+        position, orientation = pose.get("position"), pose.get("orientation")
+    else:
+        position = pose or node.get("position")
+        orientation = node.get("orientation")
+    p_W = _numbers(position, "xyz", problems) if position else None
+    quat_wxyz = _numbers(orientation, "wxyz", problems) if orientation else [1.0, 0.0, 0.0, 0.0]
+    if position is None:
+        problems.add(node, f"{name} has no position", "pose: [x, y, z]")
+    if p_W is None or quat_wxyz is None:
+        return None
+    norm = math.sqrt(sum(value * value for value in quat_wxyz))
+    if not 0.99 < norm < 1.01:
+        problems.add(orientation or node, f"the quaternion has length {norm:.3g}, not 1")
+        return None
+    w, x, y, z = (value / norm for value in quat_wxyz)
+    lean_rad = math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
+    if lean_rad > UPRIGHT_RAD:
+        text = f"{name} leans by {math.degrees(lean_rad):.0f} degrees"
+        problems.add(orientation or node, text, "a robot stands upright")
+        return None
+    yaw_rad = SE3((0.0, 0.0, 0.0), (w, x, y, z)).yaw_rad
+    target = {"x_m": p_W[0], "y_m": p_W[1], "yaw_rad": round(yaw_rad, 6)}
+    return {"go_to": {"pose": target}, "name": name}
+
+
+def _numbers(node: Node, keys: str, problems: Problems) -> list[float] | None:
+    """Numbers out of a list, or out of a mapping by their names."""
+    if node.kind == "map":
+        parts = [node.get(key) for key in keys]
+    else:
+        parts = [*node.items] if len(node.items) == len(keys) else [None]
+    found: list[float] = []
+    for part in parts:
+        value = part.value if part is not None and part.kind == "text" else None
+        if not isinstance(value, int | float) or isinstance(value, bool):
+            text = f"{len(keys)} numbers should stand here: {', '.join(keys)}"
+            problems.add(part or node, text)
+            return None
+        found.append(float(value))
+    return found
