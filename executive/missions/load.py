@@ -12,8 +12,9 @@ from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord
 
 SUFFIX = ".yaml"
-FOLDER = Path(__file__).resolve().parents[2] / "missions"
-"""The shipped missions."""
+_PACKED, _BESIDE = Path(__file__).with_name("samples"), Path(__file__).parents[2] / "missions"
+FOLDER = _PACKED if _PACKED.is_dir() else _BESIDE
+"""The shipped missions: inside the package once installed, at the top of the sources before."""
 
 
 class Mission(msgspec.Struct, frozen=True, kw_only=True, eq=False):
