@@ -62,7 +62,7 @@ def do(
             text = job.understood.text
             header = runs.header(job.where, text=text, seed=job.seed, runtime=job.runtime_name)
             runs.begin(session.journal, header, now_s=now_s, folder=job.folder)
-        _go_on(session, job, newest_job(events), anew=left_by is not None)
+        go_on(session, job, newest_job(events), anew=left_by is not None)
 
     return see_through(session, job, begin=begin, show=show, wall=wall)
 
@@ -77,7 +77,7 @@ def newest_job(events: list[Event]) -> list[Event]:
     return events[begin:]
 
 
-def _go_on(session: Session, job: Job, events: list[Event], *, anew: bool) -> None:
+def go_on(session: Session, job: Job, events: list[Event], *, anew: bool) -> None:
     """Compare, say what was found, and submit what is left."""
     link = session.runtime.link
     found = agreement.look(

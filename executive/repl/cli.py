@@ -6,16 +6,20 @@ import sys
 from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 from rich.console import Console
 
 from executive import request, runs, runtimes
 from executive.journal import Event
+from executive.overseeing import oversee
 from executive.progress import sentence
 from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
+from robot.bringup.overseen import Handle
 from robot.clock import WallClock
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
@@ -26,7 +30,7 @@ ENDINGS = {"done": "Done", "failed": "Failed", "cancelled": "Ended"}
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):
-    """The options of `humanoid repl`."""
+    """The options of `humanoid repl`; `folder` is set once it begins."""
 
     world: str
     robot: str
@@ -42,30 +46,55 @@ def repl(options: Options) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    where = request.setting(
-        options.world, options.robot, vary_seed=options.seed if options.vary else None
-    )
+    _setting(options)
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for("prompt", stamp=stamp)
     runs.check_free(folder)
-    kind: runtimes.Kind = "fast" if options.fast else "live"
+    options = replace(options, folder=folder)
+    if options.fast:
+        return prompt(options)
+    plain = msgspec.to_builtins(options, enc_hook=str)
+    return oversee("executive.repl.cli:overseen", plain, as_json=False)
+
+
+def overseen(handle: Handle, plain: dict[str, Any]) -> int:
+    """Prompt in an executive of its own, or go on with a prompt whose executive died."""
+    options = msgspec.convert(plain, Options, dec_hook=lambda kind, value: kind(value))
+    return prompt(options, handle=handle)
+
+
+def _setting(options: Options) -> request.Setting:
+    vary_seed = options.seed if options.vary else None
+    return request.setting(options.world, options.robot, vary_seed=vary_seed)
+
+
+def prompt(options: Options, *, handle: Handle | None = None) -> int:
+    """The prompt itself; `handle` is that of a live robot."""
+    where, folder = _setting(options), options.folder
+    assert folder is not None
+    kind: runtimes.Kind = "fast" if handle is None else "live"
+    returning = handle is not None and handle.deaths > 0
     robot = Robot(
-        lambda: runtimes.opened(kind, where, seed=options.seed, folder=folder),
+        lambda: runtimes.opened(kind, where, seed=options.seed, folder=folder, handle=handle),
         where=where,
         seed=options.seed,
         folder=folder,
         wall=WallClock(),
         time_of_day=lambda: datetime.now().astimezone().timestamp(),
         idles=kind == "live",
+        returning=returning,
     )
     with ExitStack() as stack:
         with Console(stderr=True).status("starting the robot"):
             stack.enter_context(robot)
+        stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, folder=folder)
         robot.session.journal.listen(_tell)
         if sys.stdin.isatty() and sys.stdout.isatty():
             from executive.repl.terminal import Terminal
 
+            if returning:
+                say("The prompt is back; the robot goes on with what was open.")
             say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
             Terminal(shell, history=HISTORY.expanduser()).run()
             say("The robot comes to a stand." if robot.busy else "The robot stands.")

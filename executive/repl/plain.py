@@ -16,5 +16,6 @@ def work_off(shell: Shell, lines: Iterable[str]) -> None:
         shell.out(f"> {text}")
         shell.line(text)
         shell.robot.wait()
-        if shell.leaving or shell.robot.lost is not None:
+        gone = shell.robot.lost is not None or shell.robot.interrupts.count
+        if shell.leaving or gone:
             return

@@ -9,10 +9,13 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
+from executive import runs
 from executive.app import Executive
 from executive.faults import Injector, SlowPlanner
 from executive.jobs import OVER
+from executive.journal import Event, Journal, read
 from executive.loop import Interrupts, Runtime
+from executive.repl.returning import return_to
 from executive.repl.view import Observer, View
 from executive.request import Setting, Understood
 from executive.session import Session
@@ -36,6 +39,7 @@ class Robot:
         where: robot and world.
         view: the newest view.
         observer: set `observer.tree_wanted` to have the tree in the views.
+        interrupts: counts signals; whoever leaves on them listens.
     """
 
     session: Session
@@ -46,10 +50,11 @@ class Robot:
         *,
         where: Setting,
         seed: int,
-        folder: Path | None,
+        folder: Path,
         wall: Clock,
         time_of_day: Callable[[], float],
         idles: bool,
+        returning: bool = False,
     ) -> None:
         """Start nothing yet.
 
@@ -61,16 +66,19 @@ class Robot:
             wall: for the pace shown.
             time_of_day: for the journal's sibling file.
             idles: whether time passes while there is nothing to do (`live`).
+            returning: whether an executive before this one died in this run: its jobs go on.
         """
         self.where = where
         self.view = View()
         self.observer = Observer()
+        self.interrupts = Interrupts()
         self._opened = opened
         self._seed = seed
         self._folder = folder
         self._wall = wall
         self._time_of_day = time_of_day
         self._idles = idles
+        self._returning = returning
         self._up = threading.Event()
         self._wake = threading.Event()
         self._leaving = threading.Event()
@@ -121,14 +129,17 @@ class Robot:
 
     def _work(self, runtime: Runtime, planner: Planner) -> None:
         slow = SlowPlanner(planner)
+        before = read(self._folder) if self._returning else []
+        first = before[-1].n + 1 if before else 0
         session = Session(
             runtime,
             slow,
             description=self.where.description,
-            interrupts=Interrupts(),
+            interrupts=self.interrupts,
             seed=self._seed,
-            folder=self._folder,
-            time_of_day=self._time_of_day,
+            journal=Journal(
+                self._folder, wall_s=self._time_of_day, background=self._idles, first=first
+            ),
         )
         session.executive.attended = True
         self._injector = Injector(
@@ -137,6 +148,7 @@ class Robot:
         session.on_tick(self._look)
         with session:
             self.session = session
+            self._begin(before)
             self._up.set()
             while not self._over():
                 if self._idles:
@@ -146,6 +158,18 @@ class Robot:
                 else:
                     self._wake.wait(0.1)
                     self._wake.clear()
+
+    def _begin(self, before: list[Event]) -> None:
+        """Open the journal of a new run; in one that is returned to, go on with its jobs."""
+        now_s = self.session.runtime.clock.now_s()
+        if before:
+            return_to(self.session, before, where=self.where, folder=self._folder)
+            return
+        runtime = "live" if self._idles else "fast"
+        header = runs.header(
+            self.where, text="prompt", seed=self._seed, runtime=runtime, attended=True
+        )
+        runs.begin(self.session.journal, header, now_s=now_s, folder=self._folder)
 
     def _over(self) -> bool:
         gone = self.session.runtime.failure() is not None

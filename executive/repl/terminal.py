@@ -58,6 +58,20 @@ class Terminal:
         self._worker.shutdown(wait=True, cancel_futures=True)
 
     async def _run(self) -> None:
+        signals = asyncio.create_task(self._leave_on_signal())
+        try:
+            await self._prompt_until_leaving()
+        finally:
+            signals.cancel()
+
+    async def _leave_on_signal(self) -> None:
+        """A signal from outside (the terminal was closed, SIGTERM) is a wish to leave."""
+        while not self._shell.robot.interrupts.count:
+            await asyncio.sleep(REFRESH_S)
+        if self._prompt.app.is_running:
+            self._prompt.app.exit(exception=EOFError())
+
+    async def _prompt_until_leaving(self) -> None:
         shell = self._shell
         while not shell.leaving:
             try:

@@ -1,0 +1,48 @@
+"""Goes on with the jobs of a prompt whose executive died, while the robot stood and waited."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from executive.doing import Job
+from executive.history import recording
+from executive.history.going_on import go_on
+from executive.jobs import OVER
+from executive.journal import Event
+from executive.request import Setting
+from executive.session import Session
+
+
+def unfinished(events: list[Event]) -> list[list[Event]]:
+    """Of every job that was not over: the events from its submission on, the oldest first.
+
+    Jobs are numbered in the order of their submission, anew in every executive of a run; one that
+    returns submits again what was open, so that the newest executive's jobs are all there is.
+    """
+    submitted: list[int] = []
+    over: set[int] = set()
+    for at, event in enumerate(events):
+        if event.event == "returned":
+            submitted, over = [], set()
+        elif event.event == "request" and event.data.get("request") == "submit":
+            submitted.append(at)
+        elif event.event == "job" and event.data["state"] in OVER:
+            over.add(int(event.data["job"]))
+    open_ = [at for number, at in enumerate(submitted, start=1) if number not in over]
+    return [events[at:] for at in open_]
+
+
+def return_to(session: Session, events: list[Event], *, where: Setting, folder: Path) -> None:
+    """Submit again what was open, without the steps that are done."""
+    now_s = session.runtime.clock.now_s()
+    session.journal.write(now_s, "returned")
+    for since in unfinished(events):
+        job = Job(
+            understood=recording.restore(since[0], folder, where),
+            where=where,
+            seed=0,
+            runtime_name="live",
+            folder=folder,
+            origin=dict(since[0].data["origin"]),
+        )
+        go_on(session, job, since, anew=False)
