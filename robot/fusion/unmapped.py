@@ -1,4 +1,8 @@
-"""What the lidar hits that the map does not explain: a chair that was moved, a person."""
+"""What lidar and camera see that the map does not explain: a chair that was moved, a person.
+
+The lidar sees all around at one height, which passes over a chair's seat; the depth image is made a
+scan of its own: the nearest strange thing in each column.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.messages import LidarScan, Obstacle, Shape
+from robot.messages import DepthImage, LidarScan, Obstacle, Shape
 from robot.se3 import SE3, Array
 
 NEAR_MAP_M = 0.10
@@ -22,6 +26,11 @@ SCANS_TO_BELIEVE = 3
 FORGET_S = 2.0
 PADDING_M = 0.05
 HEIGHT_M = 1.2
+COLUMNS = 40
+LOW_M, HIGH_M = 0.12, 1.4
+NEAR_SELF_M = 0.62
+"""Nearer to the middle of the body, the camera may see the robot's own arms and what they hold."""
+DEPTH_RANGE_M = 2.5
 
 
 @dataclass
@@ -42,8 +51,12 @@ class _Cluster:
 class UnmappedObstacles:
     """Clusters of unexplained hits, kept while they are seen again and again."""
 
-    def __init__(self, *, body_radius_m: float) -> None:
+    def __init__(
+        self, *, body_radius_m: float, forget_s: float = FORGET_S, name: str = "unmapped"
+    ) -> None:
         self._body_radius_m = body_radius_m
+        self._forget_s = forget_s
+        self._name = name
         self._boxes: Array = np.zeros((0, 6))
         self._clusters: list[_Cluster] = []
         self._count = 0
@@ -61,15 +74,32 @@ class UnmappedObstacles:
 
     def see(self, scan: LidarScan, X_WLidar: SE3) -> None:
         """Take one scan from a lidar at X_WLidar."""
-        groups = _groups(self._unexplained(scan, X_WLidar))
-        for points in groups:
-            self._merge(points.min(axis=0), points.max(axis=0), scan.stamp_s)
-        self._clusters = [one for one in self._clusters if scan.stamp_s - one.seen_s < FORGET_S]
+        self._take(self._unexplained(scan, X_WLidar), scan.stamp_s)
+
+    def see_depth(self, image: DepthImage, X_WC: SE3, X_WB: SE3) -> None:
+        """Take one depth image of a camera at X_WC, the body being at X_WB."""
+        points, ranges = _points(image, X_WC)
+        off = points[..., :2] - np.array(X_WB.p[:2])
+        keep = (points[..., 2] > LOW_M) & (points[..., 2] < HIGH_M) & np.isfinite(ranges)
+        keep &= np.hypot(off[..., 0], off[..., 1]) > NEAR_SELF_M
+        keep[keep] = self._strange(points[keep], NEAR_MAP_M + NEAR_MAP_SHARE * ranges[keep])
+        ranges = np.where(keep, ranges, np.inf)
+        columns = np.flatnonzero(np.isfinite(ranges).any(axis=0))
+        nearest = points[np.argmin(ranges, axis=0)[columns], columns, :2]
+        self._take(nearest, image.stamp_s)
+
+    def _take(self, points: Array, stamp_s: float) -> None:
+        """Group strange hits, shape (k, 2), into clusters; forget what was not seen for long."""
+        for group in _groups(points):
+            self._merge(group.min(axis=0), group.max(axis=0), stamp_s)
+        self._clusters = [one for one in self._clusters if stamp_s - one.seen_s < self._forget_s]
 
     def obstacles(self) -> tuple[Obstacle, ...]:
         """What is believed, as boxes on the floor."""
         return tuple(
-            _box(cluster) for cluster in self._clusters if cluster.scans >= SCANS_TO_BELIEVE
+            _box(cluster, self._name)
+            for cluster in self._clusters
+            if cluster.scans >= SCANS_TO_BELIEVE
         )
 
     def _unexplained(self, scan: LidarScan, X_WLidar: SE3) -> Array:
@@ -120,14 +150,29 @@ def _groups(points: Array) -> list[Array]:
     return [part for part in parts if len(part) >= MIN_POINTS]
 
 
-def _box(cluster: _Cluster) -> Obstacle:
+def _points(image: DepthImage, X_WC: SE3) -> tuple[Array, Array]:
+    """Points in W (rows, columns, 3) of every few pixels, and their depth (inf: too far)."""
+    flat: NDArray[np.float32] = np.frombuffer(image.depth_m, dtype=np.float32)
+    step = max(1, image.width // COLUMNS)
+    rows, columns = np.arange(0, image.height, step), np.arange(0, image.width, step)
+    depth = flat.reshape(image.height, image.width)[np.ix_(rows, columns)].astype(np.float64)
+    depth[(depth <= 0.0) | (depth > DEPTH_RANGE_M)] = np.inf
+    focal_px = 0.5 * image.height / math.tan(0.5 * image.fovy_rad)
+    x = (columns[None, :] + 0.5 - 0.5 * image.width) / focal_px
+    y = (rows[:, None] + 0.5 - 0.5 * image.height) / focal_px
+    near = np.where(np.isfinite(depth), depth, 0.0)
+    points_C = np.stack([x * near, y * near, near], axis=-1)
+    return points_C @ X_WC.rotation().T + np.array(X_WC.p), depth
+
+
+def _box(cluster: _Cluster, name: str) -> Obstacle:
     x, y = cluster.centre.tolist()
     dx, dy = (cluster.high - cluster.low + 2.0 * PADDING_M).tolist()
     shape = Shape(
         kind="box", size_m=(dx, dy, HEIGHT_M), X_BodyShape=SE3((0.0, 0.0, 0.5 * HEIGHT_M))
     )
     return Obstacle(
-        id=f"unmapped_{cluster.number}",
+        id=f"{name}_{cluster.number}",
         name="something in the way",
         X_WO=SE3((x, y, 0.0)),
         shapes=(shape,),

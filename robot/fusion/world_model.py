@@ -37,6 +37,7 @@ GAP_TOLERANCE_M = 0.015
 CHEST_M, CHEST_RADIUS_M = 1.2, 0.15
 SAME_PERSON_M = 0.6
 UNSEEN_S = 0.5
+FORGET_S = 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,17 +124,24 @@ class WorldModel:
         self._just_seen.clear()
 
     def bump(self, obstacles: tuple[Obstacle, ...], now_s: float) -> None:
-        """Take what else the sensors see: a person out of the camera's view may be one of it."""
+        """Take what else the sensors see: a person out of the camera's view may be one of it.
+
+        One who has not been seen by any sensor for `FORGET_S` has gone somewhere.
+        """
         for name, track in self._people.items():
-            never = math.isinf(track.seen_s)
-            if track.X_WO is None or track.missing or never or now_s - track.seen_s < UNSEEN_S:
+            unseen_s = now_s - track.seen_s
+            if track.X_WO is None or track.missing or not UNSEEN_S < unseen_s < math.inf:
                 continue
-            for obstacle in obstacles:
-                if math.dist(obstacle.X_WO.p[:2], track.X_WO.p[:2]) < SAME_PERSON_M:
-                    x, y, _ = obstacle.X_WO.p
-                    X_WO = SE3((x, y, track.X_WO.p[2]), track.X_WO.quat_wxyz)
-                    self._people[name] = Track(id=name, X_WO=X_WO, seen_s=now_s)
-                    break
+            X_WO = next((o.X_WO for o in obstacles if _is_same_person(o.X_WO, track.X_WO)), None)
+            if X_WO is not None:
+                at = SE3((*X_WO.p[:2], track.X_WO.p[2]), track.X_WO.quat_wxyz)
+                self._people[name] = Track(id=name, X_WO=at, seen_s=now_s)
+            elif unseen_s > FORGET_S:
+                self._people[name] = msgspec.structs.replace(track, missing=True)
+
+
+def _is_same_person(X_WA: SE3, X_WB: SE3) -> bool:
+    return math.dist(X_WA.p[:2], X_WB.p[:2]) < SAME_PERSON_M
 
 
 def _place(

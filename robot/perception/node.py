@@ -29,6 +29,9 @@ from robot.se3 import SE3
 PERIOD_S = 0.1
 PATIENCE_S = 0.3
 MAX_SKEW_S = 0.06
+LOOK_OUT_S = 0.15
+REMEMBER_S = 6.0
+"""The camera turns away from what it has seen: it is kept in mind for so long."""
 
 
 class PerceptionNode:
@@ -64,8 +67,12 @@ class PerceptionNode:
         self._history = BodyHistory()
         self._localiser = Localiser(self._history)
         self._world = WorldModel(camera_range_m=sensors.camera.range_m)
-        self._unmapped = UnmappedObstacles(body_radius_m=description.body_radius_m)
-        self._now_s = -math.inf
+        radius_m = description.body_radius_m
+        self._unmapped = UnmappedObstacles(body_radius_m=radius_m)
+        self._in_view = UnmappedObstacles(
+            body_radius_m=radius_m, forget_s=REMEMBER_S, name="in_view"
+        )
+        self._now_s = self._looked_s = -math.inf
         self._published_s = -math.inf
 
     def step(self) -> None:
@@ -91,13 +98,17 @@ class PerceptionNode:
         if world_map is not None and world_map is not self._known:
             self._known = world_map
             self._world.know(world_map.objects, world_map.people)
-            self._unmapped.know(world_map.obstacles)
+            people = {person.id for person in world_map.people}  # they walk: nothing explains them
+            fixed = tuple(thing for thing in world_map.obstacles if thing.id not in people)
+            self._unmapped.know(fixed)
+            self._in_view.know(fixed)
 
     def _take(self, message: Message) -> None:
         if isinstance(message, PoseFix):
             self._localiser.add(message)
         elif isinstance(message, DepthImage):
             self._depth = message
+            self._look_out(message)
         elif math.isinf(self._localiser.fixed_s):
             return  # nothing can be placed in the world yet
         elif isinstance(message, Sightings):
@@ -108,6 +119,15 @@ class PerceptionNode:
             X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
             if X_WLidar is not None:
                 self._unmapped.see(message, X_WLidar)
+
+    def _look_out(self, image: DepthImage) -> None:
+        """Find what stands in the way in a depth image; every other one will do."""
+        if image.stamp_s - self._looked_s < LOOK_OUT_S or math.isinf(self._localiser.fixed_s):
+            return
+        X_WC, X_NB = self._site_in_world(self._camera, image.stamp_s), self._history.newest
+        if X_WC is not None and X_NB is not None and self._known is not None:
+            self._looked_s = image.stamp_s
+            self._in_view.see_depth(image, X_WC, self._localiser.X_WN @ X_NB.X_NB)
 
     def _depth_at(self, stamp_s: float) -> DepthImage | None:
         depth = self._depth
@@ -129,7 +149,8 @@ class PerceptionNode:
         if newest is None or math.isinf(localiser.fixed_s):
             return
         self._published_s = self._now_s
-        X_WN, unmapped = localiser.X_WN, self._unmapped.obstacles()
+        X_WN = localiser.X_WN
+        unmapped = (*self._unmapped.obstacles(), *self._in_view.obstacles())
         self._world.feel(
             {side: Hand(X_WN @ hand.X_NG, hand.opening_m) for side, hand in newest.hands.items()}
         )

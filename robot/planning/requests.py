@@ -84,8 +84,9 @@ class Surroundings(msgspec.Struct, frozen=True, kw_only=True):
             for person in map.people
             if not ((track := found.get(person.id)) and track.missing)
         )
-        if people != map.people:
-            map = msgspec.structs.replace(map, people=people)
+        outlines = {person.id for person in map.people}  # where they began, as obstacles too
+        obstacles = tuple(thing for thing in map.obstacles if thing.id not in outlines)
+        map = msgspec.structs.replace(map, people=people, obstacles=obstacles)
         return Surroundings(map=map, objects=objects, unmapped=world.unmapped, ignored=ignored)
 
 

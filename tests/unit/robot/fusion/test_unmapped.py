@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from robot.fusion.unmapped import FORGET_S, SCANS_TO_BELIEVE, UnmappedObstacles
-from robot.messages import LidarScan, Obstacle, Shape
+from robot.messages import DepthImage, LidarScan, Obstacle, Shape
 from robot.se3 import SE3
 
 BEAMS = 180
@@ -107,3 +107,49 @@ def test_an_empty_scan_and_an_empty_map_are_fine():
     assert look(unmapped, []) == ()
     assert len(look(unmapped, [(1.0, 1.0, 0.3)])) == 1
     assert np.isfinite(unmapped.obstacles()[0].X_WO.p).all()
+
+
+def image(stamp_s: float, seat: tuple[float, float, float] | None) -> tuple[DepthImage, SE3]:
+    """What a level camera, 1.2 m up at the origin, sees of a level disc (x, y, z) and the floor."""
+    width, height, fovy_rad = 80, 60, math.radians(60)
+    X_WC = SE3.from_rotation([[0, -0.5, 0.866], [-1, 0, 0], [0, -0.866, -0.5]], (0.0, 0.0, 1.2))
+    focal = 0.5 * height / math.tan(0.5 * fovy_rad)
+    columns, rows = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    rays_C = np.stack(
+        [(columns - width / 2) / focal, (rows - height / 2) / focal, np.ones_like(columns)], axis=-1
+    )
+    rays = rays_C @ X_WC.rotation().T
+    depth = np.where(rays[..., 2] < -1e-3, -1.2 / np.minimum(rays[..., 2], -1e-3), 0.0)
+    if seat is not None:
+        reach = (seat[2] - 1.2) / np.minimum(rays[..., 2], -1e-3)
+        x, y = reach * rays[..., 0] - seat[0], reach * rays[..., 1] - seat[1]
+        depth = np.where(np.hypot(x, y) < 0.21, reach, depth)
+    data = depth.astype(np.float32).tobytes()
+    message = DepthImage(stamp_s=stamp_s, width=width, height=height, fovy_rad=fovy_rad,
+                         depth_m=data)  # fmt: skip
+    return message, X_WC
+
+
+def watch(unmapped, seat, *, X_WB=SE3((-0.1, 0.0, 0.6))):  # noqa: B008
+    for k in range(SCANS_TO_BELIEVE):
+        message, X_WC = image(0.1 * k, seat)
+        unmapped.see_depth(message, X_WC, X_WB)
+    return unmapped.obstacles()
+
+
+def test_the_camera_sees_a_seat_that_the_lidar_passes_over(unmapped):
+    (found,) = watch(unmapped, (1.2, 0.3, 0.45))
+    assert math.dist(found.X_WO.p[:2], (1.2, 0.3)) < 0.25
+    assert max(found.shapes[0].size_m[:2]) > 0.25
+
+
+def test_the_floor_alone_is_nothing(unmapped):
+    assert watch(unmapped, None) == ()
+
+
+def test_a_table_of_the_map_is_no_news_to_the_camera(unmapped):
+    assert watch(unmapped, (1.9, 0.0, 0.7)) == ()
+
+
+def test_what_is_close_may_be_the_robots_own_hand(unmapped):
+    assert watch(unmapped, (0.3, 0.1, 0.8)) == ()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from robot.fusion.world_model import FRAMES_TO_MISS, Hand, WorldModel
+from robot.fusion.world_model import FORGET_S, FRAMES_TO_MISS, Hand, WorldModel
 from robot.messages import DepthImage, ObjectInfo, Obstacle, PersonInfo, Shape, Sighting, Sightings
 from robot.se3 import SE3
 
@@ -191,3 +191,16 @@ def test_out_of_view_a_person_is_what_the_lidar_sees_nearby(ann):
     assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.5, 0.0)), "still in view"
     ann.bump((near,), 2.0)
     assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.8, 0.3))
+
+
+def test_who_was_not_seen_for_long_by_any_sensor_has_gone_somewhere(ann):
+    ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)
+    ann.bump((), FORGET_S - 1.0)
+    assert not ann.people()[0].missing
+    ann.bump((), FORGET_S + 1.0)
+    assert ann.people()[0].missing
+
+
+def test_who_was_never_seen_is_where_the_map_says_for_good(ann):
+    ann.bump((), 1000.0)
+    assert not ann.people()[0].missing

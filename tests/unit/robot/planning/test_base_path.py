@@ -3,16 +3,18 @@
 import math
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 import pytest
 
 from robot.errors import Failure
+from robot.messages import PersonInfo, Track, WorldState
 from robot.planning.floor import Floor
-from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.requests import BasePath, BasePathRequest, Stance, Surroundings
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
-from robot.se3 import wrap_angle
-from tests.fakes.planning_room import START, block, surroundings
+from robot.se3 import SE3, wrap_angle
+from tests.fakes.planning_room import START, block, room, surroundings
 
 BEFORE_TABLE = (1.05, 0.8, 0.0)
 BEFORE_SHELF = (2.95, -1.2, 0.0)
@@ -114,3 +116,21 @@ def test_waypoints_are_near_enough_to_follow(solver: Solver) -> None:
     assert isinstance(found, BasePath)
     gaps = np.linalg.norm(np.diff([w[:2] for w in found.waypoints], axis=0), axis=1)
     assert gaps.max() < 0.8
+
+
+def test_people_are_kept_clear_of_where_they_were_seen_and_not_where_they_began() -> None:
+    ann = PersonInfo(id="ann", name="Ann", X_WO=SE3((0.0, 2.0, 0.0)))
+    outline = block("ann", 0.0, 2.0, (0.5, 0.5, 1.7))
+    began = msgspec.structs.replace(room(outline), people=(ann,))
+
+    def around(**track) -> tuple[str, ...]:
+        seen = Track(id="ann", **track)
+        world = WorldState(
+            stamp_s=1.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=(), people=(seen,)
+        )
+        solids = solids_of(Surroundings.of(began, world))
+        return tuple(f"{s.X_WG.p[0]:.0f} {s.X_WG.p[1]:.0f}" for s in solids if s.id == "ann")
+
+    assert around(X_WO=SE3((2.0, 1.0, 0.0)), seen_s=1.0) == ("2 1",)
+    assert around(X_WO=SE3((0.0, 2.0, 0.0)), seen_s=-math.inf) == ("0 2",)
+    assert around(X_WO=SE3((2.0, 1.0, 0.0)), seen_s=0.0, missing=True) == ()
