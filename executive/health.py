@@ -2,8 +2,8 @@
 
 Everything here is a table. The promised rate of a topic (`robot.bus.topics`) says when it is late
 or thin; `CONCERNS` says what that means for the robot; `GRADES` says from which value of a
-measurement on it has to go slower, to stand, or to end its task. Nothing here knows how messages travel: the
-newest stamps are arguments. docs/health.md is made of these tables.
+measurement on it has to go slower, to stand, or to end its task. Nothing here knows how messages
+travel: the newest stamps are arguments. docs/health.md is made of these tables.
 """
 
 from __future__ import annotations
@@ -126,8 +126,8 @@ GRADES: dict[str, Scale] = {
         unit="of the controller's periods late",
         grades=(
             Grade(at=0.05, level=Level.WARN),
-            Grade(at=0.25, level=Level.DERATE, speed=0.5),
-            Grade(at=0.60, level=Level.HOLD),
+            Grade(at=0.30, level=Level.DERATE, speed=0.6),
+            Grade(at=0.90, level=Level.HOLD),
         ),
     ),
 }
