@@ -1,7 +1,7 @@
 """A cubic spline through joint positions, at rest at both ends.
 
 scipy has it too, but loading `scipy.interpolate` takes longer than everything else that the
-controller loads.
+controller, or a planner, loads.
 """
 
 from __future__ import annotations
@@ -46,3 +46,12 @@ class ClampedSpline:
         v, b, c = self._velocity[i], self._quadratic[i], self._cubic[i]
         position = self._position[i] + t * (v + t * (b + t * c))
         return position, v + t * (2.0 * b + 3.0 * t * c), 2.0 * b + 6.0 * t * c
+
+    def sample(self, at_s: Array, *, derivative: int = 0) -> Array:
+        """Positions, or their `derivative` (up to 2), at many times (m,), shape (m, joints)."""
+        i = np.clip(np.searchsorted(self.times_s, at_s, side="right") - 1, 0, len(self.times_s) - 2)
+        t = (at_s - self.times_s[i])[:, None]
+        v, b, c = self._velocity[i], self._quadratic[i], self._cubic[i]
+        if derivative == 0:
+            return self._position[i] + t * (v + t * (b + t * c))
+        return v + t * (2.0 * b + 3.0 * t * c) if derivative == 1 else 2.0 * b + 6.0 * t * c

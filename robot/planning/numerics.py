@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.interpolate import CubicSpline
-from scipy.spatial.transform import Rotation
 
+from robot.kinematics.spline import ClampedSpline
 from robot.se3 import Array
 
 Mask: TypeAlias = NDArray[np.bool_]
@@ -49,17 +49,26 @@ def distance_to(mask: Mask) -> Array:
 
 def spline(times_s: Array, positions: Array, at_s: Array, *, derivative: int = 0) -> Array:
     """A C2 cubic spline through positions (k, n), at rest at both ends, at other times (m, n)."""
-    return CubicSpline(times_s, positions, bc_type="clamped")(at_s, derivative)
+    return ClampedSpline(times_s, positions).sample(np.asarray(at_s), derivative=derivative)
 
 
 def turn_between(first: Array, last: Array) -> Array:
     """Axis times angle that takes one rotation matrix to another, in the first's frame."""
-    return Rotation.from_matrix(first.T @ last).as_rotvec()
+    quat, turn = np.zeros(4), np.zeros(3)
+    mujoco.mju_mat2Quat(quat, (first.T @ last).reshape(9))
+    mujoco.mju_quat2Vel(turn, quat, 1.0)
+    return turn
 
 
 def turned(first: Array, turn: Array) -> Array:
     """A rotation matrix turned by axis times angle in its own frame."""
-    return first @ Rotation.from_rotvec(turn).as_matrix()
+    angle = float(np.linalg.norm(turn))
+    if angle == 0.0:
+        return first.copy()
+    quat, matrix = np.zeros(4), np.zeros(9)
+    mujoco.mju_axisAngle2Quat(quat, turn / angle, angle)
+    mujoco.mju_quat2Mat(matrix, quat)
+    return first @ matrix.reshape(3, 3)
 
 
 def solve_all(matrices: Array, right: Array) -> Array:
