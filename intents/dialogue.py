@@ -23,7 +23,7 @@ __all__ = ["Context", "Dialogue"]
 
 MAX_REPEATS = 2
 _WHERE = re.compile(
-    r"\bwhere(?:'s|s|\s)|^\W*(?:is|are) there\b|^\W*(?:do|can|have) you "
+    r"\bwhere(?:'s|s|\s)|^\W*(?:is|are)\b|^\W*(?:do|can|have) you "
     r"(?:see|know|seen|find)\b",
     re.IGNORECASE,
 )

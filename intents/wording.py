@@ -33,6 +33,8 @@ def thing(query: ObjectQuery) -> str:
     if query.held and bare:
         return "it"
     noun = query.name or query.category or "thing"
+    if isinstance(query.count, int) and query.count > 1:
+        noun = noun if noun.endswith("s") else f"{noun}s"
     words = " ".join(w for w in (query.superlative, query.size, query.color, noun) if w)
     first = {"all": "every", None: "the", 1: "a"}.get(query.count, str(query.count))
     first = "an" if first == "a" and words[0] in "aeiou" else first
@@ -69,9 +71,9 @@ def _goal(goal: Goal) -> str:  # noqa: PLR0912 - one line a kind of goal
         case g.Find():
             return f"look for {_subject(goal.object, goal.person)}"
         case g.Pick():
-            return f"pick up {thing(goal.object)}"
+            return "pick it up" if thing(goal.object) == "it" else f"pick up {thing(goal.object)}"
         case g.Place(on=None, in_=None):
-            return f"put down {thing(goal.object)}"
+            return "put it down" if thing(goal.object) == "it" else f"put down {thing(goal.object)}"
         case g.Place(in_=None):
             return f"put {thing(goal.object)} on {the(goal.on or '')}"
         case g.Place():

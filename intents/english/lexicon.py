@@ -76,6 +76,13 @@ SUPERLATIVES: dict[tuple[str, ...], Superlative] = _meanings(
     }
 )
 
+COMPARATIVES: dict[str, Superlative] = {
+    "bigger": "largest", "larger": "largest", "smaller": "smallest", "heavier": "heaviest",
+    "lighter": "lightest", "thinner": "thinnest", "thicker": "thickest", "taller": "tallest",
+    "shorter": "shortest", "longer": "tallest", "nearer": "nearest", "closer": "nearest",
+    "higher": "highest", "lower": "lowest", "older": "oldest", "younger": "youngest",
+}  # fmt: skip
+"""Of two, the bigger one is the largest."""
 GENDERS: dict[str, Literal["male", "female"]] = {
     "man": "male", "boy": "male", "guy": "male", "gentleman": "male", "male": "male",
     "men": "male", "boys": "male", "guys": "male", "gentlemen": "male", "males": "male",
@@ -192,6 +199,7 @@ OPENERS = phrases(
     "be so kind as to,be so kind and,do me a favor and,help me,why do not you,why not,"
     "do me a favour and,would you like to,do you think you can,do you think you could,"
     "how would you,how do you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
+    "hi there,hello there,hey there,good morning,good evening,good afternoon,good day,"
     "start to,begin to,make sure to,make sure you,be sure to,remember to,do not forget to,you,to,"
     "listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,ready,help me to,help me and,may you,"
     "might you,shall you,attempt to,i wish you to,i wish for you to,your next task is to,"

@@ -114,6 +114,10 @@ def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most and (match is None or match.end <= most[1]):
         phrase.superlative = most[0]
         return most[1]
+    better = lexicon.COMPARATIVES.get(word) if phrase.determiner == "the" else None
+    if better and match is None and not (word in LEVELS and _prefixed(text, word, at)):
+        phrase.superlative = better
+        return at + 1
     if match and (match.end > at + 1 or not is_content(text, at + 1)):
         return None
     if word in COLORS and not (match and verbs_at(text.words, at + 1)):
@@ -122,6 +126,12 @@ def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if match:
         return None
     return _read_common_adjective(text, phrase, at)
+
+
+def _prefixed(text: Text, level: str, at: int) -> bool:
+    """Whether the world has a "lower shelf" where "lower" stands before "shelf"."""
+    names = (f"{other} {text.word(at + 1)}" for other in LEVELS.get(level, ()))
+    return any(text.index.exact(name) for name in names)
 
 
 def _read_common_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
@@ -184,7 +194,8 @@ def _read_noun(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if word in lexicon.ONES:
         phrase.noun = "one"
         return at + 1
-    if word in lexicon.BODY_NOUNS and phrase.determiner + phrase.side != "":
+    owned = phrase.determiner + phrase.side != "" or text.word(at - 1) in DETERMINERS
+    if word in lexicon.BODY_NOUNS and owned:
         phrase.noun = "body"
         return at + 1
     if word in lexicon.PLACE_NOUNS and phrase.determiner:

@@ -11,6 +11,14 @@ PROPERTIES = {
 }  # fmt: skip
 
 
+OF_ADJECTIVES = {
+    "heavy": "weight", "light": "weight", "big": "size", "large": "size", "small": "size",
+    "tall": "height", "high": "height", "long": "size", "wide": "size", "thick": "size",
+    "old": "age", "full": "level", "warm": "temperature", "hot": "temperature",
+}  # fmt: skip
+"""What is asked after by "how heavy is ...?"."""
+
+
 def property_of(word: str) -> str | None:
     """The property that a word names."""
     return PROPERTIES.get(singular(word))

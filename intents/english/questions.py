@@ -6,7 +6,7 @@ from intents.english.measures import number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import read_postmodifiers, weight_at
-from intents.english.properties import property_of
+from intents.english.properties import OF_ADJECTIVES, property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.self_talk import about_robot
 from intents.english.text import Text
@@ -31,6 +31,7 @@ def question(
         or _where(text, at, scope)
         or _doing(text, at, scope, to)
         or _property(text, at, scope, to)
+        or _how(text, at, scope, to)
         or _which(text, at, scope, to, told)
         or _who(text, at, scope, to)
         or _of_all(text, at, scope, to)
@@ -88,11 +89,18 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     return [Count(object=to_object(phrase, scope), to=to)], end
 
 
+_LEFT = lexicon.phrases(
+    "did you put,did you leave,did you place,did i put,did i leave,have you put,have you left,"
+    "did you see,did you last see,have i left,did we put,did we leave,you put,you left,i put,i left"
+)
+
+
 def _where(text: Text, at: int, scope: Scope) -> Reading | None:
     """Where is the cup? Tell me where the cup is."""
     if text.word(at) != "where":
         return None
-    phrase = noun_phrase(text, _skip(text, at + 1))
+    left = text.phrase_end(_LEFT, at + 1)
+    phrase = noun_phrase(text, left or _skip(text, at + 1))
     if phrase is None:
         return None
     end = _read_on(text, phrase)
@@ -136,6 +144,18 @@ def _tell(phrase: NounPhrase | None, name: str, scope: Scope, to: Person | None)
         return Tell(person=to_person(phrase, scope), property=name, to=to)
     name = "location" if name == "posture" else name
     return Tell(object=to_object(phrase, scope, spots=True), property=name, to=to)
+
+
+def _how(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+    """How heavy is the box?"""
+    name = OF_ADJECTIVES.get(text.word(at + 1)) if text.word(at) == "how" else None
+    if name is None or text.word(at + 2) not in ("is", "are"):
+        return None
+    phrase = noun_phrase(text, at + 3)
+    known = phrase is not None and (phrase.name("object", "category") or phrase.is_person)
+    if phrase is None or not known:
+        return None
+    return [_tell(phrase, name, scope, to)], _read_on(text, phrase)
 
 
 def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Reading | None:
@@ -184,8 +204,11 @@ def _predicate_superlative(text: Text, phrase: NounPhrase, end: int) -> int:
     if amount and text.lookup(lexicon.SUPERLATIVES, amount.end):
         phrase.count, start = int(amount.value), amount.end
     most = text.lookup(lexicon.SUPERLATIVES, start)
-    if most is None:
+    better = lexicon.COMPARATIVES.get(text.word(start))
+    if most is None and better is None:
         return end
+    if most is None or better:
+        most = (better or "largest", start + 1)
     phrase.superlative = most[0]
     amount = number(text.words, most[1])
     if amount:

@@ -60,6 +60,7 @@ class Clauses:
             if not end or about_robot(text, at) or (verb and verb[0][1] > end):
                 return at
             opens_verb = verbs_at(text.words, end) or text.phrase_end(lexicon.OPENERS, end)
+            opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP)
             open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
             if open_ended and not connector_end(text, at) and not opens_verb:
                 return at

@@ -11,7 +11,7 @@ from intents.english.phrase import NounPhrase
 from intents.english.postmodifiers import read_postmodifiers
 from intents.english.questions import Reading, property_question, question
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
-from intents.english.self_talk import small_talk
+from intents.english.self_talk import about_robot, small_talk
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.verbs import verbs_at
@@ -165,7 +165,7 @@ def inform(text: Text, at: int, scope: Scope) -> Reading:
     if first:
         at = first.end
     to = to_person(first, scope) if first else None
-    asked = property_question(text, at, scope, to)
+    asked = about_robot(text, at) or property_question(text, at, scope, to)
     end = content_end(text, at)
     talk = small_talk(text, at, end)
     if asked is None and talk:

@@ -53,6 +53,10 @@ COMMON_WORDS = frozenset(
 """Words that mean themselves even where a name of the vocabulary is one letter away."""
 
 
+KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS
+"""Words that are no misspellings, and nobody's name."""
+
+
 def _slack(word: str) -> int:
     """How many edits a word of its length may be away from what was meant."""
     return 0 if len(word) < 4 else 1 if len(word) < 7 else 2

@@ -6,13 +6,14 @@ from typing import TypeVar
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.lexicon import DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
 from intents.english.names import Match, NameIndex, index_of
-from intents.english.spelling import speller_of
+from intents.english.spelling import KNOWN_WORDS, speller_of
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
 _LONGEST_PHRASE = 7
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
+_CALLS = words("hey hi hello ok okay dear yo")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -33,7 +34,7 @@ class Text:
         corrected: list[Token] = []
         self.corrections: list[tuple[str, str]] = []
         begins = True
-        for token in tokenize(text):
+        for token in _without_name(tokenize(text), self.index):
             meant = speller.correct(token.text, begins=begins)
             begins = token.text in _BEFORE_VERBS
             if meant == [token.text]:
@@ -88,6 +89,16 @@ class Text:
             glued = token.text in (COMMA, FULL_STOP) or token.text.startswith("'")
             said += token.raw if glued or not said else " " + token.raw
         return said.rstrip(" ,;.")
+
+
+def _without_name(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Juno, ...; hey Juno, ...: without what the robot is called."""
+    words = [t.text for t in tokens[:3]]
+    at = 1 if words and words[0] in _CALLS else 0
+    if len(tokens) < at + 3 or words[at + 1 : at + 2] != [COMMA]:
+        return tokens
+    known = index.match([words[at]], 0) or words[at] in KNOWN_WORDS or not words[at].isalpha()
+    return tokens if known else tokens[at + 2 :]
 
 
 def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:

@@ -32,7 +32,8 @@ SPELLINGS: dict[str, str] = {
     ),
     "take": (
         "take,get,take up,go get,go take,retrieve,fetch,go fetch,go and fetch,"
-        "go and get,take out,bring up"
+        "go and get,take out,bring up,grab,collect,snatch,pick,pick up,procure,obtain,acquire,"
+        "grab hold of,go pick up,go and pick up,go and grab,go grab"
     ),
     "put": (
         "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"

@@ -76,6 +76,10 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     objects = slots.objects() or ([scope.object] if scope.object and to else [])
     need(objects, "What shall I bring?")
     at = slots.loose_place()
+    if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
+        raise NotUnderstood("I can take things to a place, not move them a little")
+    if to is None and clause.verb.startswith(("move", "transport", "transfer")):
+        raise Unclear("Where shall I take it?")
     slots.direction("backward")
     slots.done()
     return [
@@ -223,7 +227,8 @@ def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
     if place.how not in ("on", "in", None, "near", "above"):
         where = _HOW.get(place.how, place.how)
         raise NotUnderstood(f"I can put things on or in a place, not {where} something")
-    near_object = place.how == "near" and not is_spot(place.of) and place.of.name("object")
+    near_object = place.how == "near" and not is_spot(place.of)
+    near_object = near_object and (place.of.name("object") or place.of.noun == "one")
     if near_object:
         raise NotUnderstood("I can put things on or in a place, not next to another object")
     where = to_place(place.of, scope, objects=True)
