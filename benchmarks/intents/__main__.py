@@ -58,7 +58,8 @@ def main(
 ) -> None:
     """Measure on the project's own sentences and, where a folder has them, on other sets."""
     console = Console(width=120)
-    rows = _own_rows(console, misses) + _stop_rows()
+    rows = [row for name in ("own", "second") for row in _own_rows(console, name, misses)]
+    rows += _stop_rows()
     why_not = "none given; say --sets FOLDER" if folder is None else sets.problem(folder)
     if folder is not None and not why_not:
         rows += _set_rows(folder.resolve())
@@ -74,8 +75,8 @@ def percent(share: float) -> str:
     return f"{100 * share:.1f} %"
 
 
-def _own_rows(console: Console, misses: int) -> list[Row]:
-    vocabulary, sentences = own.vocabulary(), own.sentences()
+def _own_rows(console: Console, name: str, misses: int) -> list[Row]:
+    vocabulary, sentences = own.vocabulary(), own.sentences(name)
     outcomes = [parse(one.text, vocabulary) for one in sentences]
     pairs = list(zip(sentences, outcomes, strict=True))
     wrong = [pair for pair in pairs if not own.is_right(*pair)]
@@ -85,9 +86,9 @@ def _own_rows(console: Console, misses: int) -> list[Row]:
     refused = sum(isinstance(outcome, Refusal) for outcome in outcomes)
     count = len(pairs)
     return [
-        Row(f"own set ({count}): fully right", percent(1 - len(wrong) / count)),
-        Row("own set: types right", percent(types / count)),
-        _at_most("own set: refused", refused / count, MAX_REFUSED),
+        Row(f"{name} set ({count}): fully right", percent(1 - len(wrong) / count)),
+        Row(f"{name} set: types right", percent(types / count)),
+        _at_most(f"{name} set: refused", refused / count, MAX_REFUSED),
     ]
 
 

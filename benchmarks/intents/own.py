@@ -29,9 +29,9 @@ def vocabulary() -> Vocabulary:
     return Vocabulary.from_json((HERE / "own.vocab.json").read_bytes())
 
 
-def sentences() -> list[Sentence]:
-    """All of them; their gold is valid, or this raises."""
-    lines = (HERE / "own.jsonl").read_text(encoding="utf-8").splitlines()
+def sentences(name: str = "own") -> list[Sentence]:
+    """Those of the first set or of the "second"; their gold is valid, or this raises."""
+    lines = (HERE / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()
     found = [msgspec.json.decode(line, type=Sentence) for line in lines]
     for sentence in found:
         from_builtins(sentence.gold)
