@@ -7,6 +7,9 @@ from typing import Any
 
 from executive.skills import parameters as p
 from executive.skills.balance import Balance
+from executive.skills.follow import Follow
+from executive.skills.gesture import HEAD_ONLY
+from executive.skills.give import Give
 from executive.skills.look import Look
 from executive.skills.navigate import Navigate
 from executive.skills.pick import Pick
@@ -24,17 +27,22 @@ NEEDS: dict[type[p.Parameters], frozenset[Resource]] = {
     p.LookParams: Look.resources,
     p.SearchParams: Search.resources,
     p.BalanceParams: Balance.resources,
+    p.GiveParams: Give.resources,
+    p.FollowParams: Follow.resources,
+    p.GestureParams: frozenset({"legs", "left_arm", "right_arm", "head"}),
     p.SayParams: Say.resources,
     p.WaitParams: Wait.resources,
     p.StopParams: Stop.resources,
 }
-"""The resource table: parameters of a skill to the parts of the body that it takes."""
+"""The resource table: parameters of a skill to the parts of the body that it takes at most."""
 
 SPOKEN: frozenset[Resource] = frozenset({"voice"})
 
 
 def needed(params: p.SkillParams | Callable[..., Any]) -> frozenset[Resource]:
     """What one step takes. Parameters made from the blackboard are those of speech."""
+    if isinstance(params, p.GestureParams) and params.kind in HEAD_ONLY:
+        return frozenset({"head"})
     return SPOKEN if callable(params) else NEEDS[type(params)]
 
 

@@ -38,6 +38,7 @@ class Give(ScriptedSkill):
         """What to whom."""
         super().__init__(context)
         self.parameters = parameters
+        self._given = False
 
     def script(self) -> Script[None]:
         """Go there, hold it out, wait for the pull, let go, draw the hand back."""
@@ -69,10 +70,15 @@ class Give(ScriptedSkill):
             person=person.id,
         )
 
+    def remaining(self) -> GiveParams | None:
+        """Nothing, once the hand has begun to let go."""
+        return None if self._given else self.parameters
+
     def _let_go(self, held: Held) -> Script[None]:
         """Open, give them time to draw it out, and bring the arm home."""
         body, side = self.body, held.side
         body.phase = "letting go"
+        self._given = True
         body.context.holdings.release(side)
         set_payload(body, side, 0.0)
         yield from open_fingers(body, side)
