@@ -44,8 +44,8 @@ class Attempt:
         phase, phase_s: what it did last, and since when.
         result: how it ended.
         reason: why it failed.
-        recovery: what was done about that.
-        remedies: what was done for the recovery before the next go.
+        recoveries: what was done about that, one after the other.
+        remedies: the steps of the recoveries before the next go.
     """
 
     step: str
@@ -56,7 +56,7 @@ class Attempt:
     ended_s: float | None = None
     result: Result = "going on"
     reason: Reason | None = None
-    recovery: Recovery | None = None
+    recoveries: list[Recovery] = field(default_factory=list[Recovery])
     remedies: list[Attempt] = field(default_factory=list["Attempt"])
 
 

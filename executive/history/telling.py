@@ -149,7 +149,8 @@ class _Teller:
         failed = [one for one in self.story.attempts if one.step == step and one.reason is not None]
         if not failed:
             return
-        failed[-1].recovery = Recovery(event.t_s, str(event.data.get("code", "")), remedy, words)
+        recovery = Recovery(event.t_s, str(event.data.get("code", "")), remedy, words)
+        failed[-1].recoveries.append(recovery)
         self._recovering = failed[-1] if remedy else None
 
     # --- everything else ---

@@ -170,8 +170,7 @@ def _go(one: Attempt) -> list[str]:
     lines = [f"  {words.at(one.ended_s or one.began_s)}  {_measured(reason)}"]
     if one.phase:
         lines.append(f"{_INDENT}while {_phase(one)}")
-    if one.recovery is not None:
-        lines.append(f"{_INDENT}then: {one.recovery.words}")
+    lines += [f"{_INDENT}then: {recovery.words}" for recovery in one.recoveries]
     lines += [f"{_INDENT}  {_remedy(remedy)}" for remedy in one.remedies]
     return lines
 
