@@ -207,7 +207,7 @@ class Ending(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     recoveries: int = 0
 
 
-class Run(msgspec.Struct, kw_only=True, omit_defaults=True):
+class Run(msgspec.Struct, kw_only=True):
     """All of it. Times are the runtime's; lists are in their order.
 
     `unreadable` lines could not be understood, the first of them in line `unreadable_line`; `cut`

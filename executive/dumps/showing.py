@@ -15,9 +15,8 @@ from executive.dumps.formats import FORMATS, Wish, render
 from executive.dumps.model import Run
 from executive.dumps.reading import read
 from executive.dumps.text import Style
-from executive.dumps.writer import parse_formats
+from executive.dumps.writer import explained, parse_formats
 from executive.history import past
-from executive.history.why import why
 from executive.journal import FILE
 from robot.errors import ConfigError, Problem
 
@@ -87,7 +86,7 @@ def load(folder: Path) -> Run:
 
 
 def _why(folder: Path) -> tuple[str, ...]:
-    return why(journal.read(folder), live=journal.is_written(folder)).lines
+    return explained(journal.read(folder), live=journal.is_written(folder))
 
 
 def _check_time(run: Run, t_s: float | None) -> None:

@@ -71,7 +71,6 @@ class Dumper:
         self._formats = formats
         self._reader = Reader()
         self._events: list[Event] = []
-        self._explained = "html" in formats
         self._due = False
         self._closed = False
         executive.journal.listen(self._heard)
@@ -111,7 +110,7 @@ class Dumper:
         if self._closed:
             return
         self._reader.event(event)
-        if self._explained:
+        if "html" in self._formats:
             self._events.append(event)
         if self._on == "change":
             self._due = self._due or event.event in _CHANGES
@@ -119,13 +118,24 @@ class Dumper:
             self._due = self._due or event.event in ("failure", "abort")
 
     def _write(self, name: str) -> None:
-        lines = why(self._events, live=True).lines if self._explained and self._events else ()
+        """Write a moment; whatever goes wrong, the robot goes on."""
         for kind in self._formats:
             path = self._directory / f"{name}.{FORMATS[kind][0]}"
             try:
+                lines = explained(self._events, live=True) if kind == "html" else ()
                 path.write_bytes(render(self.run, kind, Wish(why=lines)))
             except OSError as error:
                 self.problem = f"{path} cannot be written: {error.strerror}"
+            except Exception as error:  # a picture must never stop a robot
+                self.problem = f"{path} cannot be drawn: {type(error).__name__}: {error}"
+
+
+def explained(events: list[Event], *, live: bool) -> tuple[str, ...]:
+    """Why it ended as it did, line by line; nothing of a journal that makes no sense."""
+    try:
+        return why(events, live=live).lines if events else ()
+    except (KeyError, TypeError, ValueError, AttributeError):
+        return ()
 
 
 def parse_formats(text: str) -> tuple[Format, ...]:

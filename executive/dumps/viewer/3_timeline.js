@@ -133,7 +133,7 @@ function drawBars(pen, row, y, width) {
       drawn = x0 + wide;
       if (x1 - x0 > 30) label(pen, node, begin, end, width, y, how);
       if (how === "failed") cross(pen, x1, y + ROW / 2);
-      else if (how === "running" && run.endings === undefined) arrow(pen, x1, y + ROW / 2);
+      else if (how === "running" && !list(run.endings).length) arrow(pen, x1, y + ROW / 2);
     } else {
       const before = node.spans[i - 1];
       const instant = !before || before[1] < begin - 1e-9 || before[2] !== "running";

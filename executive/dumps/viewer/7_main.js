@@ -227,4 +227,4 @@ measureAll();
 listen();
 drawTabs();
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-requestAnimationFrame(() => { if (now < END || !run.endings) follow(); redraw(); });
+requestAnimationFrame(() => { if (now < END || !list(run.endings).length) follow(); redraw(); });

@@ -19,6 +19,11 @@ from tests.fakes.recorded import Recorded
 from tests.fakes.rig import PICK, WAIT
 from tests.fakes.scripted_skills import Script
 
+HOSTILE = (
+    b'{"n":1,"t_s":1,"event":"failure"}\n', b'{"n":1,"t_s":1,"event":"step","step":[]}\n',
+    b'{"n":1,"t_s":1,"event":"job","job":{}}\n', b'{"n":1,"t_s":1,"event":"outcome","code":7}\n',
+    b'{"n":1,"t_s":1,"event":"recovery"}\n', b"[1]\n",
+)  # fmt: skip
 ONCE_MISSED = {PickParams: [Script(steps=2, code="grasp_missed"), Script(steps=2)]}
 
 
@@ -166,6 +171,22 @@ def test_a_disk_that_fails_does_not_stop_the_robot(tmp_path):
     rig.begin(PICK).tick(2)
     dumper.update()
     assert "cannot be written" in dumper.problem
+
+
+def test_a_mistake_in_a_picture_does_not_stop_the_robot(tmp_path, monkeypatch):
+    rig = Recorded()
+    dumper = attach(rig.executive, tmp_path, on="tick", formats=("text",))
+    monkeypatch.setattr("executive.dumps.writer.render", lambda *_: 1 / 0)
+    rig.begin(PICK).tick(2)
+    dumper.update()
+    assert "ZeroDivisionError" in dumper.problem
+
+
+def test_events_that_make_no_sense_spoil_no_page(folder):
+    path = folder / "journal.jsonl"
+    for line in HOSTILE:
+        path.write_bytes(path.read_bytes() + line)
+    assert dump(Asked(run=str(folder))) == 0
 
 
 def test_options_of_the_command_line(tmp_path, capsys):
