@@ -153,7 +153,8 @@ class Names:
             return outcome.goals
         if isinstance(outcome, Question):
             raise Wrong(f"this sentence leaves a question open: {outcome.question}", "say which")
-        raise Wrong(f"this sentence was not understood: {outcome.reason}", self._hint(text))
+        cure = "" if "nearest" in outcome.reason else self._hint(text)
+        raise Wrong(f"this sentence was not understood: {outcome.reason}", cure)
 
     def _condition(self, text: str) -> goals.Condition:
         said = " ".join(text.split()).removeprefix("if ").rstrip(".")
@@ -166,10 +167,11 @@ class Names:
         """A cure for a sentence: what skill it may have meant."""
         first = text.split(maxsplit=1)[0].casefold() if text.split() else ""
         verbs = ["go", "walk", "find", "pick", "put", "bring", "look", "say", "greet", "wait",
-                 "count", "squat", "stand", "turn", "place", "meet", "tell", "repeat"]  # fmt: skip
+                 "count", "squat", "stand", "turn", "place", "meet", "tell", "repeat",
+                 "if"]  # fmt: skip
         if first not in verbs:
             return _nearest(first, verbs)
-        return 'for example: "bring the red cup to the table"'
+        return "say it another way, or as a goal: {bring: {object: ..., to: ...}}"
 
 
 def _nearest(name: str, valid: list[str]) -> str:

@@ -29,9 +29,9 @@ from robot.se3 import SE3, wrap_angle
 WALK_M_S, TURN_RAD_S = 0.30, 0.5
 BEGIN_S = 1.5
 """Of every step on foot: planning, tucking the arms in, coming to a stand."""
-PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 24.0, 24.0, 4.0, 1.5, 0.1
+PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 24.0, 24.0, 4.0, 1.1, 0.05
 """What is done on the spot, the walk there left out."""
-BALANCE_S = {"stand": 0.5, "squat": 4.0, "one_leg": 8.0, "lean": 4.0, "hold": 0.5}
+BALANCE_S = {"stand": 0.5, "squat": 2.5, "one_leg": 2.0, "lean": 2.1, "hold": 0.5}
 """Taking a posture and coming back from it."""
 MAX_PATHS = 200
 """Ways that are planned, about 30 ms each; later ones are straight lines."""
