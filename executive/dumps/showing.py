@@ -55,6 +55,8 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         why=_why(folder) if kind == "html" else (),
     )
     data = render(run, kind, wish)
+    if not run.nodes:
+        typer.echo("no tree is in this journal (yet): only events can be shown", err=True)
     if run.unreadable:
         lines = f"{run.unreadable} lines of the journal, the first of them line "
         typer.echo(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)

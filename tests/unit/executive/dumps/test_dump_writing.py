@@ -84,6 +84,12 @@ def test_lines_that_make_no_sense_are_told_of(folder, capsys):
     assert "1 lines of the journal, the first of them line 1," in capsys.readouterr().err
 
 
+def test_a_journal_without_a_tree_is_said_to_have_none(folder, capsys):
+    (folder / "journal.jsonl").write_bytes(b'{"n":0,"t_s":0.0,"event":"run","text":"go"}\n')
+    assert dump(Asked(run=str(folder))) == 0
+    assert "no tree" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
