@@ -55,6 +55,8 @@ class Body:
         self.progress = 0.0
         self.companion = ""
         """The person who may be near: the one who is handed something, or followed."""
+        self.familiar: frozenset[str] | None = None
+        """Unexplained things that were there when the feet came to rest, by id; None: not noted."""
 
     # --- what is known ---
 

@@ -11,7 +11,7 @@ from executive.skills.gripping import check_grips
 from executive.skills.resting import hold_arm
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.support import surroundings
-from executive.skills.zone import somebody_near, wait_for_room
+from executive.skills.zone import near_hand, wait_for_room
 from robot.messages import MoveArm, MoveHand, Side
 from robot.planning.requests import ArmPlan, ArmRequest, Joints
 from robot.se3 import SE3
@@ -104,7 +104,7 @@ def move_hand(
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return
-        if somebody_near(body, body.X_WG(side).p) is not None:
+        if near_hand(body, body.X_WG(side).p) is not None:
             before_s = body.now_s
             yield from _yield_to_people(body, side)
             aim, aimed_s, end_s = None, -math.inf, end_s + body.now_s - before_s
@@ -151,7 +151,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return True
-        if somebody_near(body, body.X_WG(side).p) is not None:
+        if near_hand(body, body.X_WG(side).p) is not None:
             yield from _yield_to_people(body, side)
             return False
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):
@@ -164,7 +164,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
 def _yield_to_people(body: Body, side: Side) -> Script[None]:
     """Hold the arm where it is until there is room again."""
     hold_arm(body, side)
-    yield from wait_for_room(body, hand_W=body.X_WG(side))
+    yield from wait_for_room(body, body.X_WG(side).p)
 
 
 def _off_m(body: Body, side: Side, X_WG: SE3) -> float:

@@ -8,6 +8,7 @@ from executive.skills.asking import pose_of, stance_of
 from executive.skills.body import Body
 from executive.skills.gripping import check_grips
 from executive.skills.script import Script, give_up
+from executive.skills.zone import get_familiar
 from robot.messages import Stand, WalkTo
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
@@ -48,6 +49,7 @@ def step_to(
         yield from body.wait(SETTLE_S)
         off_m, off_rad = miss(body.X_WS, X_WS_goal)
         if off_m <= position_tolerance_m and off_rad <= yaw_tolerance_rad:
+            get_familiar(body)
             return
     raise give_up(
         "walk_stalled",

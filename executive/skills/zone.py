@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 
 from executive.skills.body import Body
+from executive.skills.obstructions import clearance_m
 from executive.skills.script import Script, give_up
 from robot.messages import Obstacle, PersonInfo
-from robot.se3 import SE3
 
 ZONE_M = 0.5
 """Between a person and the middle of the body, or a hand [m]."""
@@ -45,20 +45,37 @@ def in_the_path(body: Body, towards_rad: float) -> Obstacle | None:
     return Obstacle(id=person.id, name=person.name, X_WO=body.X_WPerson(person.id), shapes=())
 
 
-def wait_for_room(body: Body, *, hand_W: SE3 | None = None) -> Script[None]:
-    """Wait until nobody is near the hand (or the body) any more, and say so.
+def get_familiar(body: Body) -> frozenset[str]:
+    """Take what stands around now for furniture; what comes later may be somebody."""
+    body.familiar = frozenset(thing.id for thing in body.world.unmapped)
+    return body.familiar
+
+
+def near_hand(body: Body, p_W: Sequence[float], *, within_m: float = ZONE_M) -> str | None:
+    """Who is near a hand, by name; what has come since the feet rested counts as somebody."""
+    person = somebody_near(body, p_W, within_m=within_m)
+    if person is not None:
+        return person.name
+    familiar = get_familiar(body) if body.familiar is None else body.familiar
+    for thing in body.world.unmapped:
+        if thing.id not in familiar and clearance_m((p_W[0], p_W[1]), thing) < within_m:
+            return "somebody"
+    return None
+
+
+def wait_for_room(body: Body, p_W: Sequence[float]) -> Script[None]:
+    """Wait until nobody is near a hand any more, and say so.
 
     Gives up with `person_near` after `PATIENCE_S`.
     """
     words, end_s = body.phase, body.now_s + PATIENCE_S
-    p_W = hand_W.p if hand_W is not None else body.X_WS.p
-    while (person := somebody_near(body, p_W, within_m=CLEAR_M)) is not None:
-        body.phase = f"waiting for {person.name} to step back"
+    while (name := near_hand(body, p_W, within_m=CLEAR_M)) is not None:
+        body.phase = f"waiting for {name} to step back"
         if body.now_s > end_s:
             raise give_up(
                 "person_near",
-                f"{person.name} stands within {ZONE_M:.1f} m while {words}",
-                person=person.id,
+                f"{name} stands within {ZONE_M:.1f} m while {words}",
+                person=name,
                 waited_s=PATIENCE_S,
             )
         yield

@@ -6,7 +6,7 @@ import pytest
 
 from executive.skills.parameters import FloorPose, NavigateParams, PickParams
 from executive.skills.zone import PATIENCE_S, ZONE_M
-from robot.messages import MoveArm, MoveHand, Walk
+from robot.messages import MoveArm, MoveHand, Obstacle, Shape, Walk
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
 
@@ -86,3 +86,31 @@ def test_somebody_who_stays_ends_the_reach_with_a_name(stage):
     assert report.failure.code == "person_near"
     assert "Ann" in report.failure.cause
     assert ZONE_M == 0.5
+
+
+def thing(X_WO: SE3) -> Obstacle:
+    shape = Shape(kind="box", size_m=(0.4, 0.4, 1.2))
+    return Obstacle(id="unmapped_7", name="something in the way", X_WO=X_WO, shapes=(shape,))
+
+
+def test_whoever_comes_beside_the_arm_unseen_counts_as_somebody(stage):
+    tick, since = stage.puppet.tick, []
+
+    def step_in():
+        tick()
+        if stage.skill.body.phase.startswith("reaching") and not since:
+            since.append(stage.puppet.time_s)
+        here = since and stage.puppet.time_s - since[0] < 3.0
+        stage.puppet.unmapped = (thing(SE3((1.6, 0.6, 0.0))),) if here else ()
+
+    stage.puppet.tick = step_in
+    report = stage.run(PickParams(object_id="cup"))
+    assert report.status == "succeeded", report
+    assert "waiting for somebody to step back" in stage.phases
+
+
+def test_what_stood_there_before_the_arm_moved_does_not(stage):
+    stage.puppet.unmapped = (thing(SE3((1.6, 0.9, 0.0))),)
+    report = stage.run(PickParams(object_id="cup"))
+    assert report.status == "succeeded", report
+    assert not any(phase.startswith("waiting") for phase in stage.phases)
