@@ -3,9 +3,12 @@
 import errno
 import json
 import os
+import re
+from pathlib import Path
 
 import pytest
 
+import executive
 from executive.journal import Journal
 from executive.lines import LineFile
 
@@ -97,3 +100,27 @@ def test_a_folder_that_cannot_be_made_is_a_warning_not_an_error(tmp_path):
     journal.listen(heard.append)
     journal.write(0.0, "step", step="x")
     assert [event.event for event in heard] == ["step", "warning"]
+
+
+def test_a_wall_clock_that_steps_back_changes_nothing(tmp_path):
+    assert play(tmp_path / "a", [1e9, 1e9 - 3600.0]) == play(tmp_path / "b", [10.0, 11.0])
+    wall = [
+        json.loads(line)["wall_s"]
+        for line in (tmp_path / "a" / "wall.jsonl").read_text().splitlines()
+    ]
+    assert wall == [1e9, 1e9 - 3600.0]
+
+
+def test_the_time_of_day_is_read_by_the_command_line_only():
+    """Everything else runs on clocks that never step (`robot.clock`)."""
+    root = Path(executive.__file__).parent.parent
+    readers = {
+        str(path.relative_to(root))
+        for package in ("executive", "intents", "robot", "sim")
+        for path in (root / package).rglob("*.py")
+        if re.search(r"datetime\.now|datetime\.today|time\.time\(", path.read_text())
+    }
+    assert all(
+        Path(name).name in ("commands.py", "cli.py", "run.py", "resume.py", "work.py")
+        for name in readers
+    ), readers
