@@ -123,7 +123,7 @@ class Grammar(Constructions):
                 found[0] = _told_there(goals[-1], found[0])
                 if _already_sought(goals[-1], found[0]):
                     goals.pop()
-                found[0] = joined(goals, found[0])
+                found[0] = joined(goals, found[0], first=self.text.word(at))
             last = len(goals)
             goals += found
             for goal in found:

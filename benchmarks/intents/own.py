@@ -13,6 +13,8 @@ from intents.vocabulary import Vocabulary
 
 HERE = Path(__file__).resolve().parent
 DIGITS = 2
+ME = {"who": "operator"}
+"""Whom something is told, if nobody else is named."""
 
 
 class Sentence(msgspec.Struct, frozen=True, kw_only=True):
@@ -59,7 +61,9 @@ def _plain(value: object) -> object:
     if isinstance(value, list):
         return [_plain(item) for item in cast("list[object]", value)]
     if isinstance(value, dict):
-        items = cast("dict[str, object]", value).items()
-        said = {k: v for k, v in items if not (k == "count" and v == 1) and v != []}
+        items = dict(cast("dict[str, object]", value))
+        if items.get("goal") in ("tell", "count", "say") and items.get("to") == ME:
+            del items["to"]
+        said = {k: v for k, v in items.items() if not (k == "count" and v == 1) and v != []}
         return {k: _plain(v) for k, v in said.items()}
     return value

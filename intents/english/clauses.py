@@ -44,7 +44,7 @@ _A_WHILE = phrases(
 )
 _STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
 _IGNORED = lexicon.words("there's exactly about approximately roughly around almost another more "
-                         "further both yourself itself")  # fmt: skip
+                         "further both yourself itself only")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -113,7 +113,9 @@ class Clause:
 def ends_clause(text: Text, at: int) -> bool:
     """Whether nothing more of a clause can begin here."""
     word = text.word(at)
-    return at >= len(text) or word in (COMMA, FULL_STOP) or bool(connector_end(text, at))
+    if at >= len(text) or word in (COMMA, FULL_STOP):
+        return True
+    return text.words[at : at + 2] == ["in", "case"] or bool(connector_end(text, at))
 
 
 def connector_end(text: Text, at: int) -> int | None:

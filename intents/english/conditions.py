@@ -8,8 +8,13 @@ from intents.english.postmodifiers import read_postmodifiers
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import NotUnderstood
-from intents.goals import Condition, Holding, Present, State
+from intents.goals import Condition, Holding, ObjectQuery, Present, State
 
+_EMPTY_HANDED = phrases(
+    "your hands are empty,your hand is empty,your gripper is empty,you hold nothing,"
+    "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"
+    "you carry nothing,you are carrying nothing,you are empty handed,both hands are empty"
+)
 _NONE = phrases("there is none,there are none,there is not one,there is not any,it is not there")
 _IS = ("is", "are", "stands", "stand", "stays", "be")
 _NO = ("no", "not", "never", "nothing", "any")
@@ -36,6 +41,9 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     if word == "there" and text.word(at + 1) in ("is", "are"):
         negated, at = _negation(text, at + 2)
         return _present(text, at, scope, negated)
+    empty = text.phrase_end(_EMPTY_HANDED, at)
+    if empty:
+        return Holding(object=ObjectQuery(), negated=True), empty
     if word == "you":
         return _of_robot(text, at + 1, scope)
     if word in ("nobody", "noone") or (word == "no" and text.word(at + 1) == "one"):
@@ -85,8 +93,17 @@ def _of_robot(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
             phrase.end = text.phrase_end(_IN_HAND, phrase.end) or phrase.end
             return Holding(object=to_object(phrase, scope), negated=negated), phrase.end
     if text.word(at) in _SEE:
+        found = noun_phrase(text, at + 1)
+        if found and text.word(found.end) in _STATES and not found.name("object"):
+            return _of_thing(text, _until(found), scope, negated)
         return _present(text, at + 1, scope, negated)
     raise NotUnderstood("I can only check what I see and what I hold")
+
+
+def _until(phrase: NounPhrase) -> NounPhrase:
+    """The phrase, as if "is" stood after it."""
+    phrase.end -= 1
+    return phrase
 
 
 def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tuple[Condition, int]:

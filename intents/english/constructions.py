@@ -12,7 +12,7 @@ from intents.english import lexicon
 from intents.english.clauses import Clause, Complement, ends_clause, read_complements
 from intents.english.frames import FRAMES
 from intents.english.frames.devices import device_names
-from intents.english.lexer import COMMA, singular
+from intents.english.lexer import COMMA, FULL_STOP, singular
 from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
@@ -30,11 +30,14 @@ _RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {
     "going": (Switch, True), "running": (Switch, True), "started": (Switch, True),
     "off": (Switch, False), "out": (Switch, False), "stopped": (Switch, False),
 }  # fmt: skip
+_ENSURES = lexicon.phrases(
+    "make sure,make sure that,ensure,ensure that,see to it that,take care that,check that"
+)
 _WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
 
 _LIGHT = lexicon.phrases(
     "give,do,make,take,have,perform,show,go into,go down into,get into,get down into,hold,stay in,"
-    "go for,do me,give it,execute,have yourself"
+    "go for,do me,give it,execute,have yourself,lower yourself into,drop into,sink into"
 )
 _ACTS: dict[str, tuple[str, str]] = {
     "wave": ("gesture", "wave"), "nod": ("gesture", "nod"), "bow": ("gesture", "bow"),
@@ -65,6 +68,7 @@ _FINDS_WAY = lexicon.phrases(
 )
 _CAUSES = lexicon.words("have let make ask get tell")
 _LIFTS = lexicon.words("raise lift lower")
+_LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
 _GIVE_IT = lexicon.phrases("give it,take,give me")
 _IN_A_WHILE = lexicon.words("in after")
 
@@ -81,6 +85,8 @@ class Constructions(Clauses):
             or self._followed(at)
             or self._wanted_there(at)
             or self._later(at)
+            or self._whether(at)
+            or self._remark(at)
             or self._verbless(at)
         )
 
@@ -152,6 +158,9 @@ class Constructions(Clauses):
     def _resultative(self, at: int) -> Reading | None:
         """Pull the drawer open; get the washing machine going; I want the lamp on."""
         text = self.text
+        ensured = text.phrase_end(_ENSURES, at)
+        if ensured:
+            return self._brought_about(ensured)
         wish = text.phrase_end(_WISHES, at)
         if wish is None and text.word(at) not in _RESULT_VERBS:
             return None
@@ -159,6 +168,8 @@ class Constructions(Clauses):
 
     def _brought_about(self, at: int) -> Reading | None:
         phrase = noun_phrase(self.text, at)
+        if phrase is not None:
+            phrase.end += self.text.word(phrase.end) in ("is", "are", "being")
         result = _RESULTS.get(self.text.word(phrase.end)) if phrase else None
         if phrase is None or result is None or not ends_clause(self.text, phrase.end + 1):
             return None
@@ -266,6 +277,11 @@ class Constructions(Clauses):
     def _later(self, at: int) -> Reading | None:
         """In twenty seconds, ...; give it five seconds."""
         text = self.text
+        if text.word(at) == "for":
+            amount = measure(text.words, at + 1)
+            start = amount.end + (text.word(amount.end) == COMMA) if amount else at
+            timed = amount and amount.kind == "time" and verbs_at(text.words, start)
+            return self.verb(start, [Complement(measure=amount)]) if timed else None
         start = at + 1 if text.word(at) in _IN_A_WHILE else text.phrase_end(_GIVE_IT, at)
         amount = measure(text.words, start) if start else None
         if amount is None or amount.kind != "time":
@@ -275,6 +291,19 @@ class Constructions(Clauses):
             return None
         end = amount.end + (goes_on and text.word(amount.end) == COMMA)
         return [Wait(duration_s=amount.value)], end
+
+    def _whether(self, at: int) -> Reading | None:
+        """Look whether the ball is behind the box."""
+        start = self.text.phrase_end(_LOOKS, at)
+        return (
+            self.question(start) if start and self.text.word(start) in ("if", "whether") else None
+        )
+
+    def _remark(self, at: int) -> Reading | None:
+        """I am thirsty, ...: it is passed over, if a command follows."""
+        text = self.text
+        alone = text.words[at : at + 2] == ["i", "am"] and text.word(at + 3) in (COMMA, FULL_STOP)
+        return ([], at + 4) if alone and at + 4 < len(text) else None
 
     def _belongs(self, at: int, phrase: NounPhrase) -> Reading | None:
         """The tea goes on the shelf; all toys belong in the box."""

@@ -3,6 +3,7 @@
 from msgspec.structs import replace
 
 from intents.goals import (
+    Balance,
     Bring,
     Find,
     ForEach,
@@ -15,12 +16,19 @@ from intents.goals import (
     Pick,
     Place,
     Say,
+    Wait,
 )
 
 
-def joined(before: list[Goal], goal: Goal) -> Goal:
-    """The goal in the light of the one before, which is taken off the list if it is part of it."""
+def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
+    """The goal in the light of the one before, which is taken off the list if it is part of it.
+
+    ``first`` is the first word of its clause.
+    """
     last = before[-1] if before else goal
+    if isinstance(last, Balance) and isinstance(goal, Wait) and first in _HOLDS:
+        before.pop()
+        return replace(last, duration_s=goal.duration_s)
     for join in (_each_in_turn, _handed_over_there, _given_there, _found_there):
         made = join(last, goal)
         if made is not None:
@@ -28,6 +36,9 @@ def joined(before: list[Goal], goal: Goal) -> Goal:
                 before.pop()
             return made
     return goal
+
+
+_HOLDS = ("hold", "stay", "keep", "remain")
 
 
 def _each_in_turn(last: Goal, goal: Goal) -> Goal | None:

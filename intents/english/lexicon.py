@@ -154,6 +154,14 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
         "between": "between,in between",
     }
 )
+LOCATIVES.update(
+    {
+        (stress, *phrase): how
+        for phrase, how in LOCATIVES.items()
+        for stress in ("right", "just", "directly", "immediately")
+        if how in ("near", "under", "behind", "above", "in_front", "between")
+    }
+)
 """Prepositions that say where something is; None says no more than "at"."""
 GOALWARDS = phrases(
     "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,until,"
@@ -196,6 +204,8 @@ OPENERS = phrases(
     "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
     "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
     "your task is to,your job is to,your mission is to,your goal is to,go ahead and,"
+    "would you be a dear and,be a dear and,would you be so good as to,be so good as to,"
+    "be a good robot and,would you be so kind and,would you be kind enough to,be kind enough to,"
     "be so kind as to,be so kind and,do me a favor and,help me,why do not you,why not,"
     "do me a favour and,would you like to,do you think you can,do you think you could,"
     "how would you,how do you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"

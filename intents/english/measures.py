@@ -19,6 +19,7 @@ _GROUPS: dict[tuple[str, ...], float] = {
     ("a", "couple", "of"): 2, ("couple", "of"): 2, ("a", "pair", "of"): 2, ("a", "dozen"): 12,
     ("half", "a", "dozen"): 6, ("a", "few"): 3, ("dozen",): 12,
     ("three", "quarters", "of", "a"): 0.75, ("a", "quarter", "of", "a"): 0.25,
+    ("three", "quarters", "of", "an"): 0.75, ("a", "quarter", "of", "an"): 0.25,
     ("half", "of", "a"): 0.5, ("half", "a"): 0.5, ("half", "an"): 0.5, ("half",): 0.5,
     ("a", "half"): 0.5, ("one", "half"): 0.5, ("a", "quarter"): 0.25, ("quarter",): 0.25,
     ("a", "single"): 1,
@@ -69,6 +70,10 @@ def number(words: list[str], start: int) -> Number | None:
         if phrase in _GROUPS:
             return Number(_GROUPS[phrase], start + len(phrase))
     whole = _whole(words, start)
+    if whole and words[whole.end : whole.end + 1] == ["point"]:
+        digits = _whole(words, whole.end + 1)
+        if digits:
+            return Number(float(f"{whole.value:.0f}.{digits.value:.0f}"), digits.end)
     if whole and tuple(words[whole.end : whole.end + 3]) == ("and", "a", "half"):
         return Number(whole.value + 0.5, whole.end + 3)
     return whole

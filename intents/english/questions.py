@@ -15,7 +15,7 @@ from intents.goals import Count, Find, Goal, ObjectQuery, Person, Tell
 Reading = tuple[list[Goal], int]
 
 _BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
-                    "be being now it could seen counted available around")  # fmt: skip
+                    "we got be being now it could seen counted available around")  # fmt: skip
 
 
 def question(
@@ -281,6 +281,14 @@ _EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gend
 def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
     """Is there a cup on the table? Do you see the bottle?"""
     start = at + (text.word(at) in ("if", "whether"))
+    if start > at:
+        sought = noun_phrase(text, start)
+        if sought and text.word(sought.end) in ("is", "are"):
+            stop = _read_on(text, sought)
+            if sought.places and is_person(sought, scope):
+                return [Find(person=to_person(sought, scope))], stop
+            if sought.places:
+                return [Find(object=to_object(sought, scope))], stop
     end = text.phrase_end(_IS_THERE, start)
     if end is None or (text.word(start) == "there" and start == at):
         return None

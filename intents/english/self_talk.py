@@ -13,6 +13,23 @@ _NOW = (
     r"| today)*"
 )
 _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
+    ("why", r"what (?:stopped|made) you(?: \w+){0,2}"),
+    ("why", r"what (?:is|was) the reason (?:that |why |for )?.*"),
+    ("why", r"why (?:it|that|this) (?:did not|does not|has not|is not|was not|failed|stopped).*"),
+    ("capabilities", r"(?:what are )?(?:all )?(?:your (?:skills|abilities|capabilities"
+                     r"|functions)|my options)"),
+    ("holding", r"(?:are|is) your (?:hands?|grippers?|arms?) (?:empty|full|free)"),
+    ("holding", r"(?:the|that|any|every)? ?(?:thing|things|object|objects|item|items) "
+                r"(?:that )?(?:you are|are you) (?:holding|carrying)"),
+    ("seeing", r"(?:what|which)(?: \w+)? (?:is|are) (?:visible|in front of you|around you"
+               r"|in sight)(?: to you| for you)?"),
+    ("seeing", r"(?:do|can) you see (?:anything|something|any objects?)"),
+    ("location", r"(?:whereabouts|where in \w+ \w+|where exactly) (?:are you|you are)"),
+    ("status", r"(?:what|which) (?:task|job|mission|step) are you (?:on|at|doing|working on)"),
+    ("status", r"is (?:the|your) (?:task|job|mission|work) (?:done|finished|complete"
+               r"|completed|over)"),
+    ("health", r"(?:is |are )?(?:anything|something|everything) (?:wrong|broken|okay|fine"
+               r"|alright|all right) with you"),
     ("why", r"(?:why|how come|for what reason|what made you)\b.*\b(?:you|your)\b.*"),
     ("why", r"(?:why|how come)(?: not| is that| (?:did|does|has|is) (?:it|that|this)\b.*)?"),
     ("why", r"what(?: is| was)?(?: the)? (?:matter|problem|wrong|reason|trouble"

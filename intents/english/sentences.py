@@ -73,6 +73,8 @@ class Clauses:
     def _sets_out(self, at: int) -> bool:
         """Go *get the cup*: the walk goes without saying."""
         text = self.text
+        if text.word(at) in ("start", "begin") and text.word(at + 1).endswith("ing"):
+            return bool(verbs_at(text.words, at + 1)) and verbs_at(text.words, at)[0][1] == at + 1
         if text.word(at) not in ("go", "come", "run", "hurry"):
             return False
         whole = verbs_at(text.words, at)[0][1] > at + 1

@@ -53,8 +53,11 @@ COMMON_WORDS = frozenset(
 """Words that mean themselves even where a name of the vocabulary is one letter away."""
 
 
-KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS
+KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS | {"once", "twice", "thrice", "only"}
 """Words that are no misspellings, and nobody's name."""
+
+
+_SHORTEST, _LONG = 4, 9
 
 
 def _slack(word: str) -> int:
@@ -92,7 +95,7 @@ class Speller:
 
     def _verb(self, word: str) -> str | None:
         """The verb that a word may be a misspelling of; begins and length tell."""
-        slack = _slack(word)
+        slack = 0 if len(word) < _SHORTEST else 1 if len(word) < _LONG else 2
         found = process.extractOne(word, _VERBS, scorer=OSA.distance, score_cutoff=slack)
         return found[0] if slack and found and found[0][0] == word[0] else None
 

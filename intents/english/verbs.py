@@ -11,12 +11,13 @@ SPELLINGS: dict[str, str] = {
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
-        "swing by,stop by,back up,back off,back away,reverse,sidestep,side step,strafe,shuffle"
+        "retreat,swing by,stop by,back up,back off,back away,reverse,"
+        "sidestep,side step,strafe,shuffle"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
         "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around,"
-        "turn to face,turn and face"
+        "turn to face,turn and face,swivel"
     ),
     "find": (
         "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,"
@@ -38,7 +39,7 @@ SPELLINGS: dict[str, str] = {
     "put": (
         "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"
         "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
-        "leave,move,drop,collect,gather"
+        "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump"
     ),
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
@@ -46,7 +47,7 @@ SPELLINGS: dict[str, str] = {
         "place down,leave,lower"
     ),
     "bring": (
-        "bring,deliver,carry,transport,transfer,bring over,bring back,bring along,"
+        "bring,run,run over,deliver,carry,transport,transfer,bring over,bring back,bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull"
     ),
@@ -139,7 +140,7 @@ SPELLINGS: dict[str, str] = {
         "balance yourself,keep balancing"
     ),
     "lift_leg": (
-        "lift the,raise the,hold up the,take your,"
+        "stick your,keep your,lift the,raise the,hold up the,take your,"
         "lift your,raise your,lift one,raise one,lift a,lift up your,raise up your,"
         "hold up your,put up your,hold your,stretch out your,extend your,put your,"
         "lower your,move your,put one,lift up one,raise up one"
@@ -166,7 +167,8 @@ SPELLINGS: dict[str, str] = {
         "stay put,do nothing,stay where you are,hold still,remain here,stay like that,"
         "stay like this,hold that pose,"
         "hold that position,do not do anything,do not do a thing,rest for,idle,"
-        "wait around,stand by,keep still,wait up,sleep for,stay still,hold your position,"
+        "hang around,wait around,stand by,"
+        "keep still,wait up,sleep for,stay still,hold your position,"
         "hold position"
     ),
     "stop": (
@@ -176,6 +178,7 @@ SPELLINGS: dict[str, str] = {
     ),
     "pause": (
         "pause,pause the mission,pause the task,take a break,interrupt,hold the mission,"
+        "suspend,suspend the task,suspend the mission,hold off,pause right there,"
         "pause it,pause that,put the task on hold,put it on hold,put the mission on hold,"
         "put everything on hold,put that on hold,interrupt the mission,interrupt the task,"
         "interrupt what you are doing,pause what you are doing,pause everything,take five"
@@ -185,6 +188,8 @@ SPELLINGS: dict[str, str] = {
         "continue the task,resume the task,resume the mission,continue the mission,"
         "go on with the task,continue with the task,continue with what you were doing,"
         "resume what you were doing,continue what you were doing,go on with it,keep on,"
+        "go on with your task,go on with the job,go on with your job,back to work,"
+        "get back to work,get on with it,get on with your task,carry on with your task,"
         "proceed,pick up where you left off,pick up where you stopped,start again,restart,"
         "you may continue,"
         "get going again,go on now,go on"
@@ -194,6 +199,8 @@ SPELLINGS: dict[str, str] = {
         "forget about it,forget about that,give up,abandon,abort the mission,"
         "cancel the mission,cancel the task,abort the task,abandon the mission,"
         "abandon the task,cancel everything,undo that,abort that,abort it,call it off,"
+        "forget about the task,forget about the mission,abandon what you are doing,"
+        "abandon it,abandon that,"
         "scrap that,scrap it,scrap the task,scrap,drop the task,drop that task,drop it all,quit,"
         "quit it,quit the task,quit the mission,call off the mission,call off the task,"
         "call it a day,forget the task,"

@@ -120,6 +120,8 @@ def gesture(clause: Clause, scope: Scope) -> list[Goal]:
     _limb(slots, "", "with")
     slots.direction("up", "down", "left", "right", "forward")
     target = slots.take("to", "at") or slots.take("") or slots.take("for")
+    listener = slots.take_person("to") if target and clause.verb.startswith("point") else None
+    del listener
     if target and target.role == "for" and target.phrase.noun == "operator":
         target = None
     slots.measure("time")

@@ -75,6 +75,7 @@ def _opened(clause: Clause, scope: Scope, act: str) -> list[str]:
     if said is None:
         raise Unclear(f"What shall I {act}?")
     slots.take_person("for")
+    slots.rest = [c for c in slots.rest if not (c.how == "behind" and c.phrases)]
     slots.done()
     return _what(said, scope, _OPENABLE, act)
 
@@ -95,5 +96,6 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     if said is None:
         raise Unclear(f"What shall I switch {'on' if on else 'off'}?")
     slots.direction("up", "down")
+    slots.take_person("for")
     slots.done()
     return [Switch(what=w, on=on) for w in _what(said, scope, _SWITCHABLE, "switch")]

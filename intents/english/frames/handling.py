@@ -14,6 +14,7 @@ from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.goals import (
     OPERATOR,
+    Balance,
     Bring,
     ForEach,
     Give,
@@ -41,6 +42,8 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     at = slots.loose_place()
     duration = slots.measure("time") if clause.verb.startswith("hold") else None
     slots.done()
+    if duration and isinstance(scope.last, Balance):
+        return [Wait(duration_s=duration)]
     held = isinstance(scope.last, Pick) and objects == [scope.object]
     picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]
     return [*picks, Wait(duration_s=duration)] if duration else picks

@@ -82,7 +82,7 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
 
 
 def _implied(clause: Clause) -> str:
-    back = ("back", "return", "go back", "reverse")
+    back = ("back", "return", "go back", "reverse", "retreat")
     return "backward" if clause.verb.startswith(back) else "forward"
 
 
