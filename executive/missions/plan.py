@@ -17,7 +17,8 @@ import msgspec
 
 from executive.request import Setting
 from executive.skills import parameters as k
-from executive.skills.visiting import AT_PERSON_M, stances_around, stances_at
+from executive.skills.obstructions import clearance_m
+from executive.skills.visiting import AT_PERSON_M, ROOM_M, stances_around, stances_at
 from executive.trees import parts as p
 from robot.bringup import entry
 from robot.errors import Failure
@@ -26,10 +27,10 @@ from robot.planning.requests import BasePath, BasePathRequest, Stance, Surroundi
 from robot.planning.solve import Solver
 from robot.se3 import SE3, wrap_angle
 
-WALK_M_S, TURN_RAD_S = 0.30, 0.5
+WALK_M_S, TURN_RAD_S = 0.23, 0.38
 BEGIN_S = 1.5
 """Of every step on foot: planning, tucking the arms in, coming to a stand."""
-PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 24.0, 24.0, 4.0, 1.1, 0.05
+PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 14.0, 14.0, 4.0, 1.1, 0.05
 """What is done on the spot, the walk there left out."""
 BALANCE_S = {"stand": 0.5, "squat": 2.5, "one_leg": 2.0, "lean": 2.1, "hold": 0.5}
 """Taking a posture and coming back from it."""
@@ -239,7 +240,7 @@ class _Forecaster:
         x_m, y_m, _ = self._stance.p
         start = (round(x_m, 3), round(y_m, 3), round(self._stance.yaw_rad, 3))
         problem = ""
-        for goal in goals:
+        for goal in sorted(goals, key=self._is_narrow):  # as skills do
             way = self._way(start, goal)
             if isinstance(way, Failure):
                 problem = problem or way.cause
@@ -248,6 +249,10 @@ class _Forecaster:
             turn_rad = sum(_turns([start, *way.waypoints]))
             return BEGIN_S + way.length_m / WALK_M_S + 0.3 * turn_rad / TURN_RAD_S, ""
         return BEGIN_S, problem or "no way leads there"
+
+    def _is_narrow(self, stance: Stance) -> bool:
+        things = self._knowledge.map.obstacles
+        return any(clearance_m(stance[:2], thing) < ROOM_M for thing in things)
 
     def _way(self, start: Stance, goal: Stance) -> BasePath | Failure:
         known = self._ways.get((start, goal))
