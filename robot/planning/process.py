@@ -6,13 +6,15 @@ What runs over its budget, or is cancelled, is killed with its process; another 
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 
+from robot.bus.lifeline import tie_to_parent
 from robot.clock import Clock, WallClock
-from robot.errors import failure
+from robot.errors import ProcessError, failure
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 
@@ -162,6 +164,11 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
     """The worker: answers requests until the pipe closes."""
     from robot.planning.solve import Solver  # loads OMPL and MuJoCo, wanted only in the worker
 
+    parent = multiprocessing.parent_process()
+    try:
+        tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
+    except ProcessError:  # it is gone already
+        return
     solver = Solver(description)
     try:
         pipe.send(None)
