@@ -34,7 +34,7 @@ EDGE_PX = 6
 HELD_WITHIN_M = 0.07
 LOST_BEYOND_M = 0.12
 GAP_TOLERANCE_M = 0.015
-CHEST_M, CHEST_RADIUS_M = 1.2, 0.15
+WAIST_M, WAIST_RADIUS_M = 0.9, 0.12
 SAME_PERSON_M = 0.6
 UNSEEN_S = 0.5
 FORGET_S = 20.0
@@ -95,7 +95,7 @@ class WorldModel:
         for name, track in self._people.items():
             if track.X_WO is None or name in seen:
                 continue
-            if view.is_clear((*track.X_WO.p[:2], CHEST_M), CHEST_RADIUS_M):
+            if view.is_clear((*track.X_WO.p[:2], WAIST_M), WAIST_RADIUS_M):
                 self._miss(self._people, name)
 
     def _miss(self, tracks: dict[str, Track], name: str) -> None:
