@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import signal
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 
@@ -141,7 +142,9 @@ class ProcessPlanner:
         self._process: SpawnProcess = context.Process(
             target=_work, args=(self._description, theirs), name="planner", daemon=True
         )
-        # Ctrl-C is for the one who plans, not for the worker: it inherits the blocked signal.
+        # Ctrl-C is for the one who plans, not for the worker: it inherits the blocked signal. The
+        # tracker comes first, because starting it unblocks the signal.
+        resource_tracker.ensure_running()
         unblocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         self._process.start()
         signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
@@ -164,6 +167,7 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
     """The worker: answers requests until the pipe closes."""
     from robot.planning.solve import Solver  # loads OMPL and MuJoCo, wanted only in the worker
 
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     try:
         tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
