@@ -20,6 +20,7 @@ from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot
+from intents.english.sentences import asks_end
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError, Unclear
 from intents.english.verbs import verbs_at
@@ -53,12 +54,6 @@ _HELLO = lexicon.phrases(
 
 
 _OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
-_WHO_ASKS = lexicon.phrases(
-    "who wants to ask you a question,who wants to ask a question,who has a question,"
-    "who has a question for you,whose question you will answer,whose question you should answer,"
-    "with a question,that has a question,who has a question that you should answer,"
-    "who is asking a question,who asks you a question,who will ask you a question"
-)
 _DEEPEST = 4
 
 
@@ -314,8 +309,9 @@ class Grammar(Constructions):
         )
 
     def _who_asks(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Find someone *who wants to ask you a question*."""
-        end = self.text.phrase_end(_WHO_ASKS, at)
+        """Find someone *who has got a question*."""
+        relative = self.text.word(at) in ("who", "that", "whose", "with")
+        end = asks_end(self.text, at) if relative else None
         found = last[-1] if last else None
         if end is None or not isinstance(found, Find) or found.person is None:
             return None

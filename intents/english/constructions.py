@@ -95,8 +95,10 @@ class Constructions(Clauses):
         if verbs_at(self.text.words, at) and not self.text.name_at(at):
             return None
         phrase = noun_phrase(self.text, at)
-        if phrase is None or phrase.noun in ("operator", "here", "there", "unknown"):
+        if phrase is None or phrase.noun in ("operator", "here", "there"):
             return None
+        if phrase.noun == "unknown":
+            return self._state(phrase)
         return self._belongs(at, phrase) or self._passive(phrase) or self._state(phrase)
 
     def _framed(
@@ -263,7 +265,7 @@ class Constructions(Clauses):
         return [Guide(person=to_person(phrase, self.scope), to=to)], stop
 
     def _wanted_there(self, at: int) -> Reading | None:
-        """I need you in the office."""
+        """I need you in the cellar."""
         text = self.text
         start = text.phrase_end(_WISHES, at)
         if start is None or text.word(start) != "you":
@@ -306,7 +308,7 @@ class Constructions(Clauses):
         return ([], at + 4) if alone and at + 4 < len(text) else None
 
     def _belongs(self, at: int, phrase: NounPhrase) -> Reading | None:
-        """The tea goes on the shelf; all toys belong in the box."""
+        """The vase goes on the sill; all toys belong in the box."""
         start = self.text.phrase_end(_BELONGS, phrase.end)
         if start is None or not phrase.name("object", "category") or phrase.is_person:
             return None

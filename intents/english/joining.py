@@ -42,7 +42,7 @@ _HOLDS = ("hold", "stay", "keep", "remain")
 
 
 def _each_in_turn(last: Goal, goal: Goal) -> Goal | None:
-    """Pick up all the cups and put them in the sink: one after the other."""
+    """Pick up all the cups and load them into the rack: one after the other."""
     if not (isinstance(last, Pick) and isinstance(goal, ForEach) and last.object.count == "all"):
         return None
     if replace(last.object, count=None, at=None) != replace(goal.object, count=None, at=None):
@@ -69,7 +69,7 @@ def _given_there(last: Goal, goal: Goal) -> Goal | None:
 
 
 def _found_there(last: Goal, goal: Goal) -> Goal | None:
-    """Find a person in the lab and tell them the time: whoever was found."""
+    """Find a guest in the lab and say hello: to whoever was found."""
     if not (isinstance(last, Find | Meet) and isinstance(goal, Say) and goal.to):
         return None
     here = last.person

@@ -23,14 +23,20 @@ _SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "an
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
 
 
-_HAS_QUESTION = lexicon.phrases(
-    "has a question,have a question,has a question for you,is asking a question,needs an answer,"
-    "has a question that needs answering,has a question that needs an answer,"
-    "has a question to be answered,has a question for me,have a question for you,"
-    "wants to ask you a question,wants to ask you something,wants to ask a question,"
-    "is asking you a question,has got a question,needs a question answered,"
-    "is asking you something,has something to ask,has something to ask you"
+_ASKING = lexicon.words(
+    "who that whose wants want would like likes to ask asks asking is has have got a an any some "
+    "one question questions for you me with which needs need answer answered answering be "
+    "something your will should can must"
 )
+
+
+def asks_end(text: Text, at: int) -> int | None:
+    """Where words end that say that somebody has a question to be answered."""
+    end, asks = at, False
+    while text.word(end) in _ASKING and (end == at or text.word(end) not in ("who", "whose")):
+        asks = asks or text.word(end) in ("ask", "asks", "asking", "question", "questions")
+        end += 1
+    return end if asks else None
 
 
 class Clauses:
@@ -272,7 +278,7 @@ class Clauses:
         phrase = None if verbs_at(self.text.words, at) else noun_phrase(self.text, at)
         if phrase is None or not is_person(phrase, self.scope):
             return None
-        end = self.text.phrase_end(_HAS_QUESTION, phrase.end)
+        end = None if self.text.word(phrase.end) == "to" else asks_end(self.text, phrase.end)
         if end is None:
             return None
         phrase.end = end
