@@ -197,6 +197,12 @@ def parse(
     file: Annotated[
         Path | None, typer.Option("--file", help="Sentences, one a line; - is standard input.")
     ] = None,
+    model: Annotated[
+        Path | None,
+        typer.Option(
+            "--model", help="Endpoint (TOML) to ask what the grammar does not understand."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the goals that a sentence becomes, without doing anything.
@@ -212,7 +218,9 @@ def parse(
     if sentence is None and file is None:
         raise typer.BadParameter("give a sentence, or --file")
     texts = [" ".join(sentence)] if sentence is not None else []
-    status = parse_all(texts, world=world, vocabulary=vocabulary, file=file, as_json=as_json)
+    status = parse_all(
+        texts, world=world, vocabulary=vocabulary, file=file, model=model, as_json=as_json
+    )
     raise typer.Exit(status)
 
 

@@ -13,7 +13,7 @@ from executive.knowledge import Knowledge
 from intents.dialogue import Context
 from intents.goals import to_builtins
 from intents.outcomes import Goals, Outcome, Question, to_record
-from intents.parser import parse
+from intents.parser import Fallback, hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.bringup import entry
@@ -21,17 +21,32 @@ from robot.errors import ConfigError, Problem
 
 
 def parse_all(
-    texts: list[str], *, world: str, vocabulary: Path | None, file: Path | None, as_json: bool
+    texts: list[str],
+    *,
+    world: str,
+    vocabulary: Path | None,
+    file: Path | None,
+    as_json: bool,
+    model: Path | None = None,
 ) -> int:
     """Parse and print; returns 0, or 2 if a single sentence is not goals.
 
+    Args:
+        texts: Sentences.
+        world: Whose names they speak of.
+        vocabulary: A file of names instead.
+        file: A file of more sentences.
+        as_json: One record a line, for programs.
+        model: The file of a language model's endpoint, asked where the grammar gives up.
+
     Raises:
-        ConfigError: the world, the vocabulary or the file cannot be read.
+        ConfigError: the world, the vocabulary, the endpoint or the file cannot be read.
     """
     names, context = _vocabulary(world, vocabulary)
+    fallback = _model(model) if model else None
     outcome: Outcome | None = None
     for text in [*texts, *(_lines(file) if file else ())]:
-        outcome = parse(text, names, context=context)
+        outcome, _ = hear(text, names, context=context, fallback=fallback)
         typer.echo(_record(text, outcome) if as_json else _words(text, outcome))
     return 0 if file is not None or isinstance(outcome, Goals) else 2
 
@@ -44,6 +59,16 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
     try:
         return Vocabulary.from_json(file.read_bytes()), Context()
     except (OSError, msgspec.DecodeError) as error:
+        raise ConfigError([Problem(str(error), str(file))]) from None
+
+
+def _model(file: Path) -> Fallback:
+    """The language model of an endpoint's file."""
+    from intents.language_model import Endpoint, LanguageModel
+
+    try:
+        return LanguageModel(Endpoint.load(file))
+    except (OSError, ValueError) as error:  # TOML and msgspec errors are ValueErrors
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 
