@@ -53,8 +53,7 @@ def evaluate(options: Options) -> int:
     if results.stale:
         console.print("[yellow]some results there were made by other code[/]")
     _go_through(results, results.left(wanted), options, console)
-    keys = {run.key for run in wanted}
-    found = report.report(cases, [r for key, r in results.records.items() if key in keys])
+    found = report.report(cases, results.records.values())
     save(folder, found)
     if options.as_json:
         typer.echo(msgspec.json.encode(found, order="deterministic"))
