@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 import typer
@@ -13,11 +14,14 @@ from executive.knowledge import Knowledge
 from intents.dialogue import Context
 from intents.goals import to_builtins
 from intents.outcomes import Goals, Outcome, Question, to_record
-from intents.parser import Fallback, hear
+from intents.parser import hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.bringup import entry
 from robot.errors import ConfigError, Problem
+
+if TYPE_CHECKING:
+    from intents.language_model import LanguageModel
 
 
 def parse_all(
@@ -48,6 +52,8 @@ def parse_all(
     for text in [*texts, *(_lines(file) if file else ())]:
         outcome, _ = hear(text, names, context=context, fallback=fallback)
         typer.echo(_record(text, outcome) if as_json else _words(text, outcome))
+        if fallback is not None and fallback.trouble:
+            typer.echo(f"  {fallback.trouble}", err=True)
     return 0 if file is not None or isinstance(outcome, Goals) else 2
 
 
@@ -62,7 +68,7 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 
-def _model(file: Path) -> Fallback:
+def _model(file: Path) -> LanguageModel:
     """The language model of an endpoint's file."""
     from intents.language_model import Endpoint, LanguageModel
 

@@ -40,7 +40,8 @@ def thing(query: ObjectQuery) -> str:
     first = "an" if first == "a" and words[0] in "aeiou" else first
     where = f" at {the(query.at)}" if query.at else ""
     if query.relation:
-        where += f" {HOW_WORDS[query.relation.how]} {thing(query.relation.of)}"
+        ends = [q for q in (query.relation.of, query.relation.other) if q is not None]
+        where += f" {HOW_WORDS[query.relation.how]} {' and '.join(map(thing, ends))}"
     return f"{first} {words}{where}"
 
 

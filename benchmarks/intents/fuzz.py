@@ -39,8 +39,17 @@ def fuzz(vocabulary: Vocabulary, corpus: list[str], *, strings: int, seed: int) 
             context = None
         took_ms = (time.perf_counter() - began) * 1e3
         if took_ms > worst_ms:
+            took_ms = min(took_ms, *(_alone_ms(text, vocabulary) for _ in range(3)))
+        if took_ms > worst_ms:
             worst_ms, worst = took_ms, text
     return Fuzzed(strings, errors, worst_ms, worst)
+
+
+def _alone_ms(text: str, vocabulary: Vocabulary) -> float:
+    """Again, because a busy machine interrupts now and then."""
+    began = time.perf_counter()
+    hear(text, vocabulary)
+    return (time.perf_counter() - began) * 1e3
 
 
 def made_up(corpus: list[str], *, strings: int, seed: int) -> Iterator[str]:
