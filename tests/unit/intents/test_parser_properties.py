@@ -4,6 +4,7 @@ import msgspec
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_constructions import CASES
 from test_grammar_table import BODY, FREE_SPEECH, HANDLING, MISSION, MOTION, PEOPLE, SEQUENCES
 from workshop_words import WORKSHOP
 
@@ -13,7 +14,7 @@ from intents.outcomes import Goals, Question, Refusal
 from intents.parser import MAX_CHARACTERS, hear, parse
 from intents.vocabulary import Thing, Vocabulary
 
-SENTENCES = [*HANDLING, *SEQUENCES, *MOTION, *BODY, *PEOPLE, *MISSION, *FREE_SPEECH]
+SENTENCES = [*HANDLING, *SEQUENCES, *MOTION, *BODY, *PEOPLE, *MISSION, *FREE_SPEECH, *CASES]
 WORDS = sorted({w for s in SENTENCES for w in s.split()} | {",", ".", "and", "then", "'s", '"'})
 
 
