@@ -280,7 +280,8 @@ def _unknown(
     said = f"{phrase.level} {phrase.said}".strip()
     like = scope.index.like(phrase.said, kinds)
     if like and not phrase.name("object", "place", "room"):
-        told = f"I know no {kind} called “{said}”. Do you mean {listing(like) if kind == 'person' else _the(like)}?"
+        meant = listing(like) if kind == "person" else _the(like)
+        told = f"I know no {kind} called “{said}”. Do you mean {meant}?"
         return Doubtful(told, tuple(like), phrase.said)
     return NotUnderstood(_reason(kind, said, phrase, scope, kinds))
 
