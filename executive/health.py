@@ -23,8 +23,8 @@ START_UP_S = 10.0
 """How long the first message of a topic may take after the start."""
 WINDOW_TICKS = 40
 """Ticks over which the rate of a topic is judged: 2 s."""
-THIN = 0.6
-"""A topic that brings less than this part of what it promises is thin."""
+THIN, WELL = 0.6, 0.8
+"""A topic that brings less than this part of what it promises is thin, until it brings that."""
 COOL_C = 70.0
 """A motor that has tripped has to cool down to this before anything moves again."""
 JUMP_REST_S = 2.0
@@ -273,6 +273,7 @@ class _Flow:
         self._rate_hz = rate_hz
         self._ticks: deque[tuple[float, bool]] = deque(maxlen=WINDOW_TICKS)
         self._stamp_s: float | None = None
+        self._thin = False
 
     def judge(self, name: str, now_s: float, stamp_s: float | None) -> Finding | None:
         """Look once a tick; None while all is well, or while it is too early to tell."""
@@ -283,7 +284,8 @@ class _Flow:
         span_s = now_s - self._ticks[0][0]
         seen = sum(new for _, new in self._ticks) - 1
         wanted = min(span_s * self._rate_hz, len(self._ticks) - 1.0)
-        if seen >= THIN * wanted:
+        self._thin = seen < (WELL if self._thin else THIN) * wanted
+        if not self._thin:
             return None
         text = f"{name} brings {max(0, seen)} messages where {wanted:.0f} are promised"
         reason = failure(CONCERNS[name].code, text, topic=name, part=round(seen / wanted, 2))

@@ -78,6 +78,12 @@ def table(shell: Shell) -> tuple[Command, ...]:
             run=steering.stop,
         ),
         Command(
+            name="estop", usage="estop [release | reset]",
+            summary="emergency stop: nothing moves until it is released and reset",
+            run=steering.estop, accepts=_one_of("", "release", "reset"),
+            choices=lambda: ("release", "reset"),
+        ),
+        Command(
             name="cancel", usage="cancel [N]", summary="end one job: N, or the one under way",
             run=steering.cancel, accepts=lambda rest: not rest or rest.isdecimal(),
         ),
@@ -248,6 +254,18 @@ class _Steering:
 
     def stop(self, _rest: str) -> None:
         self._shell.stop("the operator said stop")
+
+    def estop(self, rest: str) -> None:
+        latch = self._shell.robot.executive.estop
+        if rest == "release":
+            latch.release()
+            self._shell.out("Released; `estop reset` lets the robot move again.")
+        elif rest == "reset":
+            latch.reset()
+            self._shell.out("The robot may move again.")
+        else:
+            latch.press("the operator pressed the emergency stop")
+            self._shell.out("Emergency stop. `estop release`, then `estop reset`, undo it.")
 
     def cancel(self, rest: str) -> None:
         under_way = self._shell.under_way()

@@ -54,6 +54,9 @@ class Shell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
+        if text.strip().casefold().startswith("estop"):
+            self.commands["estop"].run(text.strip()[len("estop") :].strip())
+            return True
         if not is_stop(text):
             return False
         self.stop("the operator said stop")
@@ -69,10 +72,9 @@ class Shell:
     def line(self, text: str) -> None:
         """Do what a line says; never raises for what is in it."""
         text = text.strip()
-        if not text or self.stop_at_once(text):
-            return
         try:
-            self._take(text)
+            if text and not self.stop_at_once(text):
+                self._take(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
 

@@ -23,6 +23,7 @@ from prompt_toolkit.styles import Style
 from executive.repl.completion import LineCompleter
 from executive.repl.shell import Shell
 from executive.repl.toolbar import STYLES, toolbar
+from robot.errors import RobotError
 
 REFRESH_S = 0.2
 PANEL_SHARE = 0.5
@@ -81,8 +82,16 @@ class Terminal:
                 return
             if text.strip() in LEAVING:
                 shell.leaving = True
-            elif not shell.stop_at_once(text):
+            elif not self._stopped(text):
                 self._worker.submit(self._line, text)
+
+    def _stopped(self, text: str) -> bool:
+        """Whether a line was a cry to stop, heeded here and now."""
+        try:
+            return self._shell.stop_at_once(text)
+        except RobotError as error:
+            self._shell.out(f"Not done: {error}")
+            return True
 
     def _line(self, text: str) -> None:
         """One line; a mistake in this software must not end the prompt."""

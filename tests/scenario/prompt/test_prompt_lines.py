@@ -157,6 +157,20 @@ def test_why_and_status_and_history_tell_of_the_run(shell: Shell):
     assert "say hello" in shell.out.text
 
 
+def test_an_emergency_stop_stays_until_it_is_released_and_reset(shell: Shell):
+    shell.line("squat for 30 seconds")
+    shell.line("estop")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state in ("failed", "cancelled")
+    shell.line("estop reset")
+    assert "still pressed" in shell.out.text
+    shell.line("estop release")
+    shell.line("estop reset")
+    shell.line("squat for one second")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+
+
 def test_leaving_in_mid_work_stops_first(tmp_path: Path):
     with shell_in(tmp_path, "empty") as shell:
         shell.line("walk one metre forward")

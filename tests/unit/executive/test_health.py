@@ -1,5 +1,7 @@
 """Health follows from the ages of messages and from what they say."""
 
+import itertools
+
 import pytest
 from msgspec.structs import replace
 
@@ -12,6 +14,7 @@ from executive.health import (
     START_UP_S,
     WINDOW_TICKS,
     HealthMonitor,
+    _Flow,
 )
 from executive.ladder import Level
 from robot.bus.topics import TOPICS
@@ -189,3 +192,22 @@ def test_an_emergency_stop_is_latched_until_released_and_reset():
     assert level() is Level.SIT
     estop.reset()
     assert level() is Level.OK
+
+
+def test_a_rate_that_wavers_is_told_once():
+    """Thin below 0.6 of what is promised, well again from 0.8 on: one finding, not a hail."""
+    flow = _Flow(10.0)
+    shares = [1.0] * 100 + [0.55, 0.65] * 100 + [1.0] * 100
+    thin: list[bool] = []
+    came = 0.0
+    stamp_s = 0.0
+    for tick, share in enumerate(shares):
+        came += 0.5 * share  # two ticks a message, if all come
+        if came >= 1.0:
+            came -= 1.0
+            stamp_s = 0.05 * tick
+        thin.append(flow.judge("world/state", 0.05 * tick, stamp_s) is not None)
+    changes = sum(a != b for a, b in itertools.pairwise(thin))
+    assert any(thin)
+    assert not thin[-1]
+    assert changes == 2
