@@ -133,13 +133,16 @@ def _at_least(what: str, found: float, asked: float | None, name: str) -> Row:
     return Row(what, percent(found), f">= {100 * asked:g} %", found >= asked, published)
 
 
+def _stop_ms(text: str) -> float:
+    began = time.perf_counter()
+    is_stop(text)
+    return (time.perf_counter() - began) * 1e3
+
+
 def _stop_rows() -> list[Row]:
-    """The longest that looking for a cry to stop takes."""
-    worst_ms = 0.0
-    for text in ("stop", "x" * 100_000, "please " * 20_000, "bring me the cup", "\0" * 100_000):
-        began = time.perf_counter()
-        is_stop(text)
-        worst_ms = max(worst_ms, (time.perf_counter() - began) * 1e3)
+    """The longest that looking for a cry to stop takes, each time the best of three."""
+    texts = ("stop", "x" * 100_000, "please " * 20_000, "bring me the cup", "\0" * 100_000)
+    worst_ms = max(min(_stop_ms(text) for _ in range(3)) for text in texts)
     return [Row("stop: longest", f"{worst_ms:.3f} ms", f"< {STOP_MS:g} ms", worst_ms < STOP_MS)]
 
 
