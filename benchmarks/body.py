@@ -123,6 +123,16 @@ def _costs(duration_s: float) -> list[Job]:
     return [
         _job("cost/tick", "tick_time", alone=True, duration_s=duration_s),
         _job("cost/fast", "speed", alone=True, duration_s=duration_s),
+        *_starts(3 if duration_s > 10.0 else 1),
+    ]
+
+
+def _starts(times: int) -> list[Job]:
+    startup = "benchmarks.startup"
+    return [
+        _job("cost/start fast", f"{startup}:first_tick", alone=True, live=False, times=times),
+        _job("cost/start live", f"{startup}:first_tick", alone=True, live=True, times=times),
+        _job("cost/whole job", f"{startup}:whole_job", alone=True),
     ]
 
 

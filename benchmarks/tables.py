@@ -182,4 +182,21 @@ def _cost(outcomes: Outcomes) -> str:
             f"without an executive: **{fast['factor']:.1f} simulated seconds a wall second** "
             f"({fast['cpu_factor']:.1f} a second of CPU time; one thread)."
         )
-    return text
+    return text + _from_the_start(outcomes)
+
+
+def _from_the_start(outcomes: Outcomes) -> str:
+    """Processes from their start on."""
+    rows: list[list[str]] = []
+    for kind in ("fast", "live"):
+        one = outcomes.get(f"cost/start {kind}", {})
+        if one.get("ok"):
+            what = f"`{kind}`: until the executive's first tick"
+            each = f"{one['first_tick_s']:.1f} s, slowest {one['slowest_s']:.1f} s"
+            rows.append([what, each, f"{one['load']:.1f}"])
+    whole = outcomes.get("cost/whole job", {})
+    if whole.get("ok"):
+        what = "`fast`: the main job from start to end, planning and executive included"
+        each = f"{whole['factor']:.1f} simulated seconds a wall second"
+        rows.append([what, each, f"{whole['load']:.1f}"])
+    return "\n\n" + table(["from the start of the process", "", "load average"], rows)
