@@ -48,6 +48,7 @@ from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array, Quaternion
 
 BUS_PERIOD_S = 0.002
+SOLVE_RATE_HZ = 1.0 / (3 * BUS_PERIOD_S)
 FALLEN_TILT_RAD = 0.9
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
@@ -57,7 +58,9 @@ UNSOLVED_TO_DAMP = 20
 class ControlLoop:
     """One robot's controller."""
 
-    def __init__(self, description: RobotDescription, *, solve_rate_hz: float = 200.0) -> None:
+    def __init__(
+        self, description: RobotDescription, *, solve_rate_hz: float = SOLVE_RATE_HZ
+    ) -> None:
         """Compile the model; nothing is commanded before the first `tick`.
 
         Raises:
