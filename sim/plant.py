@@ -91,7 +91,7 @@ class Plant:
         )  # fmt: skip
         self._physics_ms = physics_ms
         self._now_ms = 0
-        self._watchdog_ms = NEVER
+        self._watchdog_ms, self._patience_ms = NEVER, self._ms(WATCHDOG_S)
         self._heat_ms = self._ms(HEAT_PERIOD_S)
         self._pulls: list[tuple[int, int, Array]] = []  # until when [ms], body, force
         self._pull_ms = NEVER
@@ -130,7 +130,7 @@ class Plant:
             DriverError: if a value is not finite or a shape is wrong (nothing changes).
         """
         sent = self.motors.write(command)
-        self._watchdog_ms = self._now_ms + self._ms(WATCHDOG_S)
+        self._watchdog_ms = self._now_ms + self._patience_ms
         return sent
 
     def read(self) -> MotorState:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
@@ -51,7 +49,7 @@ class HandControl:
         `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
         """
         self._time_s += dt_s
-        load = -float(np.dot(rotation_NW[2], state.wrist_wrench[self.row, :3])) - self._weight_n
+        load = -float(rotation_NW[2].dot(state.wrist_wrench[self.row, :3])) - self._weight_n
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
         step = CLOSE_RATE_M_S * dt_s

@@ -187,7 +187,7 @@ class WholeBody:
             self._weigh(task.strain)
         own, size = self._own, self.size
         M_own = dynamics.M[own]
-        known = np.dot(M_own, task.rest_acc)
+        known = M_own.dot(task.rest_acc)
         known += dynamics.h[own]
         M, jac = M_own[:, own], dynamics.jac[:, own]
         self._objective(programme, task, bias=dynamics.bias, jac=jac, M=M, known=known)
@@ -209,9 +209,9 @@ class WholeBody:
             return Solution(np.zeros_like(dynamics.h), task.rest_acc.copy(), ok=False)
         acc = task.rest_acc.copy()
         acc[own] = x[:size]
-        tau = np.dot(dynamics.M, acc)
+        tau = dynamics.M.dot(acc)
         tau += dynamics.h
-        tau[own] = np.dot(programme.A[:size], x) + known
+        tau[own] = programme.A[:size].dot(x) + known
         tau[:6] = 0.0
         solution = Solution(tau, acc)
         for k, i in enumerate(programme.feet):
@@ -251,7 +251,7 @@ class WholeBody:
         diagonal = programme.diagonal
         diagonal += self._regular
         gradient = programme.g[:size]
-        np.dot(b, weighted, out=gradient)
+        b.dot(weighted, out=gradient)
         gradient[3:] -= self._own_weight * task.own_acc
 
     def _constraints(
@@ -269,7 +269,7 @@ class WholeBody:
         programme.A_mass[:] = M
         np.negative(jac[programme.jac_rows].T, out=programme.A_wrench)
         for k, i in enumerate(programme.feet):
-            cone = np.dot(self._cones[i], dynamics.sole_rotation[i].T)
+            cone = self._cones[i].dot(dynamics.sole_rotation[i].T)
             programme.A_cone[k][:] = cone.reshape(CONE_ROWS, 6)
             upper[programme.cap_rows[k]] = task.max_force_n[i]
         np.subtract(self._lower, known, out=lower[:size])

@@ -60,7 +60,7 @@ class Dynamics:
         left, right = self._sites
         mujoco.mj_jacSite(model, data, left_p, left_r, left)
         mujoco.mj_jacSite(model, data, right_p, right_r, right)
-        np.dot(self.jac, self._qvel, out=self.sole_velocity)
+        self.jac.dot(self._qvel, out=self.sole_velocity)
 
     def shift_base_velocity(self, shift_m_s: tuple[float, float, float]) -> None:
         """Add to the base's linear velocity, after `kinematics`."""
@@ -80,6 +80,6 @@ class Dynamics:
         left, right = self.sole_position
         mujoco.mj_jacDot(model, data, left_p, left_r, left, self._feet[0])
         mujoco.mj_jacDot(model, data, right_p, right_r, right, self._feet[1])
-        np.dot(self._jac_dot, qvel, out=self.bias)
-        np.dot(self.M[:3], qvel, out=self.com_velocity)
+        self._jac_dot.dot(qvel, out=self.bias)
+        self.M[:3].dot(qvel, out=self.com_velocity)
         self.com_velocity /= self.body.mass_kg
