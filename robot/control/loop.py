@@ -48,7 +48,6 @@ from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array, Quaternion
 
 BUS_PERIOD_S = 0.002
-SOLVE_RATE_HZ = 1.0 / (3 * BUS_PERIOD_S)
 FALLEN_TILT_RAD = 0.9
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
@@ -58,9 +57,7 @@ UNSOLVED_TO_DAMP = 20
 class ControlLoop:
     """One robot's controller."""
 
-    def __init__(
-        self, description: RobotDescription, *, solve_rate_hz: float = SOLVE_RATE_HZ
-    ) -> None:
+    def __init__(self, description: RobotDescription, *, solve_rate_hz: float = 200.0) -> None:
         """Compile the model; nothing is commanded before the first `tick`.
 
         Raises:
