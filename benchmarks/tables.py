@@ -199,4 +199,5 @@ def _from_the_start(outcomes: Outcomes) -> str:
         what = "`fast`: the main job from start to end, planning and executive included"
         each = f"{whole['factor']:.1f} simulated seconds a wall second"
         rows.append([what, each, f"{whole['load']:.1f}"])
-    return "\n\n" + table(["from the start of the process", "", "load average"], rows)
+    head = ["from the start of the process", "", "load average"]
+    return "\n\n" + table(head, rows) if rows else ""
