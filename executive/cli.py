@@ -31,10 +31,6 @@ app = typer.Typer(
 
 model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
 app.add_typer(model_app, name="model")
-app.command(name="eval")(evaluate)
-history.register(app)
-dumps.register(app)
-missions.register(app)
 
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
@@ -82,34 +78,6 @@ def humanoid(
         repl()
 
 
-@app.command()
-def repl(
-    *,
-    world: World = "kitchen",
-    robot: Robot = "juno",
-    seed: Seed = 0,
-    fast: Fast = False,
-    vary: Vary = False,
-    run_dir: RunDir = None,
-) -> None:
-    r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
-
-    [bold]Examples[/bold]
-
-      humanoid
-
-      humanoid repl --world my_house.yaml --seed 7
-
-      printf 'go to the table\nwhy\n' | humanoid repl --fast
-
-    `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
-    """
-    from executive.repl import cli
-
-    options = cli.Options(world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir)
-    raise typer.Exit(cli.repl(options))
-
-
 @app.command(no_args_is_help=True)
 def do(
     sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")],
@@ -153,6 +121,34 @@ def do(
         dump_format=dump_format,
     )
     raise typer.Exit(commands.do(options))
+
+
+@app.command()
+def repl(
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    vary: Vary = False,
+    run_dir: RunDir = None,
+) -> None:
+    r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
+
+    [bold]Examples[/bold]
+
+      humanoid
+
+      humanoid repl --world my_house.yaml --seed 7
+
+      printf 'go to the table\nwhy\n' | humanoid repl --fast
+
+    `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
+    """
+    from executive.repl import cli
+
+    options = cli.Options(world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir)
+    raise typer.Exit(cli.repl(options))
 
 
 @app.command()
@@ -289,6 +285,13 @@ def export(
     except OSError as error:
         raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
     typer.echo(f"Done: {urdf}")
+
+
+# After the commands above, so that `--help` lists first what people use first.
+missions.register(app)
+history.register(app)
+dumps.register(app)
+app.command(name="eval")(evaluate)
 
 
 def main() -> None:
