@@ -66,6 +66,11 @@ def table(shell: Shell) -> tuple[Command, ...]:
             run=seeing.plan, accepts=bool, takes_sentence=True,
         ),
         Command(
+            name="run", usage="run MISSION [KEY=VALUE ...]",
+            summary="check a mission, and queue it as one job",
+            run=steering.run, accepts=_is_mission, choices=samples,
+        ),
+        Command(
             name="pause", usage="pause", summary="come to a stand and hold the task there",
             run=steering.pause,
         ),
@@ -120,6 +125,19 @@ def table(shell: Shell) -> tuple[Command, ...]:
         ),
         Command(name="exit", usage="exit", summary="the same", run=keeping.quit),
     )  # fmt: skip
+
+
+def samples() -> tuple[str, ...]:
+    """The missions that come along."""
+    from executive.missions.load import shipped
+
+    return tuple(path.stem for path in shipped())
+
+
+def _is_mission(rest: str) -> bool:
+    """Whether what follows names a mission: "run to the table" is a sentence."""
+    name = rest.split(" ", maxsplit=1)[0]
+    return name.endswith((".yaml", ".yml")) or name in samples()
 
 
 def _one_of(*words: str) -> Callable[[str], bool]:
@@ -244,6 +262,28 @@ class _Steering:
 
     def now(self, rest: str) -> None:
         self._shell.sentence(rest, urgent=True)
+
+    def run(self, rest: str) -> None:
+        from executive.missions import load
+        from executive.missions import run as missions
+        from executive.missions.check import Options, check
+
+        name, *given = rest.split()
+        pairs = [word.partition("=") for word in given]
+        params = {key: value for key, _, value in pairs}
+        said = Options(params=params)
+        checked = check(load.find(name), said)
+        here, there = self._shell.robot.where, checked.where
+        if (here.world_name, here.robot_name) != (there.world_name, there.robot_name):
+            text = f"the mission is for {there.robot_name} in {there.world_name}"
+            raise ConfigError(f"{text}: start the prompt with --world {there.world_name}")
+        if checked.faults:
+            self._shell.out("Its faults are left out here; `humanoid mission run` injects them.")
+        self._shell.submit(
+            missions.understood(checked),
+            limits=missions.limits(checked),
+            origin=missions.origin(checked, said),
+        )
 
     def pause(self, _rest: str) -> None:
         self._shell.robot.executive.pause()

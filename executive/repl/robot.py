@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from typing import Any
 from executive import runs
 from executive.app import Executive
 from executive.faults import Injector, SlowPlanner
-from executive.jobs import OVER
+from executive.jobs import OVER, UNLIMITED, Limits
 from executive.journal import Event, Journal, read
 from executive.loop import Interrupts, Runtime
 from executive.repl.returning import return_to
@@ -101,9 +101,16 @@ class Robot:
         """Whether a job is under way or waits."""
         return any(job.state not in OVER for job in self.executive.jobs)
 
-    def submit(self, understood: Understood, *, urgent: bool = False) -> int:
-        """Queue a task; returns its number."""
-        number = self.session.submit(understood, urgent=urgent)
+    def submit(
+        self,
+        understood: Understood,
+        *,
+        urgent: bool = False,
+        limits: Limits = UNLIMITED,
+        origin: Mapping[str, Any] | None = None,
+    ) -> int:
+        """Queue a task, as `Session.submit` does; returns its number."""
+        number = self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
         self._wake.set()
         return number
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from executive.app import JobError
 from executive.behaviours.ask import ANSWERS, Answer
@@ -101,9 +102,9 @@ class Shell:
             return self._settle(in_words(turn.goals) if answers else text, turn)
         return None
 
-    def submit(self, understood: Understood, *, urgent: bool = False) -> None:
-        """Queue a task, and say where it stands."""
-        number = self.robot.submit(understood, urgent=urgent)
+    def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
+        """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
+        number = self.robot.submit(understood, urgent=urgent, **how)
         self._holds = understood.holds
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)

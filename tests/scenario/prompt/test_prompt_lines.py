@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from executive import request, runtimes
+from executive.journal import read
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
 from robot.clock import WallClock
@@ -73,6 +74,7 @@ def test_a_sentence_is_done(shell: Shell):
         ("cancel 99", "there is no job 99"),
         ("cancel", "Nothing is under way"),
         ("inject meteor", "unknown fault"),
+        ("run nowhere.yaml", "nowhere.yaml"),
         ("save mission", "save it where?"),
         ("save mission /nowhere/at/all.yaml", "cannot be written"),
     ],
@@ -86,7 +88,14 @@ def test_what_cannot_be_meant_is_said_and_nothing_moves(shell: Shell, line: str,
 
 @pytest.mark.parametrize(
     "line",
-    ["step back half a metre", "watch the table", "help me", "status quo", "history of the world"],
+    [
+        "run to the table",
+        "step back half a metre",
+        "watch the table",
+        "help me",
+        "status quo",
+        "history of the world",
+    ],
 )
 def test_a_sentence_that_begins_like_a_command_is_a_sentence(shell: Shell, line: str):
     first, _, rest = line.partition(" ")
@@ -169,6 +178,20 @@ def test_an_emergency_stop_stays_until_it_is_released_and_reset(shell: Shell):
     shell.line("squat for one second")
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "done"
+
+
+def test_a_mission_is_one_job(shell: Shell, tmp_path: Path):
+    path = tmp_path / "words.yaml"
+    path.write_text(
+        "name: two words\nparameters: {word: {type: text, default: one}}\n"
+        'steps: [{say: "{{word}}"}, {say: two}]\n'
+    )
+    shell.line(f"run {path} word=eleven")
+    shell.robot.wait()
+    job = shell.robot.executive.jobs[-1]
+    assert (job.text, job.state) == ("two words", "done")
+    said = [event.data["text"] for event in read(shell.folder) if event.event == "said"]
+    assert said[-2:] == ["eleven", "two"]
 
 
 def test_leaving_in_mid_work_stops_first(tmp_path: Path):
