@@ -106,7 +106,7 @@ def prompt(options: Options, *, handle: Handle | None = None) -> int:
 def say(text: str) -> None:
     """A line for people; above the prompt where there is one."""
     console = Console(file=sys.stdout, highlight=False)
-    console.print(text, markup=False, soft_wrap=True)
+    console.print(text, markup=False, soft_wrap=not console.is_terminal)
 
 
 def _tell(event: Event) -> None:
