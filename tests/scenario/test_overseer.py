@@ -13,8 +13,9 @@ import pytest
 from tests.fakes.waiting import eventually
 
 PARENT = """
-import sys, json
+import json, signal, sys
 from pathlib import Path
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup
 from robot.bringup import lowering, overseer
 from robot.bringup.processes import Process
 lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
