@@ -40,7 +40,6 @@ STAMP_S = 0.12
 MAX_UNUSED_S = 0.1
 ESCAPE_MARGIN_M = 0.0
 LATE_S = 0.25
-EARLY_SHARE = 0.023  # of a foot's way that is left when it meets the floor, at six sevenths
 DEADBAND_M = 0.02
 FREEZE_S = 0.08
 TIMING_DEADBAND_M = 0.03
@@ -275,8 +274,7 @@ class Gait:
         landing = self._landings[0]
         if not self._one_leg_s:
             self._landings = self._look_ahead(landing)
-        start, height_m = self.planted[side], walking.step_height_m
-        self.swing = Swing(start, self._beyond(landing), self.duration_s, height_m)
+        self.swing = Swing(self.planted[side], landing, self.duration_s, walking.step_height_m)
         self._replan(self._zmp_of(self.planted[self.support]))
         self._polygon = self._hull([self.planted[self.support]])
 
@@ -355,7 +353,7 @@ class Gait:
         scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
         nominal = self._landings[0]
         wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
-        self.swing.aim(self._beyond(self._reachable(wanted)), dt_s)
+        self.swing.aim(self._reachable(wanted), dt_s)
 
     def _retime(self, dt_s: float, xi: Point, xi_ref: Point, command: Point) -> None:
         """Move the end of the step towards the time at which the DCM is sideways where planned."""
@@ -385,15 +383,6 @@ class Gait:
         if self.phase != "single":
             return self.phase_s
         return min(1.0, self.phase_s / self.duration_s) * self._nominal_s
-
-    def _beyond(self, landing: Sole) -> Sole:
-        """What to aim at to land there: the foot meets the floor before its way is done."""
-        start, share = self.planted[other(self.support)], EARLY_SHARE
-        return Sole(
-            landing.x + share * (landing.x - start.x),
-            landing.y + share * (landing.y - start.y),
-            landing.yaw + share * wrap_angle(landing.yaw - start.yaw),
-        )
 
     def _reachable(self, landing: Sole) -> Sole:
         """Keep a landing where the swing leg can put it without crossing the other."""
