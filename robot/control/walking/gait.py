@@ -395,11 +395,12 @@ class Gait:
         return support.offset(forward, left, turn_rad=turn)
 
     def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
-        """The ZMP that brings the DCM back, clipped to the support."""
+        """The ZMP that brings the DCM back, clipped to the support (walking: or just beyond)."""
         gain = 1.0 + DCM_GAIN_1_S / self.omega_1_s
         x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
         y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
-        return self._polygon.clip((x, y), beyond_m=HIP_M)
+        beyond_m = 0.0 if self.phase == "stand" else HIP_M
+        return self._polygon.clip((x, y), beyond_m=beyond_m)
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
