@@ -1,7 +1,6 @@
 """What is evaluated: cases out of a YAML file, and the runs that they make.
 
-A case is a short mission, the faults that strike in it, and the outcome that is expected, written
-down before anything is run.
+A case is a short mission, the faults that strike in it, and the outcome that is expected.
 """
 
 from __future__ import annotations
