@@ -25,6 +25,8 @@ from robot.clock import WallClock
 from robot.errors import RobotError
 
 POLL_S = 0.02
+LIVE = ("robot.bringup.live:LiveRuntime", "robot.planning.process:ProcessPlanner")
+"""What every live run opens, loaded lazily elsewhere: a spare has it before its turn comes."""
 
 Run = Callable[[Handle, dict[str, Any]], int]
 
@@ -48,6 +50,8 @@ def _turn(folder: Path, number: int) -> tuple[Run, Front]:
     stop = signal.signal(signal.SIGINT, signal.SIG_IGN)
     clock = WallClock()
     run: Run = entry.attribute(_read(folder).entry)
+    for needed in LIVE:
+        entry.attribute(needed)
     while (front := _read(folder)).deaths < number:
         clock.sleep_until(clock.now_s() + POLL_S)
     signal.signal(signal.SIGINT, stop)

@@ -14,10 +14,11 @@ from executive.session import Session
 
 
 def unfinished(events: list[Event]) -> list[list[Event]]:
-    """Of every job that was not over: the events from its submission on, the oldest first.
+    """Of every job that was not over: its events from its submission on, the oldest first.
 
-    Jobs are numbered in the order of their submission, anew in every executive of a run; one that
-    returns submits again what was open, so that the newest executive's jobs are all there is.
+    What the hands hold counts for all of them, whichever job took it. Jobs are numbered in the
+    order of their submission, anew in every executive of a run; one that returns submits again what
+    was open, so that the newest executive's jobs are all there is.
     """
     submitted: list[int] = []
     over: set[int] = set()
@@ -28,8 +29,16 @@ def unfinished(events: list[Event]) -> list[list[Event]]:
             submitted.append(at)
         elif event.event == "job" and event.data["state"] in OVER:
             over.add(int(event.data["job"]))
-    open_ = [at for number, at in enumerate(submitted, start=1) if number not in over]
-    return [events[at:] for at in open_]
+    open_ = [(number, at) for number, at in enumerate(submitted, start=1) if number not in over]
+    return [
+        [event for event in events[at:] if event.event == "held" or _of(event) in (number, None)]
+        for number, at in open_
+    ]
+
+
+def _of(event: Event) -> int | None:
+    """The job that an event belongs to; None for those of no job."""
+    return event.data.get("job")
 
 
 def return_to(session: Session, events: list[Event], *, where: Setting, folder: Path) -> None:

@@ -24,7 +24,7 @@ from robot.errors import BusError
 M = TypeVar("M")
 PEERS = ("executive", "plant", "controller", "perception", "observer")
 MAX_PATH_BYTES = 100
-RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5}
+RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 
 
 class ZenohSubscription(Generic[M]):

@@ -18,7 +18,8 @@ import pyte
 from tests.fakes.waiting import eventually
 
 COLUMNS, ROWS = 100, 30
-ENTER, TAB, UP, CTRL_C, CTRL_D = "\r", "\t", "\x1b[A", "\x03", "\x04"
+ENTER, TAB, UP = "\r", "\t", "\x1b[A"
+CTRL_C, CTRL_D, CTRL_U = "\x03", "\x04", "\x15"
 
 
 class Terminal:

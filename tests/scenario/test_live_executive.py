@@ -5,59 +5,85 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
+import pytest
+
 from executive import journal
+from executive.journal import WALL_FILE, Event
+from tests.fakes.executives import executives
 from tests.fakes.waiting import eventually
 
-WORDS = "squat for three seconds, then say hello, then squat for nine seconds"
+WORDS = "say hello, then put the red cup on the sideboard"
+WITHIN_S = 3.0
+"""From an executive's death until the next one is at work again."""
 
 
-def executives(job: int) -> list[int]:
-    """Process ids of a job's executives: the one at work, then the spare."""
-    found = []
-    for entry in Path("/proc").glob("[0-9]*"):
+class Run:
+    """A live run of a sentence in the world `bench`."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.job = subprocess.Popen(
+            [sys.executable, "-m", "executive", "do", WORDS, "--world", "bench", "--json",
+             "--run-dir", str(folder)],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        )  # fmt: skip
+
+    def events(self, kind: str) -> list[Event]:
         try:
-            words = (entry / "cmdline").read_bytes().split(b"\0")
-        except OSError:
-            continue
-        if b"executive.main" in words and str(job).encode() in words:
-            found.append((words[-2], int(entry.name)))
-    return [pid for _, pid in sorted(found)]
+            return [event for event in journal.read(self.folder) if event.event == kind]
+        except Exception:  # not there yet
+            return []
+
+    def kill_while(self, phase: str) -> float:
+        """Kill the executive a moment after a phase has begun; the time of day."""
+        has_begun = lambda: any(phase in e.data["phase"] for e in self.events("phase"))  # noqa: E731
+        assert eventually(has_begun, within_s=120.0), phase
+        time.sleep(1.5)
+        os.kill(executives(self.job.pid)[0], signal.SIGKILL)
+        return time.time()
+
+    def first_after(self, wall_s: float, kind: str) -> float:
+        """How long after a time of day the next event of a kind was written."""
+        numbers = {event.n for event in self.events(kind)}
+        for line in (self.folder / WALL_FILE).read_text().splitlines():
+            told = json.loads(line)
+            if told["n"] in numbers and told["wall_s"] > wall_s:
+                return told["wall_s"] - wall_s
+        raise AssertionError(f"no {kind} after that")
 
 
-def said(folder: Path, kind: str, **data) -> bool:
-    try:
-        events = journal.read(folder)
-    except Exception:  # not there yet
-        return False
-    return any(e.event == kind and data.items() <= e.data.items() for e in events)
+@pytest.fixture
+def run(tmp_path):
+    made = Run(tmp_path / "run")
+    yield made
+    if made.job.poll() is None:
+        os.killpg(made.job.pid, signal.SIGKILL)
 
 
-def test_a_killed_executive_is_followed_by_one_that_goes_on(tmp_path):
-    folder = tmp_path / "run"
-    command = [sys.executable, "-m", "executive", "do", WORDS, "--run-dir", str(folder), "--json"]
-    job = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+@pytest.mark.slow
+def test_it_goes_on_within_seconds_when_killed_while_walking_and_while_carrying(run):
+    killed_s = [run.kill_while("walking to the red cup"), run.kill_while("walking to the sideb")]
+    out, err = run.job.communicate(timeout=150.0)
+    assert run.job.returncode == 0, err
+    summary = json.loads(out)
+    assert summary["status"] == "done"
+    assert [item["where"] for item in summary["placed"]] == ["on the sideboard"]
+    assert err.count("The executive was killed by SIGKILL") == 2
+
+    assert [event.n for event in journal.read(run.folder)] == list(
+        range(len(journal.read(run.folder)))
     )
-    try:
-        third = {"step": "squat for 9 s", "phase": "holding (squat)"}
-        assert eventually(lambda: said(folder, "phase", **third), within_s=120.0)
-        os.kill(executives(job.pid)[0], signal.SIGKILL)
-        assert eventually(lambda: said(folder, "resumed"), within_s=60.0)
-        out, err = job.communicate(timeout=120.0)
-    finally:
-        if job.poll() is None:
-            os.killpg(job.pid, signal.SIGKILL)
-    assert job.returncode == 0, err
-    assert json.loads(out)["status"] == "done"
-    assert "The executive was killed by SIGKILL" in err
-    events = journal.read(folder)
-    assert [event.n for event in events] == list(range(len(events)))
-    done = [event.data["id"] for event in events if event.event == "done"]
-    assert done == ["1", "2", "3"]
-    (resumed,) = [event for event in events if event.event == "resumed"]
-    assert len(resumed.data["done"]) == 2
-    modes = {e.data["mode"] for e in events if e.event == "pose" and "mode" in e.data}
-    assert modes == {"stand"}
-    assert eventually(lambda: not executives(job.pid), within_s=5.0)
+    assert len(run.events("said")) == 1
+    assert [event.data["id"] for event in run.events("done")] == ["1", "2.1", "2.2"]
+    walking, carrying = run.events("resumed")
+    assert walking.data["done"] == ["1"]
+    assert carrying.data["done"] == ["1", "2.1"]
+    assert "in the hand: red_cup" in carrying.data["why"]
+    modes = {event.data["mode"] for event in run.events("pose") if "mode" in event.data}
+    assert modes == {"stand", "walk"}
+    for when_s in killed_s:
+        assert run.first_after(when_s, "step") < WITHIN_S
+    assert eventually(lambda: not executives(run.job.pid), within_s=5.0)

@@ -1,0 +1,16 @@
+"""The executives of a live run, as processes that a test can find and kill."""
+
+from pathlib import Path
+
+
+def executives(job: int) -> list[int]:
+    """Process ids of a job's executives: the one at work, then the spare."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if b"executive.main" in words and str(job).encode() in words:
+            found.append((int(words[-2]), int(entry.name)))
+    return [pid for _, pid in sorted(found)]

@@ -1,0 +1,51 @@
+"""The executive of a prompt is killed: the prompt comes back on the same terminal, and goes on."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from executive.journal import read
+from tests.fakes.executives import executives
+from tests.fakes.terminal import CTRL_D, CTRL_U, TAB, UP, Terminal
+from tests.fakes.waiting import eventually
+
+
+@pytest.mark.slow
+def test_the_prompt_survives_its_executive(tmp_path: Path):
+    run = tmp_path / "run"
+    with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
+        assert terminal.shows("`help` shows what can be said")
+        terminal.enter("walk two metres forward")
+        terminal.enter("say hello")
+        terminal.enter("then squat for 1 second")
+        assert terminal.shows("walk | healthy")
+        terminal.press("half a li")
+        assert terminal.shows("> half a li")
+        first, *_ = executives(terminal.process.pid)
+        os.kill(first, signal.SIGKILL)
+        assert terminal.shows("The executive was killed by SIGKILL")
+        assert terminal.shows("The prompt is back")
+        assert first not in executives(terminal.process.pid)
+        assert terminal.shows("walk | healthy")  # the job that was open goes on
+
+        terminal.press("pau" + TAB)  # keys and completion work as before
+        assert terminal.shows("> pause")
+        terminal.press(CTRL_U)  # Ctrl-C would stop the robot
+        assert eventually(lambda: "> pause" not in terminal.text)
+        terminal.press(UP)
+        assert terminal.shows("> then squat")  # so does the history
+        terminal.press(CTRL_U)
+        assert terminal.shows("squat for 1 s: done", within_s=60.0)
+        terminal.press(CTRL_D)
+        assert eventually(lambda: terminal.process.poll() is not None, within_s=20.0)
+        assert terminal.process.returncode == 0
+    events = read(run)
+    assert [event.n for event in events] == list(range(len(events)))
+    done = [event.data["step"] for event in events if event.event == "done"]
+    assert done.count("walk 2 m forward") == 1
+    assert sum(event.event == "said" for event in events) == 1
+    assert {e.data["mode"] for e in events if e.event == "pose" and "mode" in e.data} == {
+        "stand", "walk",
+    }  # fmt: skip
