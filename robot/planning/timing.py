@@ -51,19 +51,27 @@ def rounded(corners: Array, cuts: Array) -> Array:
 
 def time_path(path: Array, *, velocity: Array, acceleration: Array) -> Timed:
     """Times for a dense path, shape (k, n), within limits of shape (n,) [rad/s], [rad/s2]."""
-    slower, excess = 1.0, 1.0
+    slower = 1.0
     timed = _sampled(path, velocity, acceleration)
     for _ in range(6):
-        count = 4 * len(timed.times_s)
-        speed = np.max(np.abs(timed.sampled(count, derivative=1)) / velocity)
-        effort = np.max(np.abs(timed.sampled(count, derivative=2)) / acceleration)
-        excess = max(float(speed), float(np.sqrt(effort)))
+        excess = _excess(timed, velocity, acceleration)
         if excess <= 1.0 + 1e-6:
             return timed
         slower = min(slower * 0.97, slower / excess)
         timed = _sampled(path, slower * velocity, slower**2 * acceleration)
-    stretched = excess * timed.times_s
-    return Timed(stretched, timed.positions_rad)
+    stretch = max(1.0, _excess(timed, velocity, acceleration))
+    return Timed(stretch * timed.times_s, timed.positions_rad)
+
+
+def _excess(timed: Timed, velocity: Array, acceleration: Array) -> float:
+    """By how much slower it has to be to stay inside the limits; 1 or less if it is inside.
+
+    The spline's acceleration is linear between its knots, so it is greatest at one of them.
+    """
+    knots = len(timed.times_s)
+    speed = np.max(np.abs(timed.sampled(4 * knots, derivative=1)) / velocity)
+    effort = np.max(np.abs(timed.sampled(knots, derivative=2)) / acceleration)
+    return max(float(speed), float(np.sqrt(effort)))
 
 
 def _sampled(path: Array, velocity: Array, acceleration: Array) -> Timed:
