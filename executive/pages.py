@@ -88,8 +88,8 @@ def hopeless() -> str:
 def budgets() -> str:
     """How much recovery there is."""
     return (
-        f"One step has at most **{PER_STEP}** recoveries whatever their codes, "
-        f"one job **{PER_TASK}**.\n"
+        f"One step has at most **{PER_STEP}** recoveries whatever their codes. One job has "
+        f"**{PER_TASK}** to spend, and each step that is done at the first try gives one back.\n"
     )
 
 

@@ -180,6 +180,8 @@ class RunSkill(Behaviour):
             self._stage.release(self._skill)
         if report.status == "succeeded":
             self._record("done")
+            if not self._attempt:
+                self._stage.earn()
             return Status.SUCCESS
         return self._give_up(report.failure or failure("internal", "it failed without a reason"))
 

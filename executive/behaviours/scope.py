@@ -25,6 +25,7 @@ class Scope:
         number: of the job; 0 is the executive's own business (coming to a stand).
         failure: the newest failure of a step.
         recoveries: begun so far.
+        spent: of the recoveries that a job may have; each step done at the first try gives one back.
         worked_s: time in which the job had its turn.
         speed_m_s: the fastest it may walk.
         at_work: leaves whose skill acts.
@@ -33,6 +34,7 @@ class Scope:
     number: int = 0
     failure: Failure | None = None
     recoveries: int = 0
+    spent: int = 0
     worked_s: float = 0.0
     speed_m_s: float = math.inf
     at_work: list[Suspendable] = field(default_factory=list[Suspendable])

@@ -130,8 +130,13 @@ class Stage:
     def count_recovery(self) -> int:
         """Count a recovery of the job whose turn it is; returns how many it has begun by now."""
         self.scope.recoveries += 1
+        self.scope.spent += 1
         self.task.set(RECOVERIES, self.scope.recoveries)
         return self.scope.recoveries
+
+    def earn(self) -> None:
+        """A step was done at the first try: its job may have one more recovery, of those spent."""
+        self.scope.spent = max(0, self.scope.spent - 1)
 
     def leave(self, name: str, skill: Skill, scope: Scope) -> None:
         """Stop a skill whose leaf is not ticked any more; `wind_down` sees it through."""

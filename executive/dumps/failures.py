@@ -17,7 +17,8 @@ HEAD = f"""# Failures
 Whatever the robot could not do ends with a code out of this catalogue (`robot.errors.CATALOGUE`),
 with its cause in a sentence, the measurements behind it, and what a person can do. The code chooses
 the recovery (`executive.trees.recovery.RULES`): how often it is tried in one step stands in the
-last column. One step has at most {PER_STEP} recoveries whatever their codes, one task {PER_TASK}.
+last column. One step has at most {PER_STEP} recoveries whatever their codes; one task may spend
+{PER_TASK}, and each step that is done at the first try gives one back.
 
 A code found before anything moves ends `humanoid do` with exit status 2, one found later with 1;
 {", ".join(f"`{code}`" for code in sorted(BROKEN))} mean that the system broke: 3.

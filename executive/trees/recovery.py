@@ -14,7 +14,9 @@ choice behind itself::
 
 So the tree shows what was tried. Remedies of a code are tried in their order, local before global,
 a person's help last, and the tree can only grow as far as the budgets go: every remedy has its
-number of times in a step, a step has `PER_STEP` whatever their codes, a job `PER_TASK`.
+number of times in a step, a step has `PER_STEP` whatever their codes. A job has `PER_TASK` to spend,
+and each step that is done at the first try gives one back: a long mission that gets on does not run
+out of them, one that does not get on ends.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ from executive.trees.remedies import HELP, REMEDIES, Remedy, question
 from robot.errors import Failure, failure
 
 PER_STEP, PER_TASK = 6, 14
-"""Recoveries of one step, and of one task, whatever their codes."""
+"""Recoveries of one step, and those that one task may spend, whatever their codes."""
 
 
 class Rule(msgspec.Struct, frozen=True):
@@ -166,7 +168,7 @@ class Recover(Behaviour):
             return f"tried {tried} times" if tried else f"nothing to be done about {code}"
         if self._used.total() >= PER_STEP:
             return f"{PER_STEP} recoveries in this step are enough"
-        if self._stage.scope.recoveries >= PER_TASK:
+        if self._stage.scope.spent >= PER_TASK:
             return f"{PER_TASK} recoveries in this task are enough"
         return ""
 
