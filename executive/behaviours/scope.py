@@ -25,7 +25,7 @@ class Scope:
         number: of the job; 0 is the executive's own business (coming to a stand).
         failure: the newest failure of a step.
         recoveries: begun so far.
-        spent: of the recoveries that a job may have; each step done at the first try gives one back.
+        spent: of the recoveries a job may have; a step done at the first try gives one back.
         worked_s: time in which the job had its turn.
         speed_m_s: the fastest it may walk.
         at_work: leaves whose skill acts.

@@ -14,9 +14,9 @@ choice behind itself::
 
 So the tree shows what was tried. Remedies of a code are tried in their order, local before global,
 a person's help last, and the tree can only grow as far as the budgets go: every remedy has its
-number of times in a step, a step has `PER_STEP` whatever their codes. A job has `PER_TASK` to spend,
-and each step that is done at the first try gives one back: a long mission that gets on does not run
-out of them, one that does not get on ends.
+number of times in a step, a step has `PER_STEP` whatever their codes. A job has `PER_TASK` to
+spend, and each step that is done at the first try gives one back: a long mission that gets on does
+not run out of them, one that does not get on ends.
 """
 
 from __future__ import annotations
