@@ -20,6 +20,8 @@ from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 
 BUDGET_S = 5.0
+STARTS = 3
+"""Workers in a row that may die before they are ready, until whoever waits is told so."""
 
 
 @dataclass(slots=True)
@@ -52,6 +54,7 @@ class ProcessPlanner:
         self._last = 0
         self._running: int | None = None
         self._ready = False
+        self._stillborn = 0
         self._start()
 
     def __enter__(self) -> ProcessPlanner:
@@ -129,7 +132,15 @@ class ProcessPlanner:
             if self._running is not None:
                 cause = "the planner's process died"
                 self._finish(self._running, failure("internal", cause))
+            self._count_death()
             self._restart()
+
+    def _count_death(self) -> None:
+        """Fail all that wait when one worker after the other dies as it starts."""
+        self._stillborn = 0 if self._ready else self._stillborn + 1
+        if self._stillborn >= STARTS:
+            for ticket in list(self._waiting):
+                self._finish(ticket, failure("internal", "the planner's process does not start"))
 
     def _finish(self, ticket: int, answer: PlanResult) -> None:
         self._waiting.pop(ticket, None)

@@ -1,5 +1,6 @@
 """Both planners keep the same promises: tickets, answers once, cancelling, equal answers."""
 
+import os
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -8,6 +9,7 @@ import pytest
 
 from robot.errors import Failure
 from robot.model.description import load
+from robot.planning import process
 from robot.planning.inline import PLAN_SPAN_S, InlinePlanner
 from robot.planning.process import ProcessPlanner
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PickRequest, PlanRequest
@@ -39,8 +41,8 @@ def planner(request: pytest.FixtureRequest) -> Iterator[Planner]:
     if request.param == "inline":
         yield InlinePlanner(ROBOT)
         return
-    with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as process:
-        yield process
+    with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as planner:
+        yield planner
 
 
 def answer_of(planner: Planner, ticket: int) -> object:
@@ -125,3 +127,20 @@ def test_a_dead_worker_fails_its_request_and_is_replaced() -> None:
         assert isinstance(answer, Failure)
         assert answer.code == "internal"
         assert isinstance(ask(planner, PATH), BasePath)
+
+
+def die_at_once(*_: object) -> None:
+    os._exit(1)
+
+
+def test_a_worker_that_does_not_start_is_an_answer_and_not_waited_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(process, "_work", die_at_once)
+    with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as planner:
+        for _ in range(2):
+            answer = ask(planner, PATH)
+            assert isinstance(answer, Failure)
+            assert (answer.code, answer.cause) == (
+                "internal", "the planner's process does not start",
+            )  # fmt: skip
