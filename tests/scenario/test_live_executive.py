@@ -15,6 +15,8 @@ from executive.journal import WALL_FILE, Event
 from tests.fakes.executives import executives
 from tests.fakes.waiting import eventually
 
+pytestmark = pytest.mark.live
+
 WORDS = "say hello, then put the red cup on the sideboard"
 WITHIN_S = 3.0
 """From an executive's death until the next one is at work again."""

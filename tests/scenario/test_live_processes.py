@@ -20,6 +20,8 @@ from robot.messages import Damp, LoopTiming, WalkTo
 from robot.model import description
 from tests.fakes.waiting import eventually
 
+pytestmark = pytest.mark.live
+
 NAMES = ("plant", "controller", "perception")
 
 

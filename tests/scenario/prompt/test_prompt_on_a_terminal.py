@@ -8,6 +8,8 @@ from executive.journal import read
 from tests.fakes.terminal import CTRL_C, CTRL_D, ENTER, TAB, UP, Terminal
 from tests.fakes.waiting import eventually
 
+pytestmark = pytest.mark.live
+
 
 def events(folder: Path, kind: str) -> list:
     return [event for event in read(folder) if event.event == kind]

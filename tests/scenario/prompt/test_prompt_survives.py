@@ -11,6 +11,8 @@ from tests.fakes.executives import executives
 from tests.fakes.terminal import CTRL_D, CTRL_U, TAB, UP, Terminal
 from tests.fakes.waiting import eventually
 
+pytestmark = pytest.mark.live
+
 
 @pytest.mark.slow
 def test_the_prompt_survives_its_executive(tmp_path: Path):
