@@ -52,6 +52,14 @@ RunDir = Annotated[
     Path | None,
     typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
 ]
+Model = Annotated[
+    Path | None,
+    typer.Option(
+        "--model",
+        envvar="HUMANOID_MODEL",
+        help="Language model (an endpoint's TOML file) to ask what the grammar cannot read.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 
@@ -89,6 +97,7 @@ def do(
     as_json: AsJson = False,
     vary: Vary = False,
     run_dir: RunDir = None,
+    model: Model = None,
     dump: dumps.Dump = None,
     dump_on: dumps.DumpOn = "end",
     dump_format: dumps.DumpFormat = "html",
@@ -115,6 +124,7 @@ def do(
         fast=fast,
         vary=vary,
         folder=run_dir,
+        model=model,
         as_json=as_json,
         dump=dump,
         dump_on=dump_on,
@@ -132,6 +142,7 @@ def repl(
     fast: Fast = False,
     vary: Vary = False,
     run_dir: RunDir = None,
+    model: Model = None,
 ) -> None:
     r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
 
@@ -147,7 +158,9 @@ def repl(
     """
     from executive.repl import cli
 
-    options = cli.Options(world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir)
+    options = cli.Options(
+        world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir, model=model
+    )
     raise typer.Exit(cli.repl(options))
 
 
@@ -193,12 +206,7 @@ def parse(
     file: Annotated[
         Path | None, typer.Option("--file", help="Sentences, one a line; - is standard input.")
     ] = None,
-    model: Annotated[
-        Path | None,
-        typer.Option(
-            "--model", help="Endpoint (TOML) to ask what the grammar does not understand."
-        ),
-    ] = None,
+    model: Model = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the goals that a sentence becomes, without doing anything.

@@ -16,6 +16,7 @@ from executive import doctor as examination
 from executive import doing, request, runs, runtimes, walking
 from executive.app import Executive
 from executive.dumps.writer import along
+from executive.endpoint import language_model
 from executive.history import going_on
 from executive.loop import Interrupts
 from executive.overseeing import oversee
@@ -44,6 +45,7 @@ class Do(msgspec.Struct, frozen=True, kw_only=True):
     dump: Path | None = None
     dump_on: str = "end"
     dump_format: str = "html"
+    model: Path | None = None
 
 
 class Walk(msgspec.Struct, frozen=True, kw_only=True):
@@ -65,7 +67,9 @@ def do(options: Do) -> int:
     """
     where = _setting(options)
     asking = at_terminal() and not options.as_json
-    understood = request.request(options.text, where, ask=ask if asking else None)
+    understood = request.request(
+        options.text, where, ask=ask if asking else None, fallback=language_model(options.model)
+    )
     if isinstance(understood, request.Refused):
         return refuse(understood, as_json=options.as_json)
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"

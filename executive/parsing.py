@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 import typer
 
+from executive.endpoint import language_model
 from executive.knowledge import Knowledge
 from intents.dialogue import Context
 from intents.goals import to_builtins
@@ -19,9 +19,6 @@ from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.bringup import entry
 from robot.errors import ConfigError, Problem
-
-if TYPE_CHECKING:
-    from intents.language_model import LanguageModel
 
 
 def parse_all(
@@ -47,7 +44,7 @@ def parse_all(
         ConfigError: the world, the vocabulary, the endpoint or the file cannot be read.
     """
     names, context = _vocabulary(world, vocabulary)
-    fallback = _model(model) if model else None
+    fallback = language_model(model)
     outcome: Outcome | None = None
     for text in [*texts, *(_lines(file) if file else ())]:
         outcome, _ = hear(text, names, context=context, fallback=fallback)
@@ -65,16 +62,6 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
     try:
         return Vocabulary.from_json(file.read_bytes()), Context()
     except (OSError, msgspec.DecodeError) as error:
-        raise ConfigError([Problem(str(error), str(file))]) from None
-
-
-def _model(file: Path) -> LanguageModel:
-    """The language model of an endpoint's file."""
-    from intents.language_model import Endpoint, LanguageModel
-
-    try:
-        return LanguageModel(Endpoint.load(file))
-    except (OSError, ValueError) as error:  # TOML and msgspec errors are ValueErrors
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 

@@ -13,8 +13,11 @@ from executive.trees.parts import Part
 from executive.trees.tasks import understand
 from executive.validation import check
 from intents import dialogue, parser
+from intents.context import verdict_of
 from intents.goals import Goal
-from intents.outcomes import Goals, Question, Refusal
+from intents.outcomes import YES_OR_NO, Goals, Question, Refusal
+from intents.parser import Fallback
+from intents.wording import in_words
 from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import WorldMap
@@ -24,6 +27,8 @@ from robot.model.description import RobotDescription
 
 MAX_QUESTIONS = 3
 EXAMPLE = 'for example: humanoid do "pick up the red cup and put it on the shelf"'
+
+ANSWER = "say it again with the answer, or at a terminal, where you can be asked"
 
 Ask = Callable[[Question], str | None]
 """Puts a question to a person; their answer, None if there is none."""
@@ -83,22 +88,23 @@ def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
     )
 
 
-def request(text: str, where: Setting, *, ask: Ask | None = None) -> Understood | Refused:
+def request(
+    text: str, where: Setting, *, ask: Ask | None = None, fallback: Fallback | None = None
+) -> Understood | Refused:
     """What a sentence asks for, checked against the world and the robot.
 
     Args:
         text: what was typed; anything is accepted.
         where: robot and world.
         ask: puts open questions to a person; without it an open question is a refusal.
+        fallback: asked what the grammar does not understand; what it makes of a sentence is put to
+            a person first.
     """
-    knowledge = where.knowledge
-    outcome = _hear(text, knowledge, ask)
+    outcome = _hear(text, where.knowledge, ask, fallback)
     if isinstance(outcome, Refusal):
         return Refused(outcome="refusal", reason=outcome.reason)
     if isinstance(outcome, Question):
-        return Refused(
-            outcome="question", reason=outcome.question, suggestion="say it again with the answer"
-        )
+        return Refused(outcome="question", reason=outcome.question, suggestion=ANSWER)
     return meant(text, outcome.goals, where)
 
 
@@ -129,16 +135,35 @@ def refused(reason: Failure) -> Refused:
     return Refused(outcome=reason.code, reason=reason.cause, suggestion=reason.suggestion)
 
 
-def _hear(text: str, knowledge: Knowledge, ask: Ask | None) -> Goals | Question | Refusal:
+def _hear(
+    text: str, knowledge: Knowledge, ask: Ask | None, fallback: Fallback | None
+) -> Goals | Question | Refusal:
     """Parse, asking back as often as it takes within reason."""
     vocabulary = knowledge.vocabulary()
     context = dialogue.Context(entities=knowledge.entities())
-    outcome, context = parser.hear(text, vocabulary, context=context)
+    outcome, context = parser.hear(text, vocabulary, context=context, fallback=fallback)
     for _ in range(MAX_QUESTIONS):
         if not isinstance(outcome, Question) or ask is None:
             break
         answer = ask(outcome)
         if not answer:
             break
-        outcome, context = parser.hear(answer, vocabulary, context=context)
+        outcome, context = parser.hear(answer, vocabulary, context=context, fallback=fallback)
+    if isinstance(outcome, Goals) and outcome.parser == "model":
+        return _confirmed(outcome, ask)
     return outcome
+
+
+def _confirmed(outcome: Goals, ask: Ask | None) -> Goals | Question | Refusal:
+    """What a language model made of a sentence, once a person has agreed to it."""
+    question = Question(
+        question=f"I shall {in_words(outcome.goals)}; so the language model reads it. Shall I?",
+        choices=YES_OR_NO,
+        goals=outcome.goals,
+        kind="confirmation",
+        parser=outcome.parser,
+    )
+    answer = ask(question) if ask is not None else None
+    if not answer:
+        return question
+    return outcome if verdict_of(answer) else Refusal(reason="All right, I leave it")

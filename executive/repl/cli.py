@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from rich.console import Console
 
 from executive import request, runs, runtimes
+from executive.endpoint import language_model
 from executive.journal import Event
 from executive.overseeing import oversee
 from executive.progress import sentence
@@ -38,6 +39,7 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     fast: bool
     vary: bool
     folder: Path | None
+    model: Path | None = None
 
 
 def repl(options: Options) -> int:
@@ -47,6 +49,7 @@ def repl(options: Options) -> int:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     _setting(options)
+    language_model(options.model)
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for("prompt", stamp=stamp)
     runs.check_free(folder)
@@ -88,7 +91,7 @@ def prompt(options: Options, *, handle: Handle | None = None) -> int:
         with Console(stderr=True).status("starting the robot"):
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
-        shell = Shell(robot, say, folder=folder)
+        shell = Shell(robot, say, folder=folder, model=language_model(options.model))
         robot.session.journal.listen(_tell)
         if sys.stdin.isatty() and sys.stdout.isatty():
             from executive.repl.terminal import Terminal

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from executive.app import JobError
 from executive.behaviours.ask import ANSWERS, Answer
@@ -26,6 +26,9 @@ from intents.stopping import is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
 
+if TYPE_CHECKING:
+    from intents.language_model import LanguageModel
+
 Out = Callable[[str], None]
 
 
@@ -40,8 +43,10 @@ class Shell:
         refused: how many lines led to nothing, because they could not be meant.
     """
 
-    def __init__(self, robot: Robot, out: Out, *, folder: Path) -> None:
-        """Begin a conversation."""
+    def __init__(
+        self, robot: Robot, out: Out, *, folder: Path, model: LanguageModel | None = None
+    ) -> None:
+        """Begin a conversation; `model` is asked what the grammar does not understand."""
         from executive.repl.commands import table
 
         self.robot = robot
@@ -49,7 +54,8 @@ class Shell:
         self.folder = folder
         self.leaving = False
         self.refused = 0
-        self.dialogue = Dialogue(robot.where.knowledge.vocabulary())
+        self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
+        self._model = model
         self._holds: tuple[str, ...] = ()
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
@@ -89,6 +95,8 @@ class Shell:
         """What a sentence asks for; None when something else was said about it already."""
         robot = self.robot
         state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        if self._model is not None and not robot.busy:
+            self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
         if isinstance(turn, Reply):
@@ -97,6 +105,8 @@ class Shell:
             self.out(turn.question)
         elif isinstance(turn, Refusal):
             self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
+            if self._model is not None and self._model.trouble:
+                self.out(f"The language model was of no help: {self._model.trouble}.")
         else:
             # an answer ("the blue one") says nothing by itself: the job is called what it means
             return self._settle(in_words(turn.goals) if answers else text, turn)

@@ -6,16 +6,20 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.intents.endpoint import Reply, serving
 from executive import request, runtimes
 from executive.journal import read
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
+from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
 from tests.fakes.waiting import eventually
 
 
 @contextmanager
-def shell_in(folder: Path, world: str = "kitchen") -> Iterator[Shell]:
+def shell_in(
+    folder: Path, world: str = "kitchen", model: LanguageModel | None = None
+) -> Iterator[Shell]:
     where = request.setting(world, "juno")
     robot = Robot(
         lambda: runtimes.opened("fast", where, seed=0, folder=folder),
@@ -27,7 +31,7 @@ def shell_in(folder: Path, world: str = "kitchen") -> Iterator[Shell]:
         idles=False,
     )
     with robot:
-        yield Shell(robot, Said(), folder=folder)
+        yield Shell(robot, Said(), folder=folder, model=model)
 
 
 class Said(list[str]):
@@ -218,3 +222,20 @@ def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
     assert "the red one" not in text  # it was stopped, and says nothing by itself
     shell.line(f"save mission {path}")
     assert "is there already" in shell.out.text
+
+
+WAVE = """{"outcome": "goals", "goals": [{"goal": "say", "what": "good morning"}]}"""
+
+
+def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Path):
+    with serving(Reply(content=WAVE), Reply(status=500)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        with shell_in(tmp_path, model=model) as shell:
+            shell.line("brighten up the morning")
+            assert "Shall I?" in shell.out[-1]
+            assert not shell.robot.executive.jobs
+            shell.line("yes")
+            shell.robot.wait()
+            assert shell.robot.executive.jobs[-1].state == "done"
+            shell.line("brighten up the evening")
+            assert "language model was of no help" in shell.out[-1]

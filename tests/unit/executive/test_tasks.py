@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from benchmarks.intents.endpoint import Reply, serving
 from executive.knowledge import Knowledge
-from executive.request import Refused, request
+from executive.request import Refused, Understood, request
 from executive.skills.parameters import PickParams, PlaceParams
 from executive.trees.parts import errands
+from intents.language_model import Endpoint, LanguageModel
+from intents.outcomes import Question
 from tests.fakes.worlds import WHERE, world_map
 
 
@@ -130,3 +133,42 @@ def test_what_is_about_people_is_understood(text, names):
     outcome = request(text, WHERE)
     assert not isinstance(outcome, Refused), outcome
     assert [errand.name.lower() for errand in errands(outcome.task)] == names
+
+
+TIDY = """{"outcome": "goals", "goals": [
+    {"goal": "place", "object": {"name": "cup", "color": "red"}, "on": "table"}]}"""
+
+
+def asked_a_model(answer: str | None) -> tuple[Understood | Refused, list[str]]:
+    """What comes of words that only the model knows, and what a person was asked."""
+    questions: list[str] = []
+
+    def ask(question: Question) -> str | None:
+        questions.append(question.question)
+        return answer
+
+    with serving(Reply(content=TIDY)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        return request("tidy up a bit", WHERE, ask=ask, fallback=model), questions
+
+
+def test_what_a_model_makes_of_words_is_done_once_a_person_agrees():
+    outcome, questions = asked_a_model("yes")
+    assert isinstance(outcome, Understood)
+    assert [errand.name for errand in errands(outcome.task)][-1] == "put the red cup on the table"
+    assert len(questions) == 1
+    assert "put the red cup on the table" in questions[0]
+
+
+@pytest.mark.parametrize("answer", ["no", "well, hm", "", None])
+def test_without_that_nothing_is_done(answer: str | None):
+    outcome, _ = asked_a_model(answer)
+    assert isinstance(outcome, Refused)
+
+
+def test_nor_where_nobody_can_be_asked():
+    with serving(Reply(content=TIDY)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        outcome = request("tidy up a bit", WHERE, fallback=model)
+    assert isinstance(outcome, Refused)
+    assert outcome.outcome == "question"
