@@ -17,7 +17,7 @@ demo: env ## set up, then watch a humanoid put the red cup on the shelf
 	@$(BIN)/humanoid do "$(MISSION)" $(ARGS)
 
 test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
-	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
 
 check: env-dev ## format, lint, types (pyright strict), who imports whom
 	@$(BIN)/ruff format --check .

@@ -7,7 +7,8 @@ from typing import Any
 
 from executive.faults import FaultPlan
 from executive.missions.check import Checked, Options, check
-from executive.missions.run import digest, understood
+from executive.missions.keeping import digest
+from executive.missions.run import understood
 from executive.request import Setting, Understood
 from robot.errors import ConfigError, Problem
 
@@ -21,7 +22,7 @@ def restore(made_from: dict[str, Any], folder: Path, where: Setting) -> Understo
         where: robot and world of the run.
 
     Raises:
-        ConfigError: the files are gone, changed or wrong.
+        ConfigError: the copies of its files are gone, and so are the files, changed or wrong.
     """
     return understood(_checked(made_from, folder, where))
 
@@ -34,7 +35,9 @@ def faults(made_from: dict[str, Any], folder: Path, where: Setting) -> tuple[Fau
 def _checked(made_from: dict[str, Any], folder: Path, where: Setting) -> Checked:
     if "mission" not in made_from:
         raise ConfigError(f"{folder}: it is not known what the job was made from")
-    path = Path(str(made_from["mission"]))
+    path = folder / str(made_from.get("kept", ""))
+    if not path.is_file():
+        path = Path(str(made_from["mission"]))
     options = Options(
         params=made_from.get("params", {}),
         world=where.world_name,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from msgspec.structs import replace
 from executive import commands, doing, runs
 from executive.jobs import Limits
 from executive.missions.check import Checked, Options, check
+from executive.missions.keeping import digest, keep, kept
 from executive.overseeing import oversee
 from executive.request import Understood
 from robot.bringup.overseen import Handle
@@ -24,12 +24,14 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         path: of the file.
         said: beside it.
+        kept: path of its copy in the run's folder.
         how: as for a sentence; world and robot are the mission's.
     """
 
     path: str
     said: Options
     how: commands.Do
+    kept: str = ""
 
 
 def run(wanted: Run) -> int:
@@ -41,10 +43,13 @@ def run(wanted: Run) -> int:
     checked = check(Path(wanted.path), wanted.said)
     folder = wanted.how.folder or _folder(checked)
     runs.check_free(folder)
-    wanted = replace(wanted, how=replace(wanted.how, folder=folder))
+    copy = str(keep(checked, folder))
+    wanted = replace(wanted, how=replace(wanted.how, folder=folder), kept=copy)
     if wanted.how.fast:
         return commands.work_off(_job(checked, wanted), wanted.how)
-    plain = msgspec.to_builtins(wanted, enc_hook=str)
+    where = checked.where  # found beside the file, maybe, and not beside its copy
+    said = replace(wanted.said, world=where.world_name, robot=where.robot_name)
+    plain = msgspec.to_builtins(replace(wanted, said=said), enc_hook=str)
     task = {"as_json": wanted.how.as_json, "run": plain}
     return oversee("executive.missions.run:overseen", task, as_json=wanted.how.as_json)
 
@@ -52,11 +57,13 @@ def run(wanted: Run) -> int:
 def overseen(handle: Handle, task: dict[str, Any]) -> int:
     """Run a mission in an executive of its own, or go on with it; returns the exit status.
 
+    It is read from its copy: an executive that is started again goes on with what was begun.
+
     Raises:
         RobotError: as `run` does.
     """
     wanted = msgspec.convert(task["run"], Run, dec_hook=lambda kind, value: kind(value))
-    checked = check(Path(wanted.path), wanted.said)
+    checked = check(Path(wanted.kept), wanted.said)
     return commands.work_off(_job(checked, wanted), wanted.how, handle=handle)
 
 
@@ -71,22 +78,15 @@ def limits(checked: Checked) -> Limits:
     return Limits() if speed_m_s is None else Limits(speed_m_s=speed_m_s)
 
 
-def origin(checked: Checked, options: Options) -> dict[str, Any]:
+def origin(checked: Checked, options: Options, *, path: str) -> dict[str, Any]:
     """What a mission's task is made from, for the journal: enough to make it again."""
     return {
-        "mission": str(checked.mission.path),
+        "mission": path,
+        "kept": kept(checked),
         "params": dict(options.params),
         "digest": digest(checked),
         "from": options.first,
     }
-
-
-def digest(checked: Checked) -> str:
-    """Hash (SHA-256, the first 16 digits) of the mission's file and those that it calls."""
-    found = hashlib.sha256()
-    for path in checked.files:
-        found.update(path.read_bytes() + b"\0")
-    return found.hexdigest()[:16]
 
 
 def _folder(checked: Checked) -> Path:
@@ -102,7 +102,7 @@ def _job(checked: Checked, wanted: Run) -> doing.Job:
         runtime_name="fast" if wanted.how.fast else "live",
         folder=wanted.how.folder,
         limits=limits(checked),
-        origin=origin(checked, wanted.said),
+        origin=origin(checked, wanted.said, path=wanted.path),
         done=checked.done,
         faults=checked.faults,
     )

@@ -264,7 +264,7 @@ class _Steering:
         self._shell.sentence(rest, urgent=True)
 
     def run(self, rest: str) -> None:
-        from executive.missions import load
+        from executive.missions import keeping, load
         from executive.missions import run as missions
         from executive.missions.check import Options, check
 
@@ -279,10 +279,11 @@ class _Steering:
             raise ConfigError(f"{text}: start the prompt with --world {there.world_name}")
         if checked.faults:
             self._shell.out("Its faults are left out here; `humanoid mission run` injects them.")
+        keeping.keep(checked, self._shell.folder)
         self._shell.submit(
             missions.understood(checked),
             limits=missions.limits(checked),
-            origin=missions.origin(checked, said),
+            origin=missions.origin(checked, said, path=str(checked.mission.path)),
         )
 
     def pause(self, _rest: str) -> None:
