@@ -17,6 +17,7 @@ from intents.context import verdict_of
 from intents.goals import Goal
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal
 from intents.parser import Fallback
+from intents.state import RobotState
 from intents.wording import in_words
 from robot.bringup import entry
 from robot.errors import Failure
@@ -109,7 +110,12 @@ def request(
 
 
 def meant(
-    text: str, goals: tuple[Goal, ...], where: Setting, *, held: tuple[str, ...] = ()
+    text: str,
+    goals: tuple[Goal, ...],
+    where: Setting,
+    *,
+    held: tuple[str, ...] = (),
+    state: RobotState | None = None,
 ) -> Understood | Refused:
     """What goals mean here, checked against the world and the robot.
 
@@ -118,8 +124,10 @@ def meant(
         goals: what it was understood as.
         where: robot and world.
         held: ids of the objects that will be in the hands by then.
+        state: where things are and where the robot stands, for "the leftmost", as far as known.
     """
-    scene = Scene(where.knowledge, held=held)
+    state = state or RobotState()
+    scene = Scene(where.knowledge, held=held, entities=state.entities, view=state.view)
     try:
         task = understand(goals, scene)
     except CannotMean as end:

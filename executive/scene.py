@@ -10,7 +10,8 @@ from msgspec.structs import replace
 
 from executive.knowledge import Knowledge, full_name
 from intents import goals
-from intents.grounding import Ambiguous, Unknown, describe, ground
+from intents.grounding import Ambiguous, Entity, Unknown, describe, ground
+from intents.relations import Viewpoint
 from robot.config import nearest
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, PersonInfo, Place
@@ -35,9 +36,25 @@ def cannot(code: str, cause: str, *, suggestion: str = "", **evidence: float | s
 class Scene:
     """The meaning of names in one world, in the course of one sequence of goals."""
 
-    def __init__(self, knowledge: Knowledge, *, held: tuple[str, ...] = ()) -> None:
-        """Begin with what is held now."""
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        *,
+        held: tuple[str, ...] = (),
+        entities: tuple[Entity, ...] = (),
+        view: Viewpoint | None = None,
+    ) -> None:
+        """Begin with what is held now.
+
+        Args:
+            knowledge: of the world.
+            held: ids of what is in the hands.
+            entities: every object with where it is believed to be (default: it is not known).
+            view: where the robot stands, for "the leftmost"; None if that is not known.
+        """
         self.knowledge = knowledge
+        self._entities = list(entities or knowledge.entities())
+        self._view = view
         self.held: list[str] = list(held)
         self.spoken_of: str | None = held[-1] if held else None
 
@@ -112,8 +129,8 @@ class Scene:
         by_id = {info.id: info for info in self.knowledge.map.objects}
         if query.name in by_id:
             return [by_id[query.name]]
-        entities = self.knowledge.entities()
-        found = ground(replace(query, at=None, held=False), entities)
+        entities = self._entities
+        found = ground(replace(query, at=None, held=False), entities, view=self._view)
         if isinstance(found, Unknown):
             said, names = describe(query), sorted({e.name for e in entities})
             hint = f"there is {', '.join(found.nearest)}" if found.nearest else nearest(said, names)

@@ -22,6 +22,7 @@ from executive.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.outcomes import Goals, Question, Refusal, Reply
+from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
@@ -109,7 +110,7 @@ class Shell:
                 self.out(f"The language model was of no help: {self._model.trouble}.")
         else:
             # an answer ("the blue one") says nothing by itself: the job is called what it means
-            return self._settle(in_words(turn.goals) if answers else text, turn)
+            return self._settle(in_words(turn.goals) if answers else text, turn, state)
         return None
 
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
@@ -137,14 +138,14 @@ class Shell:
         else:
             self.sentence(text)
 
-    def _settle(self, text: str, turn: Goals) -> Understood | None:
+    def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
         """Steer the jobs at once if that is all that was meant; else what the goals mean here."""
         if all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals):
             for goal in turn.goals:
                 self._steer(goal)
             return None
         held = self._holds if self.robot.busy else self._held()
-        understood = meant(text, turn.goals, self.robot.where, held=held)
+        understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
         if isinstance(understood, Refused):
             self._refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None

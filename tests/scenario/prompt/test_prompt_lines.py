@@ -224,6 +224,23 @@ def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
     assert "is there already" in shell.out.text
 
 
+def test_left_and_right_are_as_the_robot_sees_them(shell: Shell):
+    """Two cups on one table, looked at from one place: each line means another one."""
+    shell.line("look at the blue cup")  # it walks to where it sees both
+    shell.robot.wait()
+    before = len(shell.robot.executive.jobs)
+    for line in ("look at the leftmost cup", "look at the rightmost cup"):
+        shell.line(line)
+        shell.robot.wait()
+    jobs = shell.robot.executive.jobs[before:]
+    assert [job.state for job in jobs] == ["done", "done"], shell.out
+    steps = [
+        event.data.get("step", "") for event in read(shell.folder / "journal.jsonl")
+        if event.event == "step" and "cup" in event.data.get("step", "")
+    ]  # fmt: skip
+    assert set(steps[-2:]) == {"look at the red cup", "look at the blue cup"}, steps
+
+
 WAVE = """{"outcome": "goals", "goals": [{"goal": "say", "what": "good morning"}]}"""
 
 
