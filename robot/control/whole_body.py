@@ -35,9 +35,8 @@ WAIST_WEIGHT = 4.0
 POSTURE_WEIGHT = 0.02
 FORCE_WEIGHT = 1e-5
 FRICTION = 0.6
-YAW_FRICTION_M = 0.04
 COP_MARGIN_M = 0.005
-CONE_ROWS = 11
+CONE_ROWS = 17
 EQUALITY = 5  # DAQP's mark of a row that is always active
 KEEP_EQUALITIES = -1  # DAQP eliminates none of them first, which for six costs more than it saves
 
@@ -132,7 +131,12 @@ class WholeBody:
         self._b: Array = np.zeros(15)
 
     def _cone(self, foot: int) -> Array:
-        """Rows C with C w <= 0 for a wrench w = (fx, fy, fz, tx, ty, tz) in the sole's axes."""
+        """Rows C with C w <= 0 for a wrench w = (fx, fy, fz, tx, ty, tz) in the sole's axes.
+
+        What four corners with friction can bear: a sole that stands on one of them alone resists no
+        turning, and spins. Caron et al., "Stability of surface contacts for humanoid robots:
+        closed-form formulae of the contact wrench cone for rectangular support areas", 2015.
+        """
         shape = self.body.description.feet[SIDES[foot]]
         half_x, half_y = shape.half_length_m - COP_MARGIN_M, shape.half_width_m - COP_MARGIN_M
         rows: list[list[float]] = []
@@ -141,7 +145,10 @@ class WholeBody:
             rows.append([0, sign, -FRICTION, 0, 0, 0])
             rows.append([0, 0, -half_y, sign, 0, 0])
             rows.append([0, 0, -half_x, 0, sign, 0])
-            rows.append([0, 0, -YAW_FRICTION_M, 0, 0, sign])
+            about, held = FRICTION * sign, -FRICTION * (half_x + half_y)
+            for a in (1.0, -1.0):
+                for b in (1.0, -1.0):
+                    rows.append([a * half_y, b * half_x, held, a * about, b * about, sign])
         rows.append([0, 0, 1, 0, 0, 0])  # the cap: its bound is set every tick
         return np.array(rows)
 

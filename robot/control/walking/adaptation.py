@@ -7,8 +7,12 @@ shakes the swing foot. So an error counts only as far as the ZMP is at the edge 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+
+from robot.control.walking.dcm import Point
 
 DCM_GAIN_1_S = 4.0
+TIMES = 9
 
 
 def error_at_end(error: float, correction: float, left_s: float, omega_1_s: float) -> float:
@@ -22,12 +26,17 @@ def error_at_end(error: float, correction: float, left_s: float, omega_1_s: floa
     return max(decayed, grown) if error > 0.0 else min(decayed, grown)
 
 
-def time_to_reach(now: float, end: float, omega_1_s: float) -> float:
-    """Time [s] until the DCM, `now` [m] from a constant ZMP, is `end` from it on the same side.
+def dcm_at_end(xi: Point, zmp: Point, left_s: float, omega_1_s: float) -> Point:
+    """Where the DCM [m] will be after `left_s` if the ZMP stays: p + (xi - p) exp(omega t)."""
+    growth = math.exp(omega_1_s * left_s)
+    return zmp[0] + growth * (xi[0] - zmp[0]), zmp[1] + growth * (xi[1] - zmp[1])
 
-    From xi(t) - p = (xi(0) - p) exp(omega t): Khadiv et al., "Walking control based on step timing
-    adaptation", 2020, for one axis. Infinite where it never gets there.
+
+def cheapest_time(cost: Callable[[float], float], shortest_s: float, longest_s: float) -> float:
+    """The duration [s] of a few between the bounds, both among them, that costs least.
+
+    Time and place of a landing are chosen together, as in Khadiv et al., "Walking control based on
+    step timing adaptation", 2020; one unknown, so that trying some is exact enough.
     """
-    if now < 0.005 or end < 0.005:
-        return math.inf
-    return math.log(end / now) / omega_1_s
+    span_s = max(0.0, longest_s - shortest_s) / (TIMES - 1)
+    return min((shortest_s + i * span_s for i in range(TIMES)), key=cost)

@@ -11,7 +11,12 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
-from robot.control.walking.adaptation import DCM_GAIN_1_S, error_at_end, time_to_reach
+from robot.control.walking.adaptation import (
+    DCM_GAIN_1_S,
+    cheapest_time,
+    dcm_at_end,
+    error_at_end,
+)
 from robot.control.walking.dcm import DcmPlan, Point, Segment
 from robot.control.walking.footsteps import (
     FootstepPlanner,
@@ -46,12 +51,14 @@ TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
 SHORTEST_SHARE = 0.5
 LONGEST_SHARE = 1.35
+TIME_COST_M_S = 0.1  # 0.1 s off the planned time is as bad as landing 1 cm off the planned place
+MISS_WEIGHT = 10.0  # of a landing that the leg cannot reach, or not in time
+SWING_SPEED_M_S = 2.0  # mean, to the landing
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
 ZMP_MARGIN_M = 0.008
 REACH_FORWARD_M = 0.42
 CATCH_WIDTH_M = 0.12  # between the feet of a step that catches a push
-ESCAPE_LEAD_M = 0.005  # the DCM nearer to the ZMP than this, or beyond it: it will not come back
 URGENT_DOUBLE_S = 0.05
 URGENT_M = 0.03
 HIP_M = 0.038  # the ZMP beyond the sole that turning the trunk is worth for a while
@@ -340,39 +347,54 @@ class Gait:
     def _adjust(self, dt_s: float, xi: Point) -> None:
         """Shift the landing and its time by the DCM error that the stance foot leaves."""
         assert self.swing is not None
+        if self.duration_s - self.phase_s <= FREEZE_S:
+            return
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
-        command = self._command(xi, xi_ref, zmp_ref)
-        if self.duration_s - self.phase_s > FREEZE_S:
-            self._retime(dt_s, xi, xi_ref, command)
-        left_s = max(0.0, self.duration_s - self.phase_s)
-        shift = [
-            error_at_end(xi[k] - xi_ref[k], command[k] - zmp_ref[k], left_s, self.omega_1_s)
-            for k in (0, 1)
-        ]
+        zmp = self._command(xi, xi_ref, zmp_ref)
+        left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
+        shift = (
+            error_at_end(xi[0] - xi_ref[0], zmp[0] - zmp_ref[0], left_s, self.omega_1_s),
+            error_at_end(xi[1] - xi_ref[1], zmp[1] - zmp_ref[1], left_s, self.omega_1_s),
+        )
+        if math.hypot(*shift) > TIMING_DEADBAND_M:
+            self._retime(dt_s, self._best_time(xi, zmp))
+            shift = self._shift(xi, zmp, self.duration_s)
+        else:
+            self._retime(dt_s, self._nominal_s)
         size = math.hypot(*shift)
         scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
         nominal = self._landings[0]
         wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
         self.swing.aim(self._reachable(wanted), dt_s)
 
-    def _retime(self, dt_s: float, xi: Point, xi_ref: Point, command: Point) -> None:
-        """Move the end of the step towards the time at which the DCM is sideways where planned."""
+    def _shift(self, xi: Point, zmp: Point, duration_s: float) -> Point:
+        """What puts the landing of a step that lasts `duration_s` under the DCM as planned."""
+        there = dcm_at_end(xi, zmp, duration_s - self.phase_s, self.omega_1_s)
+        planned, _ = self._plan.at(self._nominal_s)
+        return there[0] - planned[0], there[1] - planned[1]
+
+    def _best_time(self, xi: Point, zmp: Point) -> float:
+        """The duration at which the step that catches the DCM is nearest to the planned one."""
         assert self.swing is not None
-        support = self.planted[self.support]
-        s = sign_of(other(self.support))
-        xi_end, _ = self._plan.at(self._nominal_s)
-        now, planned, end, zmp = (
-            s * support.relative(Sole(p[0], p[1], 0.0))[1] for p in (xi, xi_ref, xi_end, command)
-        )
-        left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
-        wanted_s = self._nominal_s
-        if abs(error_at_end(now - planned, zmp, left_s, self.omega_1_s)) > TIMING_DEADBAND_M:
-            shortest, longest = SHORTEST_SHARE * self._nominal_s, LONGEST_SHARE * self._nominal_s
-            if now - zmp < ESCAPE_LEAD_M:
-                wanted_s = shortest
-            else:
-                wanted_s = self.phase_s + time_to_reach(now - zmp, end - zmp, self.omega_1_s)
-                wanted_s = max(shortest, min(longest, wanted_s))
+        x, y, _ = self.swing.position
+        nominal = self._landings[0]
+
+        def cost(duration_s: float) -> float:
+            dx, dy = self._shift(xi, zmp, duration_s)
+            wanted = Sole(nominal.x + dx, nominal.y + dy, nominal.yaw)
+            landing = self._reachable(wanted)
+            missed = math.hypot(landing.x - wanted.x, landing.y - wanted.y)
+            way = math.hypot(landing.x - x, landing.y - y)
+            short = max(0.0, way - SWING_SPEED_M_S * (duration_s - self.phase_s))
+            off = TIME_COST_M_S * (duration_s - self._nominal_s)
+            return MISS_WEIGHT * (missed**2 + short**2) + dx**2 + dy**2 + off**2
+
+        shortest_s = max(SHORTEST_SHARE * self._nominal_s, self.phase_s + FREEZE_S)
+        return cheapest_time(cost, shortest_s, LONGEST_SHARE * self._nominal_s)
+
+    def _retime(self, dt_s: float, wanted_s: float) -> None:
+        """Move the end of the step towards `wanted_s` after its begin."""
+        assert self.swing is not None
         wanted_s = max(wanted_s, self.phase_s + FREEZE_S)
         gain = dt_s / (TIMING_FILTER_S + dt_s)
         self.duration_s += gain * (wanted_s - self.duration_s)

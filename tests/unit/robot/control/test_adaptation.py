@@ -6,7 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.control.walking.adaptation import DCM_GAIN_1_S, error_at_end, time_to_reach
+from robot.control.walking.adaptation import (
+    DCM_GAIN_1_S,
+    TIMES,
+    cheapest_time,
+    dcm_at_end,
+    error_at_end,
+)
 
 OMEGA_1_S = 4.2
 errors = st.floats(-0.2, 0.2)
@@ -35,13 +41,22 @@ def test_left_and_right_are_alike(error, correction, left_s):
         assert there == pytest.approx(-back, abs=1e-12)
 
 
-@given(st.floats(0.005, 0.3), st.floats(0.005, 0.3))
-def test_the_dcm_is_there_at_the_time_it_says(now, end):
-    time_s = time_to_reach(now, end, OMEGA_1_S)
-    assert now * math.exp(OMEGA_1_S * time_s) == pytest.approx(end)
+@given(st.tuples(errors, errors), st.tuples(errors, errors), times, times)
+def test_the_dcm_runs_away_from_the_zmp_in_one_go_as_in_two(xi, zmp, first_s, then_s):
+    there = dcm_at_end(xi, zmp, first_s, OMEGA_1_S)
+    further = dcm_at_end(there, zmp, then_s, OMEGA_1_S)
+    assert further == pytest.approx(dcm_at_end(xi, zmp, first_s + then_s, OMEGA_1_S), abs=1e-9)
+    assert dcm_at_end(zmp, zmp, then_s, OMEGA_1_S) == pytest.approx(zmp)
 
 
-@given(st.floats(-0.3, 0.0049), st.floats(-0.3, 0.3))
-def test_a_dcm_on_the_other_side_never_gets_there(now, end):
-    assert time_to_reach(now, end, OMEGA_1_S) == math.inf
-    assert time_to_reach(end, now, OMEGA_1_S) == math.inf
+@given(st.floats(0.1, 0.8), st.floats(0.2, 0.4), st.floats(0.0, 0.4))
+def test_the_cheapest_time_is_near_the_best_and_between_the_bounds(best_s, shortest_s, span_s):
+    longest_s = shortest_s + span_s
+    time_s = cheapest_time(lambda t: (t - best_s) ** 2, shortest_s, longest_s)
+    nearest_s = max(shortest_s, min(longest_s, best_s))
+    assert shortest_s <= time_s <= longest_s + 1e-12
+    assert abs(time_s - nearest_s) <= span_s / (TIMES - 1) / 2 + 1e-9
+
+
+def test_with_no_time_left_it_is_the_soonest():
+    assert cheapest_time(lambda t: -t, 0.5, 0.4) == 0.5

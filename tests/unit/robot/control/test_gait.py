@@ -176,3 +176,14 @@ def test_a_dcm_that_escapes_over_the_stance_foot_hastens_the_step(pendulum, juno
         pendulum.tick()
     assert gait.phase == "single"
     assert gait.duration_s < 0.8 * juno.walking.single_support_s
+
+
+def test_a_dcm_that_escapes_ahead_hastens_the_step(pendulum, juno):
+    """Waiting for it to come back sideways lets it run out of the leg's reach."""
+    gait = pendulum.gait
+    pendulum.run(0.5)
+    pendulum.xi = [0.13, 0.0]
+    while gait.phase != "single" or gait.phase_s < 0.1:
+        pendulum.tick()
+    assert gait.steps_taken == 0
+    assert gait.duration_s < 0.8 * juno.walking.single_support_s
