@@ -9,6 +9,7 @@ import msgspec
 
 from executive.skills.approaching import approach, back_away, bring_in, come_nearer, withdraw
 from executive.skills.asking import ask, held_in, stance_of
+from executive.skills.body import Body
 from executive.skills.context import SkillContext
 from executive.skills.gripping import check_grips, open_fingers, set_payload
 from executive.skills.holding import Held
@@ -18,7 +19,7 @@ from executive.skills.reaching import move_arm, move_hand, posture_rad
 from executive.skills.script import GaveUp, Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.stowing import HOME, stow_arms
-from executive.skills.support import surroundings, tilt
+from executive.skills.support import occupant, surroundings, tilt
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place, Side
 from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
@@ -164,6 +165,7 @@ class PutDown(ScriptedSkill):
         yield from self._reach_over(place, plan)
         yield from move_hand(body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S)
         check_grips(body)
+        _check_free(body, info, place, plan)
         body.phase = f"lowering the {info.name}"
         below = _shifted(plan.X_WG_release, -PRESS_M)
         contact_n = max(LEAST_CONTACT_N, CONTACT * GRAVITY_M_S2 * held.mass_kg)
@@ -239,6 +241,17 @@ class PutDown(ScriptedSkill):
             object=info.id,
             off_m=round(off_m, 4),
             tilt_rad=round(tilt_rad, 3),
+        )
+
+
+def _check_free(body: Body, info: ObjectInfo, place: Place, plan: PlacePlan) -> None:
+    """Give up when something has come to stand where the object is to go."""
+    other = occupant(body, info, plan.X_WO)
+    if other is not None:
+        raise give_up(
+            "goal_in_collision",
+            f"the {other.name} stands on the {place.name} where the {info.name} is to go",
+            object=other.id,
         )
 
 

@@ -11,13 +11,15 @@ import math
 import msgspec
 
 from executive.skills.body import Body
-from robot.messages import ObjectInfo, Place
+from robot.messages import ObjectInfo, Place, Shape
 from robot.planning.requests import Surroundings
 from robot.se3 import SE3
 
 NEAR_M = 0.02
 UPRIGHT_RAD = 0.2
 OVERHANG_M = 0.02
+TOUCHING_M = 0.01
+"""Two things as near as this are taken to touch: where they stand is known that well."""
 
 
 def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
@@ -47,6 +49,22 @@ def surroundings(body: Body, *ignored: str) -> Surroundings:
         for thing in around.objects
     )
     return msgspec.structs.replace(around, objects=objects)
+
+
+def occupant(body: Body, info: ObjectInfo, X_WO: SE3) -> ObjectInfo | None:
+    """What is believed to stand where an object is to stand, each taken as upright."""
+    for thing in surroundings(body, info.id).objects:
+        x_m, y_m, z_m = (thing.X_WO.p[i] - X_WO.p[i] for i in range(3))
+        apart_m = _radius_m(thing.shape) + _radius_m(info.shape) + TOUCHING_M
+        apart_z_m = 0.5 * (thing.shape.size_m[2] + info.shape.size_m[2])
+        if thing.id != info.id and math.hypot(x_m, y_m) < apart_m and abs(z_m) < apart_z_m:
+            return body.object_info(thing.id)
+    return None
+
+
+def _radius_m(shape: Shape) -> float:
+    """Of the largest circle inside a shape, seen from above."""
+    return 0.5 * min(shape.size_m[:2])
 
 
 def tilt(X_WO: SE3) -> float:

@@ -3,12 +3,14 @@
 import math
 
 import pytest
+from msgspec.structs import replace
 
 from executive.skills.parameters import PickParams, PlaceParams
 from robot.errors import failure
 from robot.messages import Grip, MoveHand
 from robot.planning.requests import ArmRequest, PlaceRequest
 from robot.se3 import SE3
+from tests.fakes.puppet import Thing
 from tests.fakes.stage import TABLE_M, Stage
 
 ON_COUNTER = PlaceParams(object_id="cup", place_id="counter")
@@ -195,3 +197,40 @@ def test_a_spot_that_is_taken_by_now_is_given_up_for_another(stage):
     plans = [request for request in stage.planner.requests if isinstance(request, PlaceRequest)]
     assert len(plans) == 2
     assert plans[1].walk_cost_per_m > plans[0].walk_cost_per_m
+
+
+def come_to_stand(stage: Stage, X_WO: SE3) -> None:
+    """A box has come to stand there, and is seen."""
+    cup = stage.puppet.world_map.objects[0]
+    box = replace(cup, id="box", name="box", category="box", color="yellow")
+    stage.puppet.world_map = replace(stage.puppet.world_map, objects=(cup, box))
+    stage.puppet.things["box"] = Thing("box", X_WO, seen_s=stage.puppet.time_s)
+
+
+@pytest.mark.parametrize("off_m", [0.0, 0.06])
+def test_what_has_come_to_stand_there_is_not_pressed_on(stage, off_m):
+    """The arm's way to above the spot is free all the same."""
+    place, plans = stage.planner._place, []
+
+    def elsewhere(request):
+        plans.append(place(replace(request, target=SE3((2.0, 2.5 - 0.3 * len(plans), 0.75)))))
+        return plans[-1]
+
+    stage.planner._place = elsewhere
+    stage.run(ON_COUNTER, until_phase="stepping up")
+    come_to_stand(stage, SE3((2.0 + off_m, 2.5, TABLE_M + 0.05)))
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.status == "succeeded", report
+    assert len(plans) == 2
+    assert stage.puppet.things["cup"].X_WO.p[1] == pytest.approx(2.2, abs=0.03)
+
+
+def test_what_stands_beside_it_is_no_matter(stage):
+    stage.run(ON_COUNTER, until_phase="stepping up")
+    come_to_stand(stage, SE3((2.1, 2.5, TABLE_M + 0.05)))
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.status == "succeeded", report
+    plans = [request for request in stage.planner.requests if isinstance(request, PlaceRequest)]
+    assert len(plans) == 1
