@@ -11,11 +11,14 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
+from intents.english import lexicon
+from intents.english.corrections import substitute
+from intents.english.lexer import singular, tokenize
 from intents.english.names import index_of
 from intents.english.referents import Scope
 from intents.english.text import Text
 from intents.english.trouble import Partly, ReadingError, Unclear
-from intents.goals import Cancel, Goal, Stop
+from intents.goals import Cancel, Goal, ObjectQuery, Stop
 from intents.grammar import Grammar
 from intents.grounding import Ambiguous, Unknown, ground, narrowed, queries
 from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
@@ -27,6 +30,7 @@ Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
 __all__ = ["MAX_CHARACTERS", "Fallback", "hear", "is_stop", "parse"]
 
+_ONE_OF = lexicon.words("one a an any either which")
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
 
@@ -192,7 +196,9 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
         found = ground(query, context.entities, view=context.view)
         if isinstance(found, Unknown):
             return Refusal(reason=f"{_sentence(found.reason)}.")
-        if isinstance(found, Ambiguous):
+        if isinstance(found, Ambiguous) and _several(text, query):
+            goals = tuple(substitute(goal, query, replace(query, count="all")) for goal in goals)
+        elif isinstance(found, Ambiguous):
             choices = tuple(
                 Choice(label=label, query=narrowed(query, by_id[i]))
                 for label, i in zip(found.labels, found.candidates, strict=True)
@@ -202,6 +208,16 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
                 kind="choice",
             )  # fmt: skip
     return Goals(goals=goals)
+
+
+def _several(text: str, query: ObjectQuery) -> bool:
+    """Whether a description was said in the plural: "the cups", not "one of the cups"."""
+    noun = query.name or query.category
+    if query.count is not None or not noun:
+        return False
+    said = [token.text for token in tokenize(text)]
+    plural = [word for word in said if word != singular(word)]
+    return not _ONE_OF.intersection(said) and noun.split()[-1] in map(singular, plural)
 
 
 def _sentence(text: str) -> str:

@@ -51,6 +51,8 @@ _WHOLE = {
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),
+    "pickup": ("pick", "up"), "putdown": ("put", "down"), "putit": ("put", "it"),
+    "lookat": ("look", "at"), "giveme": ("give", "me"),
     "hte": ("the",), "adn": ("and",), "nad": ("and",),
     "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),
     "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),

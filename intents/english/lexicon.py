@@ -215,7 +215,10 @@ OPENERS = phrases(
     "might you,shall you,attempt to,i wish you to,i wish for you to,your next task is to,"
     "the task is to,it is time to,time to,i said,it would be nice if you could,"
     "it would be great if you could,could i ask you to,may i ask you to,can i ask you to,please,"
-    "proceed to,directly,there"
+    "proceed to,directly,there,"
+    "with your left hand,with your right hand,using your left hand,using your right hand,"
+    "use your left hand to,use your right hand to,use your left arm to,use your right arm to,"
+    "use your hand to,use your hands to,use both hands to"
 )
 """Words that can be dropped at the beginning of a clause."""
 
@@ -286,5 +289,28 @@ SYNONYMS = tuple(
     )
 )
 """Groups of names that mean the same where a world has just one of them."""
+
+AKIN = tuple(
+    frozenset(group.split(","))
+    for group in (
+        "cup,mug,glass,beaker,tumbler,teacup",
+        "bottle,flask,carafe,jug",
+        "box,carton,package,packet,parcel,crate,case,container",
+        "bag,sack,pouch,backpack,handbag,purse",
+        "plate,dish,saucer,platter",
+        "bowl,basin,pot",
+        "shelf,rack,board,bookshelf,bookcase,ledge",
+        "table,desk,sideboard,stand",
+        "counter,worktop,bench,sideboard",
+        "cabinet,cupboard,wardrobe,dresser,drawer,closet",
+        "chair,stool,seat,armchair",
+        "couch,sofa,settee,bench",
+        "rag,cloth,towel,napkin,sponge,wipe",
+        "book,notebook,magazine,newspaper",
+        "soda,coke,cola,lemonade,pop",
+        "cookie,biscuit,cracker,snack",
+    )
+)
+"""Groups of things that are taken for one another: asked about, never taken by themselves."""
 
 ELSE = phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")

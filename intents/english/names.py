@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 from rapidfuzz import fuzz, process
 
 from intents.english.lexer import singular, tokenize
-from intents.english.lexicon import SYNONYMS
+from intents.english.lexicon import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]
@@ -127,7 +127,8 @@ class NameIndex:
         known = sorted({n.name for names in self._names.values() for n in names if n.kind in kinds})
         plain = singular(said)
         found = process.extract(plain, known, scorer=_likeness, limit=3, score_cutoff=_LIKE)
-        return [name for name, _, _ in found]
+        akin = [n for n in known if any({n, plain.split()[-1]} <= group for group in AKIN)]
+        return [name for name, _, _ in found] or akin[:3]
 
     def nearest(self, said: str, kinds: tuple[str, ...]) -> list[str]:
         """Up to three names of these kinds that are written most like what was said."""

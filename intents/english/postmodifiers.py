@@ -91,7 +91,7 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if weight:
         phrase.superlative, end = weight
         return end
-    end = _modifier(text, phrase, at) or _predicate(text, phrase, at)
+    end = _modifier(text, phrase, at) or (_predicate(text, phrase, at) if at > first else None)
     if end:
         return end
     return at if text.words[first:at] and text.word(at - 1) in ("see", "find", "there") else None

@@ -39,6 +39,13 @@ def asks_end(text: Text, at: int) -> int | None:
     return end if asks else None
 
 
+def _without_favours(sense: str, complements: list[Complement]) -> list[Complement]:
+    """Put the cup on the table *for me*: it goes there, and not to whom it is done a favour."""
+    if sense != "put" and not any(c.role in ("to", "into") for c in complements):
+        return complements
+    return [c for c in complements if c.role != "for" or c.phrase.noun != "operator"]
+
+
 class Clauses:
     """Reads clauses of one text.
 
@@ -146,6 +153,7 @@ class Clauses:
         if sense == "count":
             return self._count(first)
         complements, end = read_complements(text, first if resumed is None else resumed)
+        complements = _without_favours(sense, complements)
         if sense == "stop":
             while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
                 end += 1

@@ -13,6 +13,7 @@ T = TypeVar("T")
 _LONGEST_PHRASE = 7
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
+_ADVERBS = words("still already currently again")
 _CALLS = words("hey hi hello ok okay dear yo")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -106,7 +107,7 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     kept: list[Token] = []
     at = 0
     while at < len(tokens):
-        end = _filler_end(words, at) if words[at] in _FILLER_STARTS else None
+        end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
         if end is None or index.match(words, at):
             kept.append(tokens[at])
             at += 1
@@ -119,6 +120,12 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     while kept and kept[-1].text in (COMMA, FULL_STOP):
         kept.pop()
     return kept
+
+
+def _adverb_end(words: list[str], at: int) -> int | None:
+    """Is the cup *still* on the table? But: stand still."""
+    asked = words[0] in ("is", "are", "do", "does", "what", "where") and at + 1 < len(words)
+    return at + 1 if asked and words[at] in _ADVERBS else None
 
 
 def _filler_end(words: list[str], at: int) -> int | None:

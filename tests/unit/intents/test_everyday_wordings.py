@@ -1,0 +1,70 @@
+"""Small things that people say by the way, and that change nothing of what is meant."""
+
+import pytest
+
+from intents.context import Context
+from intents.goals import to_builtins
+from intents.grounding import Entity
+from intents.outcomes import Goals, Question
+from intents.parser import hear, parse
+from intents.vocabulary import Thing, Vocabulary
+
+HOME = Vocabulary.of(
+    objects=[Thing(name="cup", color="red"), Thing(name="cup", color="blue"), Thing(name="bottle")],
+    places=["table", "shelf"], people=["Anna"],
+)  # fmt: skip
+THERE = Context(
+    entities=(
+        Entity(id="c1", name="cup", color="red"),
+        Entity(id="c2", name="cup", color="blue"),
+        Entity(id="b", name="bottle"),
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("move the bottle over to the shelf for me", "move the bottle to the shelf"),
+        ("put the bottle on the shelf for us", "put the bottle on the shelf"),
+        ("take the bottle to the table for me please", "take the bottle to the table"),
+        ("grab me that red cup", "grab me the red cup"),
+        ("is the bottle still on the table?", "is the bottle on the table?"),
+        ("use your left hand to pick up the bottle", "pick up the bottle"),
+        ("with your right hand take the bottle", "take the bottle"),
+        ("pickup the bottle and putit on teh shelf", "pick up the bottle and put it on the shelf"),
+    ],
+)
+def test_they_change_nothing(said: str, plainly: str) -> None:
+    one, other = parse(said, HOME), parse(plainly, HOME)
+    assert isinstance(one, Goals), one
+    assert isinstance(other, Goals), other
+    assert one.goals == other.goals
+
+
+@pytest.mark.parametrize(("said", "still"), [("get the bottle for me", "bring")])
+def test_for_me_without_a_destination_is_one(said: str, still: str) -> None:
+    outcome = parse(said, HOME)
+    assert isinstance(outcome, Goals)
+    assert [goal["goal"] for goal in to_builtins(outcome.goals)] == [still]
+
+
+def test_several_are_meant_by_a_plural_where_there_are_several() -> None:
+    outcome, _ = hear("put the cups on the shelf", HOME, context=THERE)
+    assert isinstance(outcome, Goals)
+    assert to_builtins(outcome.goals)[0]["object"] == {"name": "cup", "count": "all"}
+
+
+@pytest.mark.parametrize("said", ["put the cup on the shelf", "bring me the cup"])
+def test_and_one_by_a_singular(said: str) -> None:
+    outcome, _ = hear(said, HOME, context=THERE)
+    assert isinstance(outcome, Question)
+
+
+@pytest.mark.parametrize("said", ["bring me the mug", "bring me the blue coffee mug"])
+def test_what_is_akin_is_asked_about(said: str) -> None:
+    outcome, context = hear(said, HOME)
+    assert isinstance(outcome, Question)
+    assert [choice.label for choice in outcome.choices] == ["cup"]
+    agreed, _ = hear("yes", HOME, context=context)
+    assert isinstance(agreed, Goals)
