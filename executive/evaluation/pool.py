@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import multiprocessing
+import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 from executive.evaluation.campaign import Run
 from executive.evaluation.record import Record
 from executive.evaluation.single import perform
+from robot.bus.lifeline import tie_to_parent
 from robot.errors import ConfigError
 
 
@@ -18,12 +20,17 @@ def in_processes(runs: Sequence[Run], *, processes: int) -> Iterator[Record]:
     """Records as they come, from worker processes of this machine.
 
     A worker that dies (out of memory, for example) costs the runs that were under way; they have
-    no record, and are tried again when the campaign is resumed.
+    no record, and are tried again when the campaign is resumed. Workers die with this process.
     """
     if not runs:
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(processes, len(runs)), mp_context=context) as pool:
+    with ProcessPoolExecutor(
+        min(processes, len(runs)),
+        mp_context=context,
+        initializer=tie_to_parent,
+        initargs=(os.getpid(),),
+    ) as pool:
         waiting: set[Future[Record]] = {pool.submit(perform, run) for run in runs}
         try:
             while waiting:

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.fakes.waiting import eventually
+
 CASES = """\
 cases:
   - name: controller killed
@@ -29,15 +31,37 @@ cases:
 """
 
 
-def evaluate(folder: Path, *options: str) -> tuple[int, dict]:
+def command(folder: Path, *options: str) -> list[str]:
     campaign = folder / "cases.yaml"
     campaign.write_text(CASES)
-    command = [sys.executable, "-m", "executive", "eval", "--faults", str(campaign), "--json"]
+    return [
+        *(sys.executable, "-m", "executive", "eval", "--faults", str(campaign), "--json"),
+        *("--seeds", "1", "--resume", str(folder / "out"), *options),
+    ]
+
+
+def evaluate(folder: Path, *options: str) -> tuple[int, dict]:
     done = subprocess.run(
-        [*command, "--seeds", "1", "--resume", str(folder / "out"), *options],
-        capture_output=True, text=True, timeout=300, check=False,
-    )  # fmt: skip
+        command(folder, *options), capture_output=True, text=True, timeout=300, check=False
+    )
     return done.returncode, json.loads(done.stdout)
+
+
+def below(pid: int) -> list[int]:
+    """Process ids of a process's children."""
+    return [int(text) for text in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def test_nothing_of_a_campaign_that_is_killed_goes_on(tmp_path):
+    job = subprocess.Popen(command(tmp_path, "-j", "2"), stdout=subprocess.DEVNULL)
+    try:
+        assert eventually(lambda: len(below(job.pid)) >= 3, within_s=60.0)  # and a tracker
+        workers = below(job.pid)
+    finally:
+        job.kill()
+        job.wait()
+    alive = lambda: [pid for pid in workers if Path(f"/proc/{pid}/exe").exists()]  # noqa: E731
+    assert eventually(lambda: not alive(), within_s=10.0), alive()
 
 
 @pytest.mark.slow
