@@ -165,6 +165,7 @@ class Grammar(Constructions):
             lambda: self._verb(at),
             lambda: self.fronted(at),
             lambda: self._statement(at, before),
+            lambda: self.telegram(at),
             lambda: self.gapped(at),
             lambda: self.alone(at),
         )
@@ -369,7 +370,7 @@ class Grammar(Constructions):
 
     def _correction(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
         """No wait, the blue one; I mean go to the kitchen."""
-        end = correction_end(self.text, at)
+        end = correction_end(self.text, at) or self._told_apart(at)
         if end is None:
             return None
         if verbs_at(self.text.words, end):
@@ -389,6 +390,18 @@ class Grammar(Constructions):
             raise Misfit("I do not know what to correct")
         scope.mention(new)
         return [substitute(g, old, new) for g in last], phrase.end
+
+    def _told_apart(self, at: int) -> int | None:
+        """Where *the blue one* begins that tells which cup was meant a sentence before."""
+        text, old = self.text, self.scope.object
+        if old is None or text.word(at - 1) not in (COMMA, FULL_STOP) or old.count not in (None, 1):
+            return None
+        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+        if phrase is None or phrase.noun != "one":
+            return None
+        closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
+        told = (phrase.color and not old.color) or (phrase.size and not old.size)
+        return at if closed and (told or (phrase.superlative and not old.superlative)) else None
 
 
 def _same_object(wanted: Goal, found: list[Goal]) -> bool:

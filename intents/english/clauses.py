@@ -27,7 +27,8 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
                  "to the left side,left side,to left,sideways to the left,towards the left"),
         ("right", "right,to the right,to your right,rightwards,rightward,sideways right,"
                   "to my right,to the right side,to right,sideways to the right,towards the right"),
-        ("around", "around,all the way around,all around,round"),
+        ("around", "around,all the way around,all around,round,the other way,the other way around,"
+                   "the other direction"),
         ("up", "up,upwards,upward"),
         ("down", "down,downwards,downward"),
         ("cw", "clockwise"),

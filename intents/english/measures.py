@@ -63,6 +63,12 @@ class Measure(NamedTuple):
     end: int
 
 
+_SIZED = frozenset(
+    ("full", "whole", "complete", "more", "single", "small", "big", "large", "little", "long",
+     "short", "giant", "tiny", "good", "baby", "careful", "slow", "quick")
+)  # fmt: skip
+
+
 def number(words: list[str], start: int) -> Number | None:
     """The number that begins at a word: "7", "2.5", "twenty one", "two and a half", "half a"."""
     for size in (4, 3, 2, 1):
@@ -117,7 +123,7 @@ def measure(words: list[str], start: int) -> Measure | None:
     if amount is None or amount.end >= len(words):
         return None
     end = amount.end
-    if words[end] in ("full", "whole", "complete", "more", "single", "small"):
+    if words[end] in _SIZED:
         end += 1
     if end >= len(words) or words[end] not in _UNITS:
         return None

@@ -27,11 +27,25 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     part = part_of(text, start)
     if part:
         return noun_phrase(text, part)
-    phrase = free_relative(text, start) or pronoun(text, start) or _full(text, start)
+    phrase = (
+        free_relative(text, start)
+        or _whereabouts(text, start)
+        or pronoun(text, start)
+        or _full(text, start)
+    )
     if phrase is None:
         return None
     read_postmodifiers(text, phrase)
     return phrase
+
+
+def _whereabouts(text: Text, start: int) -> NounPhrase | None:
+    """*Where Ada is*: at Ada's."""
+    who = _full(text, start + 1) if text.word(start) == "where" else None
+    if who is None or not who.is_person or text.word(who.end) not in ("is", "are"):
+        return None
+    who.start, who.end = start, who.end + 1
+    return who
 
 
 def _full(text: Text, start: int) -> NounPhrase | None:

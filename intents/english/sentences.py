@@ -186,6 +186,19 @@ class Clauses:
         kept = [(s, first) for s in senses if s not in _SPEECH and s != "count"]
         return self._first_that_fits(kept, start, list(self._last_particles), at)
 
+    def telegram(self, at: int) -> Reading | None:
+        """Red cup to the table."""
+        if at > 0 or verbs_at(self.text.words, at):
+            return None
+        complements, end = read_complements(self.text, at)
+        if [c.role for c in complements] not in (["", "to"], ["", "into"]) or end < len(self.text):
+            return None
+        thing, where = (c.phrases[0] if c.phrases else None for c in complements)
+        if not (thing and where and thing.name("object") and where.name("place")):
+            return None
+        clause = Clause(self.text, "put", "put", at, end, complements)
+        return FRAMES["put"](clause, self.scope), end
+
     def _count(self, at: int) -> Reading:
         """Count the cups on the table."""
         for skipped in ("how", "many", "the", "number", "amount", "of"):

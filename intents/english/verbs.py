@@ -12,7 +12,7 @@ SPELLINGS: dict[str, str] = {
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
-        "sidestep,side step,strafe,shuffle"
+        "sidestep,side step,strafe,shuffle,scoot"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (

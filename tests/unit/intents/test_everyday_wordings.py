@@ -32,6 +32,12 @@ THERE = Context(
         ("is the bottle still on the table?", "is the bottle on the table?"),
         ("use your left hand to pick up the bottle", "pick up the bottle"),
         ("with your right hand take the bottle", "take the bottle"),
+        ("bring the bottle over to where Anna is", "bring the bottle to Anna"),
+        ("take three big steps forward", "take three steps forward"),
+        ("face the other way", "turn around"),
+        ("pick up the cup. the blue one", "pick up the blue cup"),
+        ("pick up a cup, the red one", "pick up the red cup"),
+        ("red cup to table", "put the red cup on the table"),
         ("pickup the bottle and putit on teh shelf", "pick up the bottle and put it on the shelf"),
     ],
 )
