@@ -20,7 +20,7 @@ from executive.skills.gripping import LEAST_GAP_M
 from executive.skills.holding import Held
 from executive.skills.parameters import PickParams, PlaceParams
 from executive.trees.build import finished
-from executive.trees.parts import Errand, Part, walk
+from executive.trees.parts import Errand, Part, of_any_attempt, walk
 from robot.link import BodyLink
 from robot.messages import BodyState, ObjectInfo, Side, WorldState
 from robot.model.description import RobotDescription
@@ -69,11 +69,12 @@ def look(
     hands = _Hands(body, world, knowledge, robot)
     held = tuple(hands.held(_journalled(events)))
     steps = [(path, part) for path, part in walk(task) if isinstance(part, Errand)]
-    things = _Things(steps, done, {one.object_id for one in held}, world, knowledge)
+    newest = {of_any_attempt(path): path for path in sorted(done)}
+    things = _Things(steps, frozenset(newest), {one.object_id for one in held}, world, knowledge)
     gone = things.gone()
     names = {path: step.name for path, step in steps}
     return Agreement(
-        done=(done - set(gone)) | things.nearly_done(events),
+        done=(done - {newest[path] for path in gone}) | things.nearly_done(events),
         held=held,
         again=tuple((names[path], why) for path, why in gone.items() if why),
     )
@@ -169,8 +170,8 @@ class _Things:
         """The step that was under way, if it put a thing down and the thing is there."""
         begun = [str(e.data["id"]) for e in events if e.event == "step" and e.data.get("id")]
         for path, params in self._steps:
-            if begun and path == begun[-1] and isinstance(params, PlaceParams):
-                return frozenset() if self._why_not(params) else frozenset({path})
+            if begun and path == of_any_attempt(begun[-1]) and isinstance(params, PlaceParams):
+                return frozenset() if self._why_not(params) else frozenset({begun[-1]})
         return frozenset()
 
     def _fetching(self, path: str, object_id: str) -> dict[str, str]:

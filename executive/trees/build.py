@@ -43,8 +43,8 @@ def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset(
         stage: shared by all leaves.
         path: of the part in its task.
         done: what was done before and becomes a finished leaf: steps by their path, whole parts by
-            their path with a `/`; and how a branch was taken, as in `2?then`. Made by `finished`
-            from a journal and by `before` from a path.
+            their path with a `/`; how a branch was taken, as in `2?then`, and which attempts were
+            begun, as in `2*2?again`. Made by `finished` from a journal and by `before` from a path.
     """
     if f"{path}/" in done or (path in done and isinstance(part, p.Leaf)):
         return Finished(part.name)
@@ -109,7 +109,7 @@ def _loop(part: p.Loop, stage: Stage, path: str, done: Done) -> Behaviour:
     def passed(number: int) -> bool:
         at = p.of_round(path, number)
         return any(
-            entry == at or entry.startswith(tuple(at + mark for mark in ".?#/")) for entry in done
+            entry == at or entry.startswith(tuple(at + mark for mark in ".?#/*")) for entry in done
         )
 
     first = Round(part, 1, make=make, stage=stage, passed=passed)
@@ -121,8 +121,10 @@ def _retry(part: p.Retry, stage: Stage, path: str, done: Done) -> Behaviour:
         attempt = build(part.part, stage, path=p.of_attempt(path, number), done=done)
         return _settled(attempt)
 
-    again = Again(2, part.attempts, make=make, stage=stage, step=part.name)
-    return Selector(part.name, memory=True, children=[make(1), again])
+    begun = (n for n in range(2, part.attempts + 1) if f"{p.of_attempt(path, n)}?again" in done)
+    first = max(begun, default=1)
+    again = Again(part, first + 1, make=make, stage=stage, path=path)
+    return Selector(part.name, memory=True, children=[make(first), again])
 
 
 def _settled(node: Behaviour) -> Behaviour:
@@ -173,7 +175,7 @@ def finished(events: Iterable[Mapping[str, object]]) -> Done:
     """What a journal's events say is done, in the form that `build` takes.
 
     Args:
-        events: lines of a journal as mappings; "done" and "branch" are looked at.
+        events: lines of a journal as mappings; "done", "branch" and "again" are looked at.
     """
     found: set[str] = set()
     for event in events:
@@ -184,6 +186,8 @@ def finished(events: Iterable[Mapping[str, object]]) -> Done:
                 found.add(step)
         elif event.get("event") == "branch" and path:
             found.add(f"{path}?{event.get('took')}")
+        elif event.get("event") == "again" and path:
+            found.add(f"{path}?again")
     return frozenset(found)
 
 

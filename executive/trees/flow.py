@@ -22,7 +22,7 @@ from py_trees.composites import Composite
 
 from executive.behaviours.stage import Stage
 from executive.trees.idioms import Build
-from executive.trees.parts import Finding, Loop
+from executive.trees.parts import Finding, Loop, Retry, of_attempt
 from robot.errors import Failure, failure
 
 PATIENCE_S = 2.0
@@ -106,16 +106,16 @@ class Round(Behaviour):
 class Again(Behaviour):
     """Puts the next attempt behind itself; always FAILURE, so that the selector goes on."""
 
-    def __init__(self, number: int, attempts: int, *, make: Build, stage: Stage, step: str) -> None:
-        """Decide on attempt `number` of `attempts`; `make` builds it."""
+    def __init__(self, retry: Retry, number: int, *, make: Build, stage: Stage, path: str) -> None:
+        """Decide on attempt `number`; `make` builds it, `path` is that of the retry."""
         super().__init__("again?")
-        self._number, self._attempts = number, attempts
-        self._make, self._stage, self._step = make, stage, step
+        self._retry, self._number = retry, number
+        self._make, self._stage, self._path = make, stage, path
         self._asked = False
 
     def update(self) -> Status:
         """Grow once, unless the operator's patience is over or there is nothing to try again."""
-        if self._asked or self._number > self._attempts:
+        if self._asked or self._number > self._retry.attempts:
             return Status.FAILURE
         self._asked = True
         parent = self.parent
@@ -123,15 +123,12 @@ class Again(Behaviour):
             raise TypeError("an attempt stands in a selector")
         reason = self._stage.scope.failure
         code = reason.code if reason else "internal"
-        count = f"attempt {self._number} of {self._attempts}"
+        count = f"attempt {self._number} of {self._retry.attempts}"
         self.feedback_message = count
-        self._stage.record("again", step=self._step, code=code, count=count)
+        at = of_attempt(self._path, self._number)
+        self._stage.record("again", id=at, step=self._retry.name, code=code, count=count)
         following = Again(
-            self._number + 1,
-            self._attempts,
-            make=self._make,
-            stage=self._stage,
-            step=self._step,
+            self._retry, self._number + 1, make=self._make, stage=self._stage, path=self._path
         )
         parent.add_children([self._make(self._number), following])
         return Status.FAILURE

@@ -11,6 +11,7 @@ by a run that is taken up again::
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeAlias
 
@@ -155,6 +156,11 @@ def of_round(path: str, number: int) -> str:
 def of_attempt(path: str, number: int) -> str:
     """The path of an attempt of the part with a path; the first has the path itself."""
     return path if number == 1 else f"{path}*{number}"
+
+
+def of_any_attempt(path: str) -> str:
+    """The path of a step as it is in the first attempt of whatever is tried again."""
+    return re.sub(r"\*\d+", "", path)
 
 
 def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:

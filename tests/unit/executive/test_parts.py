@@ -245,6 +245,36 @@ def test_a_branch_is_taken_as_before_when_the_run_goes_on():
     assert ids(rig) == ["1.then.1", "2"]
 
 
+def cut(rig: Rig, after: str) -> frozenset[str]:
+    """What is done when a run is cut off after the first event of a step."""
+    events = [{"event": e.event, **e.data} for e in rig.journal.recent]
+    last = next(n for n, e in enumerate(events) if (e["event"], e.get("id")) == ("step", after))
+    return finished(events[: last + 1])
+
+
+def test_a_run_goes_on_in_the_attempt_that_it_was_in():
+    retry = p.Retry(name="retry", part=series(PICK, WALK), attempts=3)
+    part = series(retry, WAIT)
+    turns = {NavigateParams: [Script(code="fallen"), Script()]}
+    rig, verdict = play(part, turns)
+    assert verdict is True
+    assert ids(rig) == ["1.1", "1.2", "1*2.1", "1*2.2", "2"]
+    rig_then, verdict = play(part, done=cut(rig, "1*2.2"))
+    assert verdict is True
+    assert ids(rig_then) == ["1*2.2", "2"]
+    rig_then, _ = play(part, done=cut(rig, "2"))
+    assert ids(rig_then) == ["2"], "what an attempt but the first has done is done"
+
+
+def test_attempts_that_were_used_up_before_stay_so():
+    retry = p.Retry(name="retry", part=WALK, attempts=3)
+    rig, verdict = play(series(retry), WALK_FAILS)
+    assert verdict is not True
+    rig_then, verdict = play(series(retry), WALK_FAILS, done=cut(rig, "1*3"))
+    assert verdict is not True
+    assert ids(rig_then) == ["1*3"]
+
+
 def test_beginning_at_a_step_leaves_out_what_comes_before():
     loop = p.Loop(name="3 times", bodies=(series(WALK, PICK),), at_most=3)
     timed = p.Timeout(name="t", part=series(WALK, loop), limit_s=60.0)
