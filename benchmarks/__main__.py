@@ -6,6 +6,7 @@ import time
 from typing import Annotated
 
 import typer
+from msgspec.structs import replace
 from rich.console import Console
 from rich.markdown import Markdown
 
@@ -24,6 +25,9 @@ def main(
     match: Annotated[
         str, typer.Option(help="only runs whose key contains this; keeps nothing")
     ] = "",
+    again: Annotated[
+        str, typer.Option(help="only runs whose key contains this; put in place of those kept")
+    ] = "",
     processes: Annotated[int, typer.Option(help="at once")] = 2,
     fresh: Annotated[bool, typer.Option("--fresh", help="forget an interrupted campaign")] = False,
 ) -> None:
@@ -34,16 +38,20 @@ def main(
         if name not in RUNS:
             raise typer.BadParameter(f"no benchmark {name!r}; there are {', '.join(RUNS)}")
         list_jobs, render = RUNS[name]
-        jobs = [job for job in list_jobs(quick=quick) if match in job.key]
+        jobs = [job for job in list_jobs(quick=quick) if (match or again) in job.key]
         begin_s = time.monotonic()
-        label = f"{name}-quick" if quick else name
+        label = "-".join([name, *(["quick"] if quick else []), *(["again"] if again else [])])
         outcomes = campaign.run(label, jobs, processes=processes, fresh=fresh)
         took_s = round(time.monotonic() - begin_s, 1)
         console.print(Markdown(render(outcomes)))
-        if not match:
+        kept = report.newest(name) if again else None
+        if kept is not None:
+            results = replace(kept, outcomes={**kept.outcomes, **outcomes})
+        else:
             results = Results(
                 machine=machine.describe(), quick=quick, took_s=took_s, outcomes=outcomes
             )
+        if not match:
             path = report.save(name, results)
             newest = report.newest(name) or results
             report.write(name, render(newest.outcomes), newest)

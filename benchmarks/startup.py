@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import resource
 import statistics
 import subprocess
 import sys
@@ -25,11 +26,13 @@ def first_tick(*, live: bool, times: int) -> Outcome:
     """Wall time [s] until the executive's first tick has shown its first line; the median."""
     taken = [_until_first_line(live=live) for _ in range(times)]
     seconds = [taken_s for taken_s, _ in taken]
+    here = machine.describe()
     return {
         "ok": all(ok for _, ok in taken),
         "first_tick_s": round(statistics.median(seconds), 2),
         "slowest_s": round(max(seconds), 2),
-        "load": machine.describe().load,
+        "load": here.load,
+        "commit": here.commit,
     }
 
 
@@ -49,20 +52,46 @@ def _until_first_line(*, live: bool) -> tuple[float, bool]:
         return first_s, process.returncode == 0
 
 
-def whole_job(*, seed: int = 0) -> Outcome:
-    """Simulated seconds a wall second of a whole `humanoid do --fast`, its start included."""
+def whole_job(*, times: int) -> Outcome:
+    """Simulated seconds a second of the whole main job in `fast`, medians of some runs.
+
+    `factor` is a wall second of the whole process, from its start to its end; `mission_factor` one
+    between the first tick and the last; `cpu_factor` a second of CPU time, its start included.
+    """
+    runs = [_job() for _ in range(times)]
+    here = machine.describe()
+    return {
+        "ok": all(run is not None for run in runs),
+        **{
+            name: round(statistics.median(run[name] for run in runs if run is not None), 2)
+            for name in next((run for run in runs if run is not None), {})
+        },
+        "load": here.load,
+        "commit": here.commit,
+    }
+
+
+def _job() -> dict[str, float] | None:
+    """One run; None if it failed."""
     with tempfile.TemporaryDirectory() as folder:
-        begin_s = time.perf_counter()
+        begin_s, begin_cpu_s = time.perf_counter(), _children_s()
         done = subprocess.run(
-            [*COMMAND, "--fast", "--seed", str(seed), "--run-dir", folder, JOB],
+            [*COMMAND, "--fast", "--seed", "0", "--run-dir", folder, JOB],
             cwd=folder, capture_output=True, check=False,
         )  # fmt: skip
-        wall_s = time.perf_counter() - begin_s
-        summaries = list(Path(folder).rglob("summary.json"))
-        simulated_s = json.loads(summaries[0].read_text())["simulated_s"] if summaries else 0.0
+        wall_s, cpu_s = time.perf_counter() - begin_s, _children_s() - begin_cpu_s
+        if done.returncode != 0:
+            return None
+        summary = json.loads(next(Path(folder).rglob("summary.json")).read_text())
+    simulated_s = summary["simulated_s"]
     return {
-        "ok": done.returncode == 0,
-        "simulated_s": simulated_s,
-        "factor": round(simulated_s / wall_s, 2),
-        "load": machine.describe().load,
+        "factor": simulated_s / wall_s,
+        "mission_factor": simulated_s / summary["wall_s"],
+        "cpu_factor": simulated_s / cpu_s,
     }
+
+
+def _children_s() -> float:
+    """CPU time of the child processes that have ended [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime

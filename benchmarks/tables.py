@@ -193,11 +193,20 @@ def _from_the_start(outcomes: Outcomes) -> str:
         if one.get("ok"):
             what = f"`{kind}`: until the executive's first tick"
             each = f"{one['first_tick_s']:.1f} s, slowest {one['slowest_s']:.1f} s"
-            rows.append([what, each, f"{one['load']:.1f}"])
+            rows.append([what, each, _when(one)])
     whole = outcomes.get("cost/whole job", {})
     if whole.get("ok"):
-        what = "`fast`: the main job from start to end, planning and executive included"
-        each = f"{whole['factor']:.1f} simulated seconds a wall second"
-        rows.append([what, each, f"{whole['load']:.1f}"])
-    head = ["from the start of the process", "", "load average"]
+        for what, factor in (
+            ("main job, from its first tick to its last", "mission_factor"),
+            ("main job, from the start of the process to its end", "factor"),
+            ("the same, a second of CPU time", "cpu_factor"),
+        ):
+            each = f"{whole[factor]:.1f} simulated seconds a second"
+            rows.append([f"`fast`: {what}", each, _when(whole)])
+    head = ["a whole `humanoid do`, sensing, planning, executive included", "", "load, commit"]
     return "\n\n" + table(head, rows) if rows else ""
+
+
+def _when(outcome: dict[str, Any]) -> str:
+    """Under which load, and of which commit."""
+    return f"{outcome['load']:.1f}, {outcome.get('commit', '')}".rstrip(", ")
