@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
+import shutil
 from pathlib import Path
 
 import msgspec
@@ -13,6 +15,9 @@ from executive.journal import Journal
 from executive.origin import Origin
 from executive.request import Setting
 from robot.errors import ConfigError, Problem
+
+MISSIONS = "missions"
+"""Folder in that of a run: the mission files that its jobs are made from."""
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -51,6 +56,12 @@ def begin(journal: Journal, header: Header, *, now_s: float, folder: Path | None
     if folder is not None:
         save(folder, "run.json", header)
     journal.write(now_s, "run", **msgspec.to_builtins(header))
+
+
+def carry_missions_over(left_by: Path, folder: Path) -> None:
+    """Keep the mission files of a run that is gone on with in another folder there, too."""
+    with contextlib.suppress(OSError):  # then they are read where they come from
+        shutil.copytree(left_by / MISSIONS, folder / MISSIONS, dirs_exist_ok=True)
 
 
 class Summary(msgspec.Struct, frozen=True, kw_only=True):

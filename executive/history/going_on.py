@@ -62,6 +62,8 @@ def do(
             text = job.understood.text
             header = runs.header(job.where, text=text, seed=job.seed, runtime=job.runtime_name)
             runs.begin(session.journal, header, now_s=now_s, folder=job.folder)
+            if job.folder is not None:
+                runs.carry_missions_over(left_by, job.folder)
         go_on(session, job, newest_job(events), anew=left_by is not None)
 
     return see_through(session, job, begin=begin, show=show, wall=wall)

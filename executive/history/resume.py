@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime
 from typing import Any
 
@@ -9,10 +10,15 @@ import typer
 
 from executive import commands, doing
 from executive.history import past, recording, resuming, showing
+from executive.history.recording import Recording
 from executive.history.resuming import CannotGoOn, Screen
 from executive.runs import Summary
+from robot.bringup import entry
 from robot.bringup.overseen import Handle
 from robot.clock import WallClock
+
+PROMPT = "executive.repl.cli:again"
+"""Goes on with what was done at the prompt, at the prompt."""
 
 
 def resume(run: str | None, *, as_json: bool) -> int:
@@ -23,6 +29,9 @@ def resume(run: str | None, *, as_json: bool) -> int:
     """
     folder = past.find(run)
     recorded = resuming.check(folder)
+    if recorded.header.attended:
+        again: Callable[[Recording], int] = entry.attribute(PROMPT)
+        return again(recorded)
     where, changed = recording.setting(recorded)
     for change in changed:
         typer.echo(f"note: {change}, since it was recorded", err=True)

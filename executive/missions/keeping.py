@@ -14,8 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from executive.missions.check import Checked
-
-FOLDER = "missions"
+from executive.runs import MISSIONS
 
 
 def digest(checked: Checked) -> str:
@@ -28,7 +27,7 @@ def digest(checked: Checked) -> str:
 
 def kept(checked: Checked) -> str:
     """Where the mission's own file is kept, inside the folder of its run."""
-    return (Path(FOLDER) / digest(checked) / _below(checked.files)[0]).as_posix()
+    return (Path(MISSIONS) / digest(checked) / _below(checked.files)[0]).as_posix()
 
 
 def keep(checked: Checked, folder: Path) -> Path:
@@ -36,7 +35,7 @@ def keep(checked: Checked, folder: Path) -> Path:
 
     That is the file itself where no copy can be written: a full disk stops no robot.
     """
-    base = folder / FOLDER / digest(checked)
+    base = folder / MISSIONS / digest(checked)
     try:
         for path, below in zip(checked.files, _below(checked.files), strict=True):
             copy = base / below

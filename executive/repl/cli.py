@@ -14,6 +14,7 @@ from rich.console import Console
 
 from executive import request, runs, runtimes
 from executive.endpoint import language_model
+from executive.history.recording import Recording
 from executive.journal import Event
 from executive.overseeing import oversee
 from executive.progress import sentence
@@ -31,7 +32,10 @@ ENDINGS = {"done": "Done", "failed": "Failed", "cancelled": "Ended"}
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):
-    """The options of `humanoid repl`; `folder` is set once it begins."""
+    """The options of `humanoid repl`; `folder` is set once it begins.
+
+    `left_by` is the folder of a run that was cut off, whose jobs go on in this one.
+    """
 
     world: str
     robot: str
@@ -40,6 +44,23 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     vary: bool
     folder: Path | None
     model: Path | None = None
+    left_by: Path | None = None
+
+
+def again(left_by: Recording) -> int:
+    """Prompt, and go on with what was open at a prompt that was cut off; the exit status."""
+    header = left_by.header
+    return repl(
+        Options(
+            world=header.world,
+            robot=header.robot,
+            seed=header.seed,
+            fast=header.runtime == "fast",
+            vary=header.varied,
+            folder=None,
+            left_by=left_by.folder,
+        )
+    )
 
 
 def repl(options: Options) -> int:
@@ -86,12 +107,16 @@ def prompt(options: Options, *, handle: Handle | None = None) -> int:
         time_of_day=lambda: datetime.now().astimezone().timestamp(),
         idles=kind == "live",
         returning=returning,
+        left_by=options.left_by,
     )
     with ExitStack() as stack:
         with Console(stderr=True).status("starting the robot"):
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, folder=folder, model=language_model(options.model))
+        for event in robot.session.journal.recent:
+            if event.event == "resumed":  # before anybody listened
+                _tell(event)
         robot.session.journal.listen(_tell)
         if sys.stdin.isatty() and sys.stdout.isatty():
             from executive.repl.terminal import Terminal

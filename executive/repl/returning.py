@@ -41,10 +41,20 @@ def _of(event: Event) -> int | None:
     return event.data.get("job")
 
 
-def return_to(session: Session, events: list[Event], *, where: Setting, folder: Path) -> None:
-    """Submit again what was open, without the steps that are done."""
-    now_s = session.runtime.clock.now_s()
-    session.journal.write(now_s, "returned")
+def return_to(
+    session: Session, events: list[Event], *, where: Setting, folder: Path, anew: bool = False
+) -> None:
+    """Submit again what was open, without the steps that are done.
+
+    Args:
+        session: of the prompt that goes on with them.
+        events: of the run that was cut off.
+        where: robot and world.
+        folder: of that run.
+        anew: whether that was another run, whose robot is gone.
+    """
+    if not anew:
+        session.journal.write(session.runtime.clock.now_s(), "returned")
     for since in unfinished(events):
         job = Job(
             understood=recording.restore(since[0], folder, where),
@@ -54,4 +64,4 @@ def return_to(session: Session, events: list[Event], *, where: Setting, folder: 
             folder=folder,
             origin=dict(since[0].data["origin"]),
         )
-        go_on(session, job, since, anew=False)
+        go_on(session, job, since, anew=anew)

@@ -55,6 +55,7 @@ class Robot:
         time_of_day: Callable[[], float],
         idles: bool,
         returning: bool = False,
+        left_by: Path | None = None,
     ) -> None:
         """Start nothing yet.
 
@@ -67,6 +68,7 @@ class Robot:
             time_of_day: for the journal's sibling file.
             idles: whether time passes while there is nothing to do (`live`).
             returning: whether an executive before this one died in this run: its jobs go on.
+            left_by: folder of a run that was cut off with its robot: its jobs go on here.
         """
         self.where = where
         self.view = View()
@@ -79,6 +81,7 @@ class Robot:
         self._time_of_day = time_of_day
         self._idles = idles
         self._returning = returning
+        self._left_by = left_by
         self._up = threading.Event()
         self._wake = threading.Event()
         self._leaving = threading.Event()
@@ -177,6 +180,11 @@ class Robot:
             self.where, text="prompt", seed=self._seed, runtime=runtime, attended=True
         )
         runs.begin(self.session.journal, header, now_s=now_s, folder=self._folder)
+        if self._left_by is not None:
+            runs.carry_missions_over(self._left_by, self._folder)
+            return_to(
+                self.session, read(self._left_by), where=self.where, folder=self._left_by, anew=True
+            )
 
     def _over(self) -> bool:
         gone = self.session.runtime.failure() is not None

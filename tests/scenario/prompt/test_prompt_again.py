@@ -1,0 +1,71 @@
+"""What was done at a prompt and cut off goes on at a prompt."""
+
+import io
+from pathlib import Path
+
+from executive.journal import read
+from tests.scenario.executive.test_replay import anew  # noqa: F401 - a fixture
+from tests.scenario.executive.test_resume import cut
+from tests.scenario.test_cli import humanoid, runtime  # noqa: F401 - fixtures
+
+MISSION = "name: again\nworld: kitchen\nsteps:\n  - say hello\n  - go to the table\n  - bow\n"
+
+
+def at_the_prompt(monkeypatch, *lines: str) -> None:
+    monkeypatch.setattr("sys.stdin", io.StringIO("\n".join(lines) + "\n"))
+
+
+def cut_after(event: str, step: str) -> None:
+    """Leave the journal of runs/a up to an event of a step in runs/b."""
+    found = next(
+        e.n for e in read(Path("runs/a")) if e.event == event and e.data.get("step") == step
+    )
+    lines = Path("runs/a/journal.jsonl").read_bytes().splitlines(keepends=True)
+    share = sum(map(len, lines[: found + 1])) / sum(map(len, lines))
+    cut("runs/a", "runs/b", share)
+
+
+def newest() -> list:
+    (folder,) = [path for path in Path("runs").iterdir() if path.name not in ("a", "b")]
+    return read(folder)
+
+
+def test_resume_gives_the_prompt_back_with_what_was_open(
+    runtime, humanoid, anew, monkeypatch  # noqa: F811
+):  # fmt: skip
+    at_the_prompt(monkeypatch, "say hello", "squat for 2 seconds, then bow", "nod")
+    assert humanoid("repl", "--fast", "--run-dir", "runs/a")[0] == 0
+    cut_after("step", "bow")
+    anew()
+    at_the_prompt(monkeypatch, "go to the table", "history")
+    status, text = humanoid("resume", "runs/b")
+    assert status == 0, text
+    assert "going on: with a new robot" in text
+    done = [event.data["step"] for event in newest() if event.event == "done"]
+    assert done == ["bow", "go to the table"]
+
+
+def test_a_mission_goes_on_from_the_copy_of_its_file(
+    runtime, humanoid, anew, monkeypatch, tmp_path  # noqa: F811
+):  # fmt: skip
+    mission = tmp_path / "again.yaml"
+    mission.write_text(MISSION)
+    at_the_prompt(monkeypatch, f"run {mission}")
+    assert humanoid("repl", "--fast", "--run-dir", "runs/a")[0] == 0
+    cut_after("step", "go to the table")
+    Path("runs/a/missions").rename("runs/b/missions")
+    mission.unlink()
+    anew()
+    at_the_prompt(monkeypatch, "status")
+    status, text = humanoid("resume", "runs/b")
+    assert status == 0, text
+    done = [event.data["step"] for event in newest() if event.event == "done"]
+    assert done == ["go to the table", "bow"]
+
+
+def test_nothing_goes_on_where_nothing_was_open(runtime, humanoid, monkeypatch):  # noqa: F811
+    at_the_prompt(monkeypatch, "say hello")
+    assert humanoid("repl", "--fast", "--run-dir", "runs/a")[0] == 0
+    status, text = humanoid("resume", "runs/a")
+    assert status == 2
+    assert "nothing is left of it" in text
