@@ -12,6 +12,7 @@ from rich.text import Text
 
 from executive.app import Executive
 from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
+from executive.dumps import words
 from executive.dumps.text import MARKS, Line, State, lines
 from executive.journal import Event
 
@@ -70,9 +71,9 @@ class Lines(Silent):
         executive.journal.listen(self._heard)
 
     def _heard(self, event: Event) -> None:
-        words = sentence(event)
-        if words:
-            line = f"[{event.t_s:7.2f} s] {words}"
+        told = sentence(event)
+        if told:
+            line = f"[{event.t_s:7.2f} s] {told}"
             self._console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
@@ -160,30 +161,18 @@ def _drawn(line: Line) -> Text:
     return text
 
 
-_SENTENCES: dict[str, str] = {
-    "step": "{step}",
-    "phase": "{step}: {phase}",
-    "done": "{step}: done",
-    "failure": "{step}: failed ({code}): {cause}",
-    "recovery": "{step}: {remedy} ({count})",
-    "no recovery": "{step}: no recovery, {why}",
-    "hold": "standing still: {why}",
-    "abort": "ending the task: {cause}",
-    "stopping": "{step}: stopping",
-    "paused": "paused: the robot stands",
-    "resume": "going on",
-    "help": "asks: {question}",
-    "answer": "was told: {answer}",
-    "fault": "fault injected: {fault}",
-    "resumed": "going on: {why}",
-    "said": "says: {text}",
-    "warning": "warning: {text}",
-}
+NEWS = frozenset({
+    "step", "done", "failure", "recovery", "no recovery", "hold", "abort", "stopping", "paused",
+    "resume", "resumed", "help", "answer", "fault", "health", "said", "warning",
+})  # fmt: skip
+"""Kinds of events that people are told as they happen."""
 
 
 def sentence(event: Event) -> str:
     """An event in words, empty for those that are not news to people."""
-    if event.event == "health" and event.data["level"] != "OK":
-        return f"{event.data['level'].lower()}: {event.data['cause']}"
-    pattern = _SENTENCES.get(event.event, "")
-    return pattern.format(**event.data) if pattern else ""
+    data = event.data
+    if event.event == "phase":
+        return f"{data['step']}: {data['phase']}"
+    if event.event == "health" and data["level"] == "OK":
+        return ""
+    return words.sentence(event.event, data) if event.event in NEWS else ""
