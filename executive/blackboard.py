@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeVar, cast, get_args, get_origin
 from executive.ladder import Health
 from robot.errors import Failure, RobotError
 from robot.messages import BodyState, Side, WorldMap, WorldState
+from robot.se3 import SE3
 
 T = TypeVar("T")
 
@@ -50,6 +51,10 @@ WORLD = Key[WorldState | None](
 MAP = Key[WorldMap | None](
     "map", WorldMap | None, writer="sense", meaning="prior map of the world", initial=None
 )
+HOME = Key[SE3 | None](
+    "home", SE3 | None, writer="sense", meaning="where the robot began: its stance X_WS",
+    initial=None,
+)  # fmt: skip
 HEALTH = Key[Health](
     "health", Health, writer="sense", meaning="how well the robot is", initial=Health()
 )
@@ -91,8 +96,8 @@ HELD = Key[dict[Side, str]](
 SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robot", initial="")
 
 KEYS: tuple[Key[Any], ...] = (
-    NOW, BODY, WORLD, MAP, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE, RECOVERIES,
-    PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
+    NOW, BODY, WORLD, MAP, HOME, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE,
+    RECOVERIES, PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
 )  # fmt: skip
 """The whole table."""
 

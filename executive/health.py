@@ -112,7 +112,7 @@ GRADES: dict[str, Scale] = {
         falling=True,
         grades=(
             Grade(at=0.20, level=Level.WARN),
-            Grade(at=0.10, level=Level.DERATE, speed=0.5),
+            Grade(at=0.10, level=Level.RETURN, speed=0.5),
             Grade(at=0.05, level=Level.SIT),
         ),
     ),

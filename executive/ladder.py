@@ -18,11 +18,13 @@ class Level(IntEnum):
     """tell people"""
     DERATE = 2
     """go on, slower"""
-    HOLD = 3
+    RETURN = 3
+    """go back to where it began, slower, and end the task there"""
+    HOLD = 4
     """stop the task, stand, and wait for it to pass"""
-    SIT = 4
+    SIT = 5
     """end the task and come to rest"""
-    DAMP = 5
+    DAMP = 6
     """the motors damp: the body can no longer be held up"""
 
 

@@ -19,6 +19,9 @@ from robot.errors import CATALOGUE
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
 
+SLOWER = frozenset({"DERATE", "RETURN"})
+"""Levels at which the robot walks, and slower."""
+
 PAGES = ("health.md", "recovery.md", "evaluation.md")
 
 WHAT = {
@@ -52,7 +55,7 @@ def grades() -> str:
     for name, scale in health.GRADES.items():
         for grade in scale.grades:
             sign = "≤" if scale.falling else "≥"
-            speed = f"{100 * grade.speed:.0f} %" if grade.level.name == "DERATE" else ""
+            speed = f"{100 * grade.speed:.0f} %" if grade.level.name in SLOWER else ""
             if grade.ends is not None:
                 speed += f", falling to {100 * grade.ends:.0f} %"
             at = f"{sign} {grade.at:g} {scale.unit}"

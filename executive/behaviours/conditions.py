@@ -32,6 +32,11 @@ def must_end(board: Blackboard) -> bool:
     return bool(board.read(STOP)) or board.read(HEALTH).level >= Level.SIT
 
 
+def must_return(board: Blackboard) -> bool:
+    """The robot had better go back while it can."""
+    return board.read(HEALTH).level is Level.RETURN
+
+
 def must_hold(board: Blackboard) -> bool:
     """Something is missing without which the robot had better stand still."""
     return board.read(HEALTH).level >= Level.HOLD

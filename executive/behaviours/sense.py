@@ -7,7 +7,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import BODY, HEALTH, HELD, MAP, NOW, SPEED_LIMIT, WORLD
+from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.health import HealthMonitor
 from executive.ladder import Health, Level
 from executive.skills.holding import Held, Holdings
@@ -45,6 +45,8 @@ class Sense(Behaviour):
         board.set(BODY, body)
         board.set(WORLD, world)
         board.set(MAP, link.map())
+        if self._stage.board.read(HOME) is None and body is not None and world is not None:
+            board.set(HOME, (world.X_WN @ body.X_NS).flat())
         self._feel()
         stamps_s = {
             "body/state": _stamp(body),

@@ -1,4 +1,4 @@
-"""The whole tree: sense || come to rest || (emergency > pause > recovery > jobs > idle).
+"""The whole tree: sense || come to rest || (emergency > pause > return > recovery > jobs > idle).
 
 Every tick senses first, then sees interrupted skills through, then does the first thing in the
 order of urgency that applies. Recoveries of single steps live inside the jobs
@@ -17,13 +17,22 @@ from py_trees.composites import Parallel, Selector
 from py_trees.composites import Sequence as InOrder
 from py_trees.decorators import FailureIsSuccess
 
-from executive.behaviours.conditions import Check, Predicate, must_end, must_hold, must_pause
+from executive.behaviours.conditions import (
+    Check,
+    Predicate,
+    must_end,
+    must_hold,
+    must_pause,
+    must_return,
+)
 from executive.behaviours.guards import EndTask, Hold, Rest
 from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.sense import Sense, WindDown
 from executive.behaviours.stage import Stage
-from executive.skills.parameters import StopParams
+from executive.blackboard import HOME, Blackboard
+from executive.skills.parameters import FloorPose, NavigateParams, StopParams
 from executive.trees.jobs import Jobs
+from robot.errors import Failure, failure
 
 REST_LIMIT_S = 15.0
 
@@ -49,6 +58,7 @@ class Tree:
         choices = [
             self._stand_and("emergency", "has to end?", must_end, EndTask(stage, guard)),
             self._stand_and("pause", "is to pause?", must_pause, Rest(stage, guard)),
+            self._go_home_and(EndTask(stage, guard)),
             recovery,
             self.jobs,
             Running("idle"),
@@ -65,10 +75,18 @@ class Tree:
     ) -> Behaviour:
         """While the answer is yes: come to a stand once, then stay in the last leaf."""
         stand = RunSkill("come to a stand", StopParams(), stage=self._stage, limit_s=REST_LIMIT_S)
-        steps = [FailureIsSuccess("as far as it goes", stand), last]
         check = Check(question, predicate, board=self._stage.board)
-        then = InOrder("stand", memory=True, children=steps)
-        return InOrder(name, memory=False, children=[check, then])
+        return InOrder(name, memory=False, children=[check, _then("stand", stand, last)])
+
+    def _go_home_and(self, last: Behaviour) -> Behaviour:
+        """While there are jobs and the robot had better go back: do, then stay in the last leaf."""
+        home = RunSkill("go back to where it began", _home, stage=self._stage)
+
+        def predicate(board: Blackboard) -> bool:
+            return must_return(board) and bool(self.jobs.works)
+
+        check = Check("has to go back?", predicate, board=self._stage.board)
+        return InOrder("return", memory=False, children=[check, _then("go back", home, last)])
 
     @property
     def shown(self) -> Behaviour | None:
@@ -82,3 +100,18 @@ class Tree:
     def tick(self) -> None:
         """Tick every node once."""
         self.root.tick_once()
+
+
+def _then(name: str, leaf: Behaviour, last: Behaviour) -> Behaviour:
+    """A leaf to its end, whatever that is, then the last one."""
+    steps = [FailureIsSuccess("as far as it goes", leaf), last]
+    return InOrder(name, memory=True, children=steps)
+
+
+def _home(board: Blackboard) -> NavigateParams | Failure:
+    """To where the robot began."""
+    X_WS = board.read(HOME)
+    if X_WS is None:
+        return failure("localisation_lost", "it is not known where the robot began")
+    pose = FloorPose(x_m=X_WS.p[0], y_m=X_WS.p[1], yaw_rad=X_WS.yaw_rad)
+    return NavigateParams(pose=pose)

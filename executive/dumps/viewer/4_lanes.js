@@ -9,7 +9,7 @@ const EVENTS = new Map(Object.entries({
 }));
 const MODES = new Map([["walk", "running"], ["fallen", "failed"], ["damping", "failed"]]);
 const marked = list(run.log).filter((line) => EVENTS.has(line[1]));
-const LEVELS = ["OK", "WARN", "DERATE", "HOLD", "SIT", "DAMP"];
+const LEVELS = ["OK", "WARN", "DERATE", "RETURN", "HOLD", "SIT", "DAMP"];
 
 /** Health over time: [begin, end, worst level, causes]. */
 const healthBands = (() => {

@@ -123,7 +123,7 @@ def test_a_motor_that_tripped_has_to_cool_down_first(robot):
     [
         (0.5, Level.OK, float("inf")),
         (0.2, Level.WARN, float("inf")),
-        (0.09, Level.DERATE, 0.25),
+        (0.09, Level.RETURN, 0.25),
         (0.05, Level.SIT, float("inf")),
     ],
 )
