@@ -132,7 +132,7 @@ def _starts(times: int) -> list[Job]:
     return [
         _job("cost/start fast", f"{startup}:first_tick", alone=True, live=False, times=times),
         _job("cost/start live", f"{startup}:first_tick", alone=True, live=True, times=times),
-        _job("cost/whole job", f"{startup}:whole_job", alone=True),
+        _job("cost/whole job", f"{startup}:whole_job", alone=True, times=times),
     ]
 
 

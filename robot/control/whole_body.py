@@ -31,6 +31,7 @@ SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0
 STRAINED_COM_WEIGHT = 1000.0  # with a push to catch, turning the trunk is worth its while
 STRAINED_PELVIS_WEIGHT = 1.0
+STRAINED_SWING_WEIGHT = 60.0  # else the foot that is to catch it hovers short of the floor
 WAIST_WEIGHT = 4.0
 POSTURE_WEIGHT = 0.02
 FORCE_WEIGHT = 1e-5
@@ -230,8 +231,12 @@ class WholeBody:
         self._strain = strain
         com = COM_WEIGHT * (STRAINED_COM_WEIGHT / COM_WEIGHT) ** strain
         pelvis = PELVIS_WEIGHT * (STRAINED_PELVIS_WEIGHT / PELVIS_WEIGHT) ** strain
-        for programme in self._programmes.values():
+        swing = SWING_WEIGHT * (STRAINED_SWING_WEIGHT / SWING_WEIGHT) ** strain
+        for bears, programme in self._programmes.items():
             programme.weight[:3] = com
+            for i in (0, 1):
+                if not bears[i]:
+                    programme.weight[3 + 6 * i : 9 + 6 * i] = swing
         self._own_weight[:3] = self._regular[3:6] = pelvis
 
     def _objective(

@@ -185,3 +185,18 @@ def test_under_strain_the_trunk_turns_to_move_the_centre_of_mass(body, whole, dy
         turned.append(abs(float(solution.acc[3])))
     assert sideways[2] < sideways[1] < sideways[0]
     assert turned[2] > turned[1] > turned[0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_under_strain_the_foot_that_is_to_catch_it_still_comes_down(body, whole, seed):
+    """However much is asked of the centre of mass."""
+    rng = np.random.default_rng(seed)
+    dynamics = random_state(body, rng)
+    task = random_task(body, whole, rng, [True, False])
+    task.com_acc = np.array([5.0, 0.0, 0.0])
+    task.sole_acc[:] = 0.0
+    task.sole_acc[8] = -10.0
+    task.strain = 1.0
+    solution = whole.solve(dynamics, task)
+    assert solution.ok
+    assert (dynamics.jac @ solution.acc + dynamics.bias)[8] < -7.5
