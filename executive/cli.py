@@ -16,6 +16,7 @@ from executive.dumps import cli as dumps
 from executive.ending import ended_by
 from executive.evaluation.cli import evaluate
 from executive.history import cli as history
+from executive.listening.cli import listen
 from executive.missions import cli as missions
 from robot.errors import ConfigError
 
@@ -300,6 +301,7 @@ missions.register(app)
 history.register(app)
 dumps.register(app)
 app.command(name="eval")(evaluate)
+app.command()(listen)
 
 
 def main() -> None:

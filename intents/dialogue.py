@@ -6,6 +6,7 @@ that are risky or cannot be undone are read back first.
 """
 
 import re
+from collections.abc import Callable
 
 from msgspec.structs import replace
 
@@ -63,7 +64,12 @@ class Dialogue:
     """
 
     def __init__(
-        self, vocabulary: Vocabulary, *, confirm: bool = True, fallback: Fallback | None = None
+        self,
+        vocabulary: Vocabulary,
+        *,
+        confirm: bool = True,
+        fallback: Fallback | None = None,
+        risk: Callable[[tuple[Goal, ...]], str] = risk,
     ) -> None:
         """Begin a conversation.
 
@@ -71,10 +77,12 @@ class Dialogue:
             vocabulary: The names of this world.
             confirm: Whether risky goals are read back before they are returned.
             fallback: Asked what the grammar does not understand, such as a language model.
+            risk: Why goals are read back, in words; empty where they need not be.
         """
         self.vocabulary = vocabulary
         self.confirm = confirm
         self.fallback = fallback
+        self._risk = risk
         self.context = Context()
         self._repeats = 0
         self._pending: Context | None = None
@@ -146,7 +154,7 @@ class Dialogue:
         if isinstance(told, Reply):
             self.context = after
             return replace(told, ms=outcome.ms)
-        why = risk(outcome.goals) if self.confirm else ""
+        why = self._risk(outcome.goals) if self.confirm else ""
         if self.confirm and outcome.parser == "model":
             why = why or "that is how I understand it"
         if told is None and not why:

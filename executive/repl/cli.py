@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import ExitStack
+from collections.abc import Generator
+from contextlib import ExitStack, contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -94,10 +95,27 @@ def _setting(options: Options) -> request.Setting:
 
 def prompt(options: Options, *, handle: Handle | None = None) -> int:
     """The prompt itself; `handle` is that of a live robot."""
+    with conversation(options, handle=handle) as shell:
+        if sys.stdin.isatty() and sys.stdout.isatty():
+            from executive.repl.terminal import Terminal
+
+            if handle is not None and handle.deaths > 0:
+                say("The prompt is back; the robot goes on with what was open.")
+            kind = "fast" if handle is None else "live"
+            say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
+            Terminal(shell, history=HISTORY.expanduser()).run()
+            say("The robot comes to a stand." if shell.robot.busy else "The robot stands.")
+            return BROKEN if shell.robot.lost else DONE
+        work_off(shell, sys.stdin)
+        return status_of(shell)
+
+
+@contextmanager
+def conversation(options: Options, *, handle: Handle | None = None) -> Generator[Shell]:
+    """A robot to talk to, and what comes of what is said; `handle` is that of a live robot."""
     where, folder = _setting(options), options.folder
     assert folder is not None
     kind: runtimes.Kind = "fast" if handle is None else "live"
-    returning = handle is not None and handle.deaths > 0
     robot = Robot(
         lambda: runtimes.opened(kind, where, seed=options.seed, folder=folder, handle=handle),
         where=where,
@@ -106,7 +124,7 @@ def prompt(options: Options, *, handle: Handle | None = None) -> int:
         wall=WallClock(),
         time_of_day=lambda: datetime.now().astimezone().timestamp(),
         idles=kind == "live",
-        returning=returning,
+        returning=handle is not None and handle.deaths > 0,
         left_by=options.left_by,
     )
     with ExitStack() as stack:
@@ -118,17 +136,7 @@ def prompt(options: Options, *, handle: Handle | None = None) -> int:
             if event.event == "resumed":  # before anybody listened
                 _tell(event)
         robot.session.journal.listen(_tell)
-        if sys.stdin.isatty() and sys.stdout.isatty():
-            from executive.repl.terminal import Terminal
-
-            if returning:
-                say("The prompt is back; the robot goes on with what was open.")
-            say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
-            Terminal(shell, history=HISTORY.expanduser()).run()
-            say("The robot comes to a stand." if robot.busy else "The robot stands.")
-            return BROKEN if robot.lost else DONE
-        work_off(shell, sys.stdin)
-        return _status(shell)
+        yield shell
 
 
 def say(text: str) -> None:
@@ -139,12 +147,12 @@ def say(text: str) -> None:
 
 def _tell(event: Event) -> None:
     """What happens, as it happens."""
-    words = _words(event)
-    if words:
-        say(f"[{event.t_s:7.2f} s] {words}")
+    told = words(event)
+    if told:
+        say(f"[{event.t_s:7.2f} s] {told}")
 
 
-def _words(event: Event) -> str:
+def words(event: Event) -> str:
     """An event for people who see the status line as well; empty if it is no news to them."""
     if event.event in QUIET:
         return ""
@@ -157,7 +165,7 @@ def _words(event: Event) -> str:
     return sentence(event)
 
 
-def _status(shell: Shell) -> int:
+def status_of(shell: Shell) -> int:
     """Of lines from a pipe: the worst that came of one."""
     if shell.robot.lost:
         return BROKEN

@@ -1,0 +1,1 @@
+"""`humanoid listen`: speech in, and the robot does it."""

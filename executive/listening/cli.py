@@ -1,0 +1,104 @@
+"""The command `humanoid listen`."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+class RecogniserName(StrEnum):
+    """Recognisers to choose from."""
+
+    POCKETSPHINX = "pocketsphinx"
+    WHISPER = "whisper"
+
+
+class VoiceName(StrEnum):
+    """Voices to choose from."""
+
+    AUTO = "auto"
+    NONE = "none"
+    ESPEAK = "espeak-ng"
+    PIPER = "piper"
+
+
+def listen(
+    *,
+    file: Annotated[
+        Path | None, typer.Option("--file", help="A recording (WAV) in place of the microphone.")
+    ] = None,
+    parse_only: Annotated[
+        bool, typer.Option("--parse-only", help="Say what is understood; nothing moves.")
+    ] = False,
+    yes: Annotated[
+        bool, typer.Option("--yes", help="Do what was heard without asking whether it was right.")
+    ] = False,
+    push_to_talk: Annotated[
+        bool, typer.Option("--push-to-talk", help="Listen from Enter to Enter only.")
+    ] = False,
+    wake_word: Annotated[
+        str, typer.Option("--wake-word", help="Sentences have to begin with it.")
+    ] = "",
+    recogniser: Annotated[
+        RecogniserName, typer.Option("--recogniser", help="What turns sound into words.")
+    ] = RecogniserName.POCKETSPHINX,
+    model: Annotated[
+        Path | None, typer.Option("--model", help="Folder of a Whisper model (ONNX).")
+    ] = None,
+    voice: Annotated[
+        VoiceName, typer.Option("--voice", help="What speaks the answers; they are printed too.")
+    ] = VoiceName.AUTO,
+    voice_model: Annotated[
+        Path | None, typer.Option("--voice-model", help="A voice for piper (ONNX).")
+    ] = None,
+    device: Annotated[str | None, typer.Option("--device", help="The microphone, by name.")] = None,
+    world: Annotated[
+        str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
+    ] = "kitchen",
+    robot: Annotated[
+        str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
+    ] = "juno",
+    seed: Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")] = 0,
+    fast: Annotated[
+        bool, typer.Option("--fast", help="As fast as the machine goes, in one process.")
+    ] = False,
+    run_dir: Annotated[
+        Path | None, typer.Option("--run-dir", help="Where the journal goes.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="With --parse-only: one JSON object an utterance.")
+    ] = False,
+) -> None:
+    """Listen, and do what is said: into the microphone, or in a recording.
+
+    [bold]Examples[/bold]
+
+      humanoid listen                                  (say: pick up the red cup ... yes)
+
+      humanoid listen --file command.wav --parse-only
+
+      humanoid listen --wake-word juno --world my_house.yaml
+
+    What moves the robot is read back first. "Stop" is heard at any time. Ctrl-C leaves.
+    """
+    from executive.listening import hearing
+
+    if as_json and not parse_only:
+        raise typer.BadParameter("--json goes with --parse-only")
+    if recogniser is RecogniserName.WHISPER and model is None:
+        raise typer.BadParameter("whisper needs --model FOLDER")
+    options = hearing.Options(
+        world=world, robot=robot, seed=seed, fast=fast, file=file, push_to_talk=push_to_talk,
+        wake_word=wake_word, recogniser=recogniser.value, model=model, voice=voice.value,
+        voice_model=voice_model, device=device, parse_only=parse_only, yes=yes, as_json=as_json,
+        folder=run_dir,
+    )  # fmt: skip
+    with hearing.audio_errors():
+        if parse_only:
+            raise typer.Exit(hearing.parse_only(options))
+        from executive.listening.obeying import obey
+
+        raise typer.Exit(obey(options))

@@ -1,0 +1,165 @@
+"""`humanoid listen` with a robot: what is said is read back, and done when that is confirmed."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Any
+
+import msgspec
+from msgspec.structs import replace
+
+from executive import runs
+from executive.behaviours.ask import ANSWERS
+from executive.journal import Event
+from executive.listening.hearing import INVALID, Options, ear, sound
+from executive.overseeing import oversee
+from executive.repl import cli
+from executive.repl.shell import Shell
+from intents import goals as g
+from intents.dialogue import Dialogue
+from intents.goals import Goal
+from intents.risks import each, risk
+from intents.speech.ear import Ear, Spoken
+from intents.speech.voice import Voice, voice
+from robot.bringup.overseen import Handle
+
+LAST_WORDS_S = 10.0
+HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)
+"""Goals that move nothing, and those that only end or hold what is under way."""
+
+
+def obey(options: Options) -> int:
+    """Listen until the recording ends or the person leaves; returns the exit status.
+
+    Raises:
+        RobotError: a file is wrong (ConfigError), or a part does not start.
+    """
+    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+    folder = options.folder or runs.folder_for("listen", stamp=stamp)
+    runs.check_free(folder)
+    options = replace(options, folder=folder)
+    with sound(options):
+        pass  # what is missing is said before a robot is started
+    voice(options.voice, model=options.voice_model).close()
+    if options.fast:
+        return converse(options)
+    plain = msgspec.to_builtins(options, enc_hook=str)
+    return oversee("executive.listening.obeying:overseen", plain, as_json=False)
+
+
+def overseen(handle: Handle, plain: dict[str, Any]) -> int:
+    """Listen in an executive of its own, or go on after one that died."""
+    options = msgspec.convert(plain, Options, dec_hook=lambda kind, value: kind(value))
+    return converse(options, handle=handle)
+
+
+def converse(options: Options, *, handle: Handle | None = None) -> int:
+    """Listen, and do what is said; `handle` is that of a live robot."""
+    prompt = cli.Options(
+        world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
+        vary=False, folder=options.folder,
+    )  # fmt: skip
+    with cli.conversation(prompt, handle=handle) as shell:
+        vocabulary = shell.robot.where.knowledge.vocabulary()
+        shell.dialogue = Dialogue(vocabulary, risk=risk if options.yes else heard_risk)
+        listener = ear(options, vocabulary)
+        speech = voice(options.voice, model=options.voice_model)
+        try:
+            recorded = options.file is not None
+            status = Conversation(shell, listener, speech, recorded=recorded).run(options)
+            speech.wait(LAST_WORDS_S)
+            return status
+        finally:
+            speech.close()
+
+
+def heard_risk(goals: tuple[Goal, ...]) -> str:
+    """Why goals that were heard are read back: whatever moves the robot is."""
+    known = risk(goals)
+    moves = any(not isinstance(goal, HARMLESS) for goal in each(goals))
+    return known or ("that is what I heard" if moves else "")
+
+
+class Conversation:
+    """A person and a robot, both of whom speak."""
+
+    def __init__(self, shell: Shell, listener: Ear, speech: Voice, *, recorded: bool) -> None:
+        """Begin.
+
+        Args:
+            shell: does what a sentence says.
+            listener: hears it.
+            speech: answers.
+            recorded: whether a recording is listened to, which hears nothing of the robot: each
+                job is done before it goes on.
+        """
+        self._shell = shell
+        self._ear = listener
+        self._voice = speech
+        self._recorded = recorded
+        shell.out = self.tell
+        shell.robot.session.journal.listen(self._note)
+
+    def run(self, options: Options) -> int:
+        """Listen to the end; returns the exit status."""
+        shell = self._shell
+        with sound(options) as blocks:
+            for block in blocks:
+                speaking = self._voice.speaking and not self._recorded
+                for one in self._ear.push(block.sound, speaking=speaking, heeded=block.heeded):
+                    self.take(one)
+                for one in self._ear.finish() if block.ends else ():
+                    self.take(one)
+                if shell.robot.lost is not None or shell.robot.interrupts.count:
+                    break
+            else:
+                for one in self._ear.finish():
+                    self.take(one)
+        return self._status()
+
+    def take(self, one: Spoken) -> None:
+        """Do what was said."""
+        shell = self._shell
+        if one.kind == "ignored":
+            if one.text:
+                cli.say(f"(“{one.text}” passed over: {one.why})")
+            return
+        cli.say(f"> {one.text}")
+        if one.kind == "stop":
+            self._voice.hush()
+            shell.stop("a cry to stop was heard")
+        elif shell.robot.executive.question and one.text in ANSWERS:
+            shell.robot.executive.answer(one.text)
+        else:
+            shell.sentence(one.text)
+            if self._recorded:
+                shell.robot.wait()
+        asked = shell.dialogue.question is not None or bool(shell.robot.executive.question)
+        self._ear.replying = asked
+
+    def tell(self, text: str) -> None:
+        """Say a line, on the screen and aloud."""
+        cli.say(text)
+        self._say(text)
+
+    def _say(self, text: str) -> None:
+        if not self._recorded:
+            self._ear.said(text)
+        self._voice.say(text)
+
+    def _note(self, event: Event) -> None:
+        """Say aloud what is for ears: what was to be said, what is asked, and how it ended."""
+        if event.event == "said":
+            self._say(str(event.data["text"]))
+        elif event.event == "help":
+            self._ear.replying = True
+            self._say(str(event.data["question"]))
+        elif event.event == "job" and event.data["state"] in ("done", "failed"):
+            cause = event.data.get("cause")
+            self._say(f"I could not do that: {cause}." if cause else "Done.")
+
+    def _status(self) -> int:
+        if self._shell.dialogue.question is not None:
+            cli.say("Nobody answered; that is not done.")
+            return INVALID
+        return cli.status_of(self._shell)

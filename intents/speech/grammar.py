@@ -1,0 +1,93 @@
+"""The speech grammar of a world: `commands.jsgf`, with the names of a vocabulary in it."""
+
+from __future__ import annotations
+
+import importlib.resources
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable
+
+from intents.speech import jsgf
+from intents.speech.automaton import Automaton
+from intents.vocabulary import Thing, Vocabulary
+
+SPOKEN, REPLY = "spoken", "reply"
+"""Rules to begin with: a command; what may be said while a question is open."""
+_IRREGULAR = {"knife": "knives", "shelf": "shelves", "loaf": "loaves", "leaf": "leaves"}
+
+
+def grammar(vocabulary: Vocabulary, root: str = SPOKEN, *, wake_word: str = "") -> Automaton:
+    """Everything that can be said of the names of a vocabulary, as an automaton over words."""
+    source = importlib.resources.files("intents.speech").joinpath("commands.jsgf")
+    rules = dict(jsgf.read(source.read_text(encoding="utf-8")))
+    names = _names(vocabulary)
+    rules["name"] = jsgf.words(*names)
+    rules["a_name"] = jsgf.words(*(f"{_article(name)} {name}" for name in names))
+    rules["names"] = jsgf.words(*_several(vocabulary))
+    rules["colour"] = jsgf.words(*_spoken(thing.color for thing in vocabulary.objects))
+    places = (*vocabulary.places, *vocabulary.rooms)
+    rules["place"] = jsgf.words(*_spoken(n for p in places for n in (p.name, *p.synonyms)))
+    people = vocabulary.people
+    rules["person"] = jsgf.words(*_spoken(n for p in people for n in (p.name, *p.synonyms)))
+    drinks = any(category.singular == "drink" for category in vocabulary.categories)
+    rules["anything"] = jsgf.words(*(["something to drink"] if drinks else []))
+    rules["wake"] = jsgf.words(*_spoken([wake_word]))
+    return jsgf.automaton(rules, root)
+
+
+def _names(vocabulary: Vocabulary) -> list[str]:
+    """What objects are called: by name, with what tells one from others, by kind."""
+    called: list[str] = []
+    for thing in vocabulary.objects:
+        for name in _names_of(thing):
+            called += [name, f"{thing.color} {name}", f"{thing.size} {name}"]
+    called += [category.singular for category in vocabulary.categories]
+    return _spoken(called)
+
+
+def _several(vocabulary: Vocabulary) -> list[str]:
+    """What several objects are called: by name, by colour where several have it, by kind."""
+    called = [category.plural for category in vocabulary.categories]
+    looks = Counter(
+        (thing.color, name) for thing in vocabulary.objects for name in _names_of(thing)
+    )
+    for (color, name), count in looks.items():
+        called.append(plural(name))
+        if count > 1:
+            called.append(f"{color} {plural(name)}")
+    return _spoken(called)
+
+
+def _names_of(thing: Thing) -> tuple[str, ...]:
+    return (thing.name, *thing.synonyms)
+
+
+def _spoken(names: Iterable[str]) -> list[str]:
+    """Names as they are spoken, each once: letters only, in lower case, without accents."""
+    lower = (unicodedata.normalize("NFKD", name.lower()) for name in names)
+    bare = ("".join(c for c in name if not unicodedata.combining(c)) for name in lower)
+    plain = (" ".join(re.findall(r"[a-z']+|\d", name)) for name in bare)
+    return sorted({name for name in plain if name})
+
+
+def plural(name: str) -> str:
+    """Several of what has a name.
+
+    >>> plural("red cup"), plural("box"), plural("toy lorry"), plural("glass")
+    ('red cups', 'boxes', 'toy lorries', 'glasses')
+    """
+    *before, noun = name.split(" ")
+    if noun in _IRREGULAR:
+        noun = _IRREGULAR[noun]
+    elif noun.endswith(("s", "x", "z", "ch", "sh")):
+        noun += "es"
+    elif noun.endswith("y") and noun[-2:-1] not in tuple("aeiou"):
+        noun = f"{noun[:-1]}ies"
+    else:
+        noun += "s"
+    return " ".join([*before, noun])
+
+
+def _article(name: str) -> str:
+    return "an" if name[0] in "aeiou" else "a"

@@ -1,0 +1,70 @@
+"""Whether the words found are what was said, or only what the grammar could make of something else.
+
+The decoder scores each frame relative to the best of all senones there, so the score of a word
+says how much worse it fits the sound than anything whatever would: a likelihood ratio against an
+unconstrained model, for nothing. Of a command that was said all words fit well; of other speech
+that was forced onto the grammar some fit badly.
+"""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+
+class Fit(msgspec.Struct, frozen=True, kw_only=True):
+    """How one word fits the sound.
+
+    Attributes:
+        word: the word.
+        frames: how long it takes, in frames of 10 ms.
+        score: log-likelihood over all frames, relative to the best senone of each [nat].
+        chance: logarithm of how likely the grammar holds the word, as the decoder weighs it [nat].
+    """
+
+    word: str
+    frames: int
+    score: float
+    chance: float
+
+
+class Features(msgspec.Struct, frozen=True, kw_only=True):
+    """What is looked at.
+
+    Attributes:
+        worst: mean score a frame of the two words that fit worst.
+        mean: mean score a frame.
+        length: logarithm of the number of words.
+        chance: mean over the words of what the grammar thinks of them.
+    """
+
+    worst: float
+    mean: float
+    length: float
+    chance: float
+
+
+def features(fits: list[Fit]) -> Features:
+    """What is looked at, of the words of one utterance."""
+    ratios = sorted(fit.score / fit.frames for fit in fits)
+    return Features(
+        worst=sum(ratios[:2]) / len(ratios[:2]),
+        mean=sum(fit.score for fit in fits) / sum(fit.frames for fit in fits),
+        length=math.log(len(fits)),
+        chance=sum(fit.chance for fit in fits) / len(fits),
+    )
+
+
+WEIGHTS = Features(worst=0.449, mean=2.900, length=-2.517, chance=2.112)
+BIAS = 35.18
+"""Of a logistic regression over the sentences for tuning of `benchmarks.speech`."""
+
+
+def doubt(fits: list[Fit]) -> float:
+    """How doubtful the words are; 1 and more is more likely no command."""
+    seen = features(fits)
+    logit = BIAS + sum(
+        getattr(WEIGHTS, name) * getattr(seen, name) for name in Features.__struct_fields__
+    )
+    return 2.0 / (1.0 + math.exp(min(logit, 50.0)))

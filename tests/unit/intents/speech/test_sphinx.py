@@ -1,0 +1,129 @@
+"""The embedded recogniser on recordings of a synthetic voice, clean and in noise."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from intents.parser import parse
+from intents.speech import wav
+from intents.speech.audio import RATE_HZ
+from intents.speech.frontend import LEVEL, prepared
+from intents.speech.rejection import Fit, doubt
+from intents.speech.sphinx import Sphinx
+from intents.stopping import is_stop
+from intents.vocabulary import Spot, Thing, Vocabulary
+
+SOUNDS = Path(__file__).parent / "sounds"
+KITCHEN = Vocabulary.of(
+    objects=[Thing(name="cup", color="red"), Thing(name="cup", color="blue"), "bottle", "box"],
+    places=["table", Spot(name="counter", synonyms=("worktop",)), "shelf", "cabinet"],
+    rooms=["kitchen"],
+    people=["Priya"],
+)
+
+
+@pytest.fixture(scope="module")
+def recogniser():
+    return Sphinx(KITCHEN)
+
+
+def sound(name):
+    return np.concatenate(list(wav.blocks(SOUNDS / f"{name}.wav")))
+
+
+def in_noise(spoken, snr_db, *, seed=0):
+    level = np.sqrt(np.mean(spoken**2)) * 10 ** (-snr_db / 20)
+    around = np.pad(spoken, RATE_HZ // 4)
+    noise = np.random.default_rng(seed).normal(scale=level, size=len(around))
+    return (around + noise).astype(np.float32)
+
+
+@pytest.mark.parametrize("snr_db", [60, 20])
+def test_a_command_is_understood(recogniser, snr_db):
+    heard = recogniser.recognise(in_noise(sound("command"), snr_db))
+    assert heard.believed
+    meant = "pick up the red cup and put it on the shelf"
+    assert parse(heard.text, KITCHEN).goals == parse(meant, KITCHEN).goals
+
+
+@pytest.mark.parametrize("change", ["quiet", "loud and clipped", "offset", "short", "long pauses"])
+def test_a_command_is_understood_however_it_was_recorded(recogniser, change):
+    spoken = in_noise(sound("command"), 40)
+    spoken = {
+        "quiet": 0.01 * spoken,
+        "loud and clipped": np.clip(4 * spoken / np.abs(spoken).max(), -1, 1),
+        "offset": 0.5 * spoken + 0.4,
+        "short": spoken[RATE_HZ // 4 : -RATE_HZ // 4],
+        "long pauses": np.pad(spoken, 2 * RATE_HZ),
+    }[change].astype(np.float32)
+    assert "red cup" in recogniser.recognise(spoken).text
+
+
+@pytest.mark.parametrize("snr_db", [60, 20, 15])
+def test_stop_is_heard(recogniser, snr_db):
+    assert is_stop(recogniser.recognise(in_noise(sound("stop"), snr_db)).text)
+
+
+@pytest.mark.parametrize("snr_db", [60, 20])
+def test_other_speech_is_not_believed(recogniser, snr_db):
+    heard = recogniser.recognise(in_noise(sound("other"), snr_db))
+    assert not heard.believed
+    assert not is_stop(heard.text)
+
+
+def test_an_answer_is_heard_only_as_an_answer(recogniser):
+    answer = in_noise(sound("yes"), 40)
+    heard = recogniser.recognise(answer, replying=True)
+    assert heard.text.startswith("yes")
+    assert heard.believed
+    assert "yes" not in recogniser.recognise(answer).text
+
+
+def test_the_same_sound_gives_the_same_words(recogniser):
+    spoken = in_noise(sound("command"), 15)
+    first = recogniser.recognise(spoken)
+    recogniser.recognise(in_noise(sound("other"), 20))
+    second = recogniser.recognise(spoken)
+    assert (first.text, first.doubt) == (second.text, second.doubt)
+
+
+@pytest.mark.parametrize(
+    "nothing",
+    [np.zeros(0), np.zeros(10), np.zeros(RATE_HZ), np.full(RATE_HZ, 0.7), np.ones(1)],
+    ids=["empty", "ten samples", "silence", "an offset", "one sample"],
+)
+def test_nothing_is_nothing(recogniser, nothing):
+    heard = recogniser.recognise(nothing.astype(np.float32))
+    assert not heard.believed
+
+
+def test_noise_is_no_command(recogniser):
+    noise = np.random.default_rng(0).normal(scale=0.1, size=2 * RATE_HZ).astype(np.float32)
+    assert not recogniser.recognise(noise).believed
+
+
+def test_the_wake_word_is_recognised_with_the_rest(recogniser):
+    called = Sphinx(KITCHEN, wake_word="juno")
+    assert "red cup" in called.recognise(in_noise(sound("command"), 40)).text
+
+
+# --- its parts -----------------------------------------------------------------------------------
+
+
+def test_the_frontend_cuts_levels_and_never_overflows():
+    spoken = np.pad(sound("command"), RATE_HZ)
+    data = np.frombuffer(prepared((20 * spoken).astype(np.float32)), "<i2") / 32_768
+    assert len(data) < len(spoken) - RATE_HZ
+    assert np.sqrt(np.mean(data**2)) == pytest.approx(LEVEL, rel=0.3)
+    assert prepared(np.zeros(RATE_HZ, np.float32)) == b""
+
+
+def fit(score=-5.0, frames=30, chance=-0.5):
+    return Fit(word="cup", frames=frames, score=score * frames, chance=chance)
+
+
+def test_doubt_grows_as_words_fit_worse():
+    doubts = [doubt([fit(), fit(score=score), fit()]) for score in (-4, -6, -8, -12, -100)]
+    assert doubts == sorted(doubts)
+    assert doubts[0] < 1.0 < doubts[-1] <= 2.0
