@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench eval bench-intents lock clean env env-dev
+.PHONY: help demo test check format bench eval bench-intents bench-speech lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -37,6 +37,9 @@ eval: env ## strike with every fault (ARGS="--seeds 20 --no-recovery" for the wh
 
 bench-intents: env-dev ## measure what is understood (ARGS="--sets FOLDER" for sets of your own)
 	@$(BIN)/python -m benchmarks.intents $(ARGS)
+
+bench-speech: env-dev ## measure what is heard; needs espeak-ng (ARGS="--share 1" for every take)
+	@$(BIN)/python -m benchmarks.speech $(ARGS)
 
 lock: ## resolve pyproject.toml into hashed lock files (ARGS=--upgrade for newer pins)
 	@scripts/lock $(or $(PYTHON),python3) $(ARGS)

@@ -22,6 +22,7 @@ LIBRARIES = {
     "mujoco": "mujoco", "daqp": "daqp", "ompl": "ompl",
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
     "scipy": "scipy", "typer": "typer", "rich": "rich",
+    "pocketsphinx": "pocketsphinx",
     "ruamel.yaml": "ruamel.yaml", "rapidfuzz": "rapidfuzz",
 }  # fmt: skip
 """Module to distribution."""
@@ -41,7 +42,8 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True):
 def examine(run_folder: Path = Path()) -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
-        _python, _libraries, _robot, _worlds, _egl, _display, _cores, _shared_memory,
+        _python, _libraries, _robot, _worlds, _egl, _display, _cores, _shared_memory, _microphone,
+        _voice,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -115,6 +117,25 @@ def _display() -> Finding:
     return Finding(
         name="display", verdict="optional", text="none: view can only make snapshots",
         cure="run it on a desktop, or use: humanoid view --snapshot out.png",
+    )  # fmt: skip
+
+
+def _microphone() -> Finding:
+    if ctypes.util.find_library("portaudio"):
+        return Finding(name="microphone", verdict="ok", text="PortAudio is there")
+    return Finding(
+        name="microphone", verdict="optional", text="no PortAudio: listen can only take recordings",
+        cure="sudo apt install libportaudio2",
+    )  # fmt: skip
+
+
+def _voice() -> Finding:
+    programs = [name for name in ("espeak-ng", "piper") if shutil.which(name)]
+    if programs:
+        return Finding(name="voice", verdict="ok", text=", ".join(programs))
+    return Finding(
+        name="voice", verdict="optional", text="none: answers are printed only",
+        cure="sudo apt install espeak-ng",
     )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from datetime import datetime
 from typing import Any
 
@@ -21,9 +22,11 @@ from intents.goals import Goal
 from intents.risks import each, risk
 from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import Voice, voice
+from intents.stopping import is_stop
 from robot.bringup.overseen import Handle
 
 LAST_WORDS_S = 10.0
+_SENTENCE = re.compile(r"(?<=[.!?;])\s+")
 HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)
 """Goals that move nothing, and those that only end or hold what is under way."""
 
@@ -143,6 +146,8 @@ class Conversation:
         self._say(text)
 
     def _say(self, text: str) -> None:
+        """Say it aloud, but for cries to stop: it would heed them."""
+        text = " ".join(one for one in _SENTENCE.split(text) if not is_stop(one))
         if not self._recorded:
             self._ear.said(text)
         self._voice.say(text)

@@ -23,8 +23,6 @@ _WORDS_DB = -30.0
 """What is this far below the loudest is no part of the words."""
 _NOTHING = 1e-12
 _SEED = 3
-_FALLS = RATE_HZ / 80.0
-"""Above 80 Hz."""
 _HOP = 256
 _TAPER = np.sqrt(0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(2 * _HOP) / (2 * _HOP)))
 _QUIET_PERCENT = 15
@@ -48,20 +46,10 @@ def prepared(sound: Samples) -> bytes:
     cut = sound[max(0, words[0] - margin) : words[-1] + margin]
     cut = cleaned(cut)
     levelled = cut * (LEVEL / np.sqrt(power[words].mean()))
-    noise = _rumble(len(cut))
+    noise = np.random.default_rng(_SEED).normal(size=len(cut))
     steady = levelled + LEVEL * 10 ** (BACKGROUND_DB / 20.0) * noise
     bounded: NDArray[np.float64] = np.clip(32_767.0 * steady, -32_768.0, 32_767.0)
     return bounded.round().astype("<i2").tobytes()
-
-
-def _rumble(count: int) -> NDArray[np.float64]:
-    """A steady noise with a root mean square of 1 that falls by 6 dB an octave, always the same.
-
-    White noise as loud would drown what is weak and bright: nasals, bursts.
-    """
-    spectrum = np.fft.rfft(np.random.default_rng(_SEED).normal(size=count))
-    noise = np.fft.irfft(spectrum / (1.0 + np.arange(len(spectrum)) / count * _FALLS), count)
-    return noise / noise.std()
 
 
 def cleaned(sound: Samples) -> Samples:

@@ -12,8 +12,8 @@ from intents.speech import jsgf
 from intents.speech.automaton import Automaton
 from intents.vocabulary import Thing, Vocabulary
 
-SPOKEN, REPLY = "spoken", "reply"
-"""Rules to begin with: a command; what may be said while a question is open."""
+SPOKEN, REPLY, CRY = "spoken", "reply", "short_cry"
+"""Rules to begin with: a command; what may be said while a question is open; a cry to stop."""
 _IRREGULAR = {"knife": "knives", "shelf": "shelves", "loaf": "loaves", "leaf": "leaves"}
 
 

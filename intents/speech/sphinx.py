@@ -15,13 +15,14 @@ from typing import Any
 
 import pocketsphinx
 
-from intents.speech.audio import Samples
+from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.automaton import Automaton
 from intents.speech.frontend import prepared
-from intents.speech.grammar import REPLY, SPOKEN, grammar
+from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce
 from intents.speech.recogniser import Heard
-from intents.speech.rejection import Fit, doubt
+from intents.speech.rejection import Fit, doubt, mean_score
+from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
 
 OPTIONS: dict[str, Any] = {
@@ -30,12 +31,21 @@ OPTIONS: dict[str, Any] = {
 }  # fmt: skip
 """Of the decoder: all senones scored, wide beams, few insertions; no lattice, which loses words."""
 USUAL = {
-    "the": 15.0, "me": 3.0, "them": 0.3, "stop": 300.0, "halt": 30.0, "freeze": 30.0,
-    "emergency": 30.0,
+    "the": 15.0, "me": 30.0, "them": 0.3, "stop": 4.0, "halt": 2.0, "freeze": 2.0,
+    "emergency": 2.0,
 }  # fmt: skip
 """How much likelier a word is than another that may stand in its place."""
+SAY_OF_GRAMMAR = 8.0
+"""The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
+SHORT_S = 1.5
+"""What is no longer may be a cry to stop, whatever else it is like."""
+FOR_A_CRY = 1.7
+"""How much worse than a command a cry may fit a short utterance, to be heeded [nat/frame]."""
+WORST_CRY = -6.5
+"""How badly a cry may fit where no command does [nat/frame]."""
+_SHORT_BYTES = round(2 * RATE_HZ * SHORT_S)
 ENDS = 5.0
 """How much likelier a sentence ends than that it goes on with some word."""
 
@@ -57,20 +67,27 @@ class Sphinx:
         data = prepared(sound)
         if not data:
             return Heard(text="")
-        decoder = self._decoder
-        self._search(REPLY if replying else SPOKEN)
-        with warnings.catch_warnings():  # it is said to be unnecessary, and is not
-            warnings.simplefilter("ignore", DeprecationWarning)
-            decoder.start_stream()  # forgets the background of the utterance before
-        decoder.start_utt()
-        decoder.process_raw(data, full_utt=True)
-        decoder.end_utt()
-        fits = self._fits() if decoder.hyp() else []
+        fits = self._decoded(data, REPLY if replying else SPOKEN)
+        if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
+            cry = self._decoded(data, CRY)
+            if cry and mean_score(cry) > (mean_score(fits) if fits else WORST_CRY) - FOR_A_CRY:
+                fits = cry
         return Heard(
-            text=" ".join(fit.word for fit in fits),
+            text=_text(fits),
             doubt=doubt(fits) if fits else 0.0,
             took_s=time.perf_counter() - begun_s,
         )
+
+    def _decoded(self, data: bytes, root: str) -> list[Fit]:
+        """The words that fit best of what begins with a rule; none if nothing fits."""
+        self._search(root)
+        with warnings.catch_warnings():  # it is said to be unnecessary, and is not
+            warnings.simplefilter("ignore", DeprecationWarning)
+            self._decoder.start_stream()  # forgets the background of the utterance before
+        self._decoder.start_utt()
+        self._decoder.process_raw(data, full_utt=True)
+        self._decoder.end_utt()
+        return self._fits() if self._decoder.hyp() else []
 
     def _fits(self) -> list[Fit]:
         """How each word of the sentence found fits the sound; pauses and noises are left out."""
@@ -98,6 +115,10 @@ class Sphinx:
         self._decoder.activate_search(root)
 
 
+def _text(fits: list[Fit]) -> str:
+    return " ".join(fit.word for fit in fits)
+
+
 def _fsg(decoder: Any, name: str, automaton: Automaton) -> Any:
     """An automaton in the decoder's form: one last state, and what follows weighs one in all."""
     last = len(automaton.arcs)
@@ -106,7 +127,10 @@ def _fsg(decoder: Any, name: str, automaton: Automaton) -> Any:
         weights = {word: USUAL.get(word, 1.0) for word in arcs}
         ends = ENDS if state in automaton.final else 0.0
         total = sum(weights.values()) + ends
-        transitions += [(state, to, weights[word] / total, word) for word, to in arcs.items()]
+        transitions += [
+            (state, to, (weights[word] / total) ** SAY_OF_GRAMMAR, word)
+            for word, to in arcs.items()
+        ]
         if ends:
-            transitions.append((state, last, ends / total))
+            transitions.append((state, last, (ends / total) ** SAY_OF_GRAMMAR))
     return decoder.create_fsg(name, 0, last, transitions)

@@ -177,3 +177,47 @@ def test_stop_stops_and_closes_the_question(humanoid, told, tmp_path):
     assert "> stop" in text
     assert not [e for e in journal(tmp_path / "run") if e["event"] == "job"]
     assert status == 2  # "yes" answered nothing any more
+
+
+class Loudspeaker:
+    """A voice that keeps what it says."""
+
+    def __init__(self):
+        self.told = []
+        self.speaking = False
+
+    def say(self, text):
+        self.told.append(text)
+
+    def hush(self):
+        self.told.append("(hush)")
+
+    def wait(self, timeout_s):
+        return True
+
+    def close(self):
+        pass
+
+
+@pytest.fixture
+def loudspeaker(monkeypatch):
+    made = Loudspeaker()
+    monkeypatch.setattr("executive.listening.obeying.voice", lambda *_, **__: made)
+    return made
+
+
+def test_answers_what_is_said_and_the_end_are_spoken(humanoid, told, loudspeaker):
+    file = told("say welcome home", "what are you holding")
+    assert humanoid("listen", "--file", file, "--fast", "--run-dir", "run")[0] == 0
+    assert "welcome home" in loudspeaker.told
+    assert "Done." in loudspeaker.told
+    assert "I am not holding anything." in loudspeaker.told
+
+
+def test_stop_silences_it_and_is_never_said_aloud(humanoid, told, loudspeaker):
+    file = told("what can you do", "stop")
+    text = humanoid("listen", "--file", file, "--fast", "--run-dir", "run")[1]
+    assert "“Stop” always stops me." in text
+    assert "(hush)" in loudspeaker.told
+    assert any("pick things up" in one for one in loudspeaker.told)
+    assert not any("stop" in one.lower() for one in loudspeaker.told)

@@ -1,0 +1,1 @@
+"""How well speech is heard: synthetic voices, noise, talk that is no command, cries to stop."""
