@@ -142,9 +142,16 @@ def _towards(corner: Array, end: Array, distance: float) -> Array:
 
 def _even(points: Array) -> Array:
     """The same line with points every `STEP_RAD` at most, and no two together."""
+    points = _apart(points)
     gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    points = points[np.concatenate([[True], gaps > 1e-9])]
-    length = np.concatenate([[0.0], np.cumsum(gaps[gaps > 1e-9])])
+    length = np.concatenate([[0.0], np.cumsum(gaps)])
     count = max(5, int(np.ceil(length[-1] / STEP_RAD)) + 1)
     at = numerics.even(0.0, float(length[-1]), count)
-    return np.stack([np.interp(at, length, points[:, j]) for j in range(points.shape[1])], axis=1)
+    even = [np.interp(at, length, points[:, j]) for j in range(points.shape[1])]
+    return _apart(np.stack(even, axis=1))  # a way there and back meets itself where it turns
+
+
+def _apart(points: Array) -> Array:
+    """The points without those that are where the one before is."""
+    gaps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return points[np.concatenate([[True], gaps > 1e-9])]

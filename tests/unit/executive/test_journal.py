@@ -121,6 +121,6 @@ def test_the_time_of_day_is_read_by_the_command_line_only():
         if re.search(r"datetime\.now|datetime\.today|time\.time\(", path.read_text())
     }
     assert all(
-        Path(name).name in ("commands.py", "cli.py", "run.py", "resume.py", "work.py")
+        Path(name).name in ("commands.py", "cli.py", "run.py", "resume.py", "work.py", "obeying.py")
         for name in readers
     ), readers

@@ -15,9 +15,12 @@ STUBBORN = [
 ]  # fmt: skip
 """Slowing down does not bring it inside the limits in the tries there are: it is stretched."""
 
+THERE_AND_BACK = [(0.875, 1.5, 1.0), (0.0, 0.0, 0.0), (0.875, 1.5, 1.0)]
+
 
 @given(st.lists(corner, min_size=2, max_size=5))
 @example(STUBBORN)
+@example(THERE_AND_BACK)
 def test_the_spline_is_inside_the_limits(corners: list[tuple[float, ...]]) -> None:
     points = np.array(corners)
     if np.linalg.norm(np.diff(points, axis=0), axis=1).min() < 0.05:
