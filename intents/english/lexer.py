@@ -51,7 +51,7 @@ _WHOLE = {
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),
-    "pickup": ("pick", "up"), "putdown": ("put", "down"), "putit": ("put", "it"),
+    "pik": ("pick",), "pickup": ("pick", "up"), "putdown": ("put", "down"), "putit": ("put", "it"),
     "lookat": ("look", "at"), "giveme": ("give", "me"),
     "hte": ("the",), "adn": ("and",), "nad": ("and",),
     "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),

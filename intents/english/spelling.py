@@ -38,7 +38,8 @@ CORE = lexicon.words(
     "biggest smallest heaviest lightest thinnest leftmost rightmost yellow orange purple black "
     "white brown green where there under behind between above next then after from with into onto "
     "towards question sitting standing lying waving raising pointing wearing something kitchen "
-    "bathroom bedroom table shelf counter could would second robot three seven eight thing things"
+    "bathroom bedroom table shelf counter could would second robot three seven eight thing things "
+    "red blue pink"
 )
 """The words of the grammar that misspelt words are corrected to."""
 _MORE_VERBS = lexicon.words(

@@ -38,6 +38,7 @@ THERE = Context(
         ("pick up the cup. the blue one", "pick up the blue cup"),
         ("pick up a cup, the red one", "pick up the red cup"),
         ("red cup to table", "put the red cup on the table"),
+        ("pik up teh redd cup", "pick up the red cup"),
         ("pickup the bottle and putit on teh shelf", "pick up the bottle and put it on the shelf"),
     ],
 )
