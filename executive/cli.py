@@ -18,6 +18,7 @@ from executive.evaluation.cli import evaluate
 from executive.history import cli as history
 from executive.listening.cli import listen
 from executive.missions import cli as missions
+from executive.options import AsJson, Fast, Model, Robot, RunDir, Seed, Vary, World
 from robot.errors import ConfigError
 
 app = typer.Typer(
@@ -32,36 +33,6 @@ app = typer.Typer(
 
 model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
 app.add_typer(model_app, name="model")
-
-World = Annotated[
-    str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
-]
-Robot = Annotated[
-    str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
-]
-Seed = Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")]
-Fast = Annotated[
-    bool,
-    typer.Option(
-        "--fast", help="As fast as the machine goes, and the same every time, in one process."
-    ),
-]
-Vary = Annotated[
-    bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
-]
-RunDir = Annotated[
-    Path | None,
-    typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
-]
-Model = Annotated[
-    Path | None,
-    typer.Option(
-        "--model",
-        envvar="HUMANOID_MODEL",
-        help="Language model (an endpoint's TOML file) to ask what the grammar cannot read.",
-    ),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 
 def _version(wanted: bool) -> None:

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from executive.options import Fast, Robot, RunDir, Seed, World
+
 
 class RecogniserName(StrEnum):
     """Recognisers to choose from."""
@@ -55,19 +57,11 @@ def listen(
         Path | None, typer.Option("--voice-model", help="A voice for piper (ONNX).")
     ] = None,
     device: Annotated[str | None, typer.Option("--device", help="The microphone, by name.")] = None,
-    world: Annotated[
-        str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
-    ] = "kitchen",
-    robot: Annotated[
-        str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
-    ] = "juno",
-    seed: Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")] = 0,
-    fast: Annotated[
-        bool, typer.Option("--fast", help="As fast as the machine goes, in one process.")
-    ] = False,
-    run_dir: Annotated[
-        Path | None, typer.Option("--run-dir", help="Where the journal goes.")
-    ] = None,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    run_dir: RunDir = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="With --parse-only: one JSON object an utterance.")
     ] = False,

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from executive import runs
 from executive.behaviours.ask import ANSWERS
 from executive.journal import Event
-from executive.listening.hearing import INVALID, Options, ear, sound
+from executive.listening.hearing import INVALID, Options, audio_errors, ear, sound
 from executive.overseeing import oversee
 from executive.repl import cli
 from executive.repl.shell import Shell
@@ -53,7 +53,8 @@ def obey(options: Options) -> int:
 def overseen(handle: Handle, plain: dict[str, Any]) -> int:
     """Listen in an executive of its own, or go on after one that died."""
     options = msgspec.convert(plain, Options, dec_hook=lambda kind, value: kind(value))
-    return converse(options, handle=handle)
+    with audio_errors():  # they are no mistakes of this software, to be started again after
+        return converse(options, handle=handle)
 
 
 def converse(options: Options, *, handle: Handle | None = None) -> int:

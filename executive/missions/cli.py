@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from executive.dumps import cli as dumps
+from executive.options import AsJson, Seed
 
 File = Annotated[str, typer.Argument(help="A mission file, or the name of a shipped mission.")]
 Params = Annotated[
@@ -16,8 +17,6 @@ Params = Annotated[
 From = Annotated[str, typer.Option("--from", help="Begin at this step (see mission plan).")]
 World = Annotated[str, typer.Option("--world", "-w", help="In place of the mission's world.")]
 Robot = Annotated[str, typer.Option("--robot", "-r", help="In place of the mission's robot.")]
-Seed = Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 app = typer.Typer(
     no_args_is_help=True, help="Missions: files that say what to do, and what should be so then."

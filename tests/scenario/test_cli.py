@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from executive import cli, commands, request, runtimes
+from executive import commands, request, runtimes
 from executive.loop import Interrupts
 from robot.errors import failure
 from robot.messages import Damp, Stand
@@ -41,21 +41,6 @@ def runtime(monkeypatch):
     monkeypatch.setattr(request, "setting", setting)
     made.opened = None
     return made
-
-
-@pytest.fixture
-def humanoid(monkeypatch, capsys, tmp_path):
-    """Runs the command in an empty folder: (exit status, output)."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words: str) -> tuple[int, str]:
-        monkeypatch.setattr("sys.argv", ["humanoid", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        out, err = capsys.readouterr()
-        return int(end.value.code or 0), out + err
-
-    return run
 
 
 def test_the_main_job_is_done_and_summed_up(runtime, humanoid, tmp_path):

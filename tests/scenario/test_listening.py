@@ -6,31 +6,17 @@ import json
 import wave
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
-from executive import cli
-from executive.listening import hearing
+from executive.listening import hearing, obeying
 from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear
 from intents.speech.recogniser import Heard
+from robot.errors import ConfigError
 
 SOUNDS = Path(__file__).parents[1] / "unit" / "intents" / "speech" / "sounds"
-
-
-@pytest.fixture
-def humanoid(monkeypatch, capsys, tmp_path):
-    """Runs the command in an empty folder: (exit status, output)."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words: str) -> tuple[int, str]:
-        monkeypatch.setattr("sys.argv", ["humanoid", *words])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        out, err = capsys.readouterr()
-        return int(end.value.code or 0), out + err
-
-    return run
 
 
 def recorded(path, *names, pause_s=1.0):
@@ -221,3 +207,11 @@ def test_stop_silences_it_and_is_never_said_aloud(humanoid, told, loudspeaker):
     assert "(hush)" in loudspeaker.told
     assert any("pick things up" in one for one in loudspeaker.told)
     assert not any("stop" in one.lower() for one in loudspeaker.told)
+
+
+def test_a_recording_that_is_gone_ends_a_live_run_and_is_no_crash(tmp_path):
+    """The overseer starts an executive again after a crash; after this it must not."""
+    options = hearing.Options(file=tmp_path / "gone.wav", folder=tmp_path / "run", fast=True)
+    plain = msgspec.to_builtins(options, enc_hook=str)
+    with pytest.raises(ConfigError, match="gone"):
+        obeying.overseen(None, plain)
