@@ -7,7 +7,7 @@ from pathlib import Path
 from executive.journal import Journal
 from robot.errors import failure
 from robot.planning.requests import PickRequest
-from tests.scenario.test_cli import humanoid, press, runtime  # noqa: F401 - fixtures
+from tests.scenario.test_cli import press, runtime  # noqa: F401 - a fixture
 
 MISSED = failure("grasp_missed", "the fingers closed on air", gap_m=0.002)
 

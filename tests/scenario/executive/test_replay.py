@@ -14,7 +14,7 @@ from robot.errors import failure
 from robot.planning.requests import PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.worlds import puppet
-from tests.scenario.test_cli import humanoid, press, runtime  # noqa: F401 - fixtures
+from tests.scenario.test_cli import press, runtime  # noqa: F401 - a fixture
 
 
 @pytest.fixture

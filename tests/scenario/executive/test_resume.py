@@ -17,7 +17,7 @@ from robot.planning.requests import PickRequest
 from robot.se3 import SE3
 from tests.fakes.worlds import world_map
 from tests.scenario.executive.test_replay import anew  # noqa: F401 - a fixture
-from tests.scenario.test_cli import humanoid, runtime  # noqa: F401 - fixtures
+from tests.scenario.test_cli import runtime  # noqa: F401 - a fixture
 
 WORDS = "bring the red cup to the table"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from executive.journal import read
 from tests.scenario.executive.test_replay import anew  # noqa: F401 - a fixture
 from tests.scenario.executive.test_resume import cut
-from tests.scenario.test_cli import humanoid, runtime  # noqa: F401 - fixtures
+from tests.scenario.test_cli import runtime  # noqa: F401 - a fixture
 
 MISSION = "name: again\nworld: kitchen\nsteps:\n  - say hello\n  - go to the table\n  - bow\n"
 
