@@ -9,6 +9,8 @@ from __future__ import annotations
 from typing import Literal
 
 import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
 from robot.errors import Failure
 from robot.se3 import SE3, Vector3
@@ -207,6 +209,10 @@ class DepthImage(Message, frozen=True, kw_only=True):
     fovy_rad: float
     depth_m: bytes
     source: Source = "emulated"
+
+    def pixels(self) -> NDArray[np.float32]:
+        """Depth [m], shape (height, width), not to be written to."""
+        return np.frombuffer(self.depth_m, np.float32).reshape(self.height, self.width)
 
 
 class LidarScan(Message, frozen=True, kw_only=True):

@@ -12,6 +12,7 @@ from robot.drivers.shared_memory import MotorServer
 from robot.errors import ConfigError
 from sim import faults
 from sim.plant import Plant
+from sim.sensors import developed
 
 PERIOD_MS = 2
 PERIOD_S = PERIOD_MS / 1000.0
@@ -61,7 +62,7 @@ class LivePlant:
         state = plant.read()
         self._motors.publish(state)
         for name, message in plant.sense():
-            self._bus.publish(topics.named(name), message)
+            self._bus.publish(topics.named(name), developed(message))
         self._exchange(patience_s=PATIENCE_S if self._begun and not state.watchdog else 0.0)
         if self._begun:
             plant.step(PERIOD_MS)

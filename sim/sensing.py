@@ -59,7 +59,7 @@ class Sensing:
         self.camera = DepthCamera(model, data, robot, rng=seeds[0])
         self.lidar = PlanarLidar(model, data, robot, rng=seeds[1])
         self.oracle = Oracle(
-            model, data, world, robot=robot, rays=Rays(model, data, body=self.camera.rays.body),
+            model, data, world, robot=robot, rays=Rays(model, data, body=self.camera.body),
             rng=seeds[2], pose_error_m=pose_error_m,
         )  # fmt: skip
         prior = world_map(world)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import cache
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.messages import DepthImage, LidarScan
+from robot.messages import DepthImage, LidarScan, Message
 from robot.model.description import RobotDescription
+from robot.se3 import Array
 from sim.rays import Rays
 
 # Every third pixel of the camera, in both directions: a ray costs about half a microsecond, so
@@ -18,6 +21,33 @@ DEPTH_STRIDE = 3
 # 1 sigma grows with the square of the depth: an active stereo camera has 2 mm at 1 m.
 DEPTH_NOISE_PER_M = 0.002
 LIDAR_NOISE_M = 0.01
+LAID_OUT = ("geom_xpos", "geom_xmat", "xipos", "ximat")  # all that a ray asks of where things are
+
+
+class Exposure(DepthImage, frozen=True, kw_only=True):
+    """A depth image whose rays are cast when somebody looks at it, as it was when it was taken.
+
+    Nobody looks at half of them. It stays in its process; what travels is `developed`.
+    """
+
+    cast: Callable[[], NDArray[np.float32]]
+
+    def pixels(self) -> NDArray[np.float32]:
+        """Depth [m], shape (height, width), not to be written to."""
+        return self.cast()
+
+
+def developed(message: Message) -> Message:
+    """A message as it can travel: a depth image has its pixels."""
+    if not isinstance(message, Exposure):
+        return message
+    return DepthImage(
+        stamp_s=message.stamp_s,
+        width=message.width,
+        height=message.height,
+        fovy_rad=message.fovy_rad,
+        depth_m=message.pixels().tobytes(),
+    )
 
 
 class DepthCamera:
@@ -46,27 +76,39 @@ class DepthCamera:
         self._rays_C = rays_C / np.linalg.norm(rays_C, axis=1, keepdims=True)
         most_oblique = float(self._rays_C[:, 2].min())
         self._reach_m, self._half_angle_rad = camera.range_m / most_oblique, math.acos(most_oblique)
-        self.rays = Rays(model, data, body=int(model.site_bodyid[model.site(camera.site).id]))
+        self.body = int(model.site_bodyid[model.site(camera.site).id])
+        self._now, self._then = data, mujoco.MjData(model)
+        self._rays = Rays(model, self._then, body=self.body)
 
-    def capture(self, stamp_s: float) -> DepthImage:
-        """One frame."""
-        rotation, eye, reach_m = self._site.xmat.reshape(3, 3), self._site.xpos, self._reach_m
-        directions = self._rays_C @ rotation.T
-        with self.rays.only_within(
-            eye, rotation[:, 2], half_angle_rad=self._half_angle_rad, range_m=reach_m
-        ):
-            distances, _ = self.rays.cast(eye, directions, range_m=reach_m)
-        depth = distances * self._rays_C[:, 2]
-        noise = self._rng.standard_normal(len(depth), dtype=np.float32)
-        depth += DEPTH_NOISE_PER_M * depth * depth * noise
-        depth[(distances < 0.0) | (depth > self._range_m)] = 0.0
-        return DepthImage(
+    def capture(self, stamp_s: float) -> Exposure:
+        """One frame, of the positions of now."""
+        scene = [getattr(self._now, name).copy() for name in LAID_OUT]
+        eye, rotation = self._site.xpos.copy(), self._site.xmat.reshape(3, 3).copy()
+        noise = self._rng.standard_normal(len(self._rays_C), dtype=np.float32)
+        return Exposure(
             stamp_s=stamp_s,
             width=self.width,
             height=self.height,
             fovy_rad=self._fovy_rad,
-            depth_m=depth.astype(np.float32).tobytes(),
+            depth_m=b"",
+            cast=cache(lambda: self._cast(scene, eye, rotation, noise)),
         )
+
+    def _cast(
+        self, scene: list[Array], eye: Array, rotation: Array, noise: NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        """Depth [m], shape (height, width), from an eye among what lies as in `scene`."""
+        for name, values in zip(LAID_OUT, scene, strict=True):
+            getattr(self._then, name)[:] = values
+        reach_m = self._reach_m
+        with self._rays.only_within(
+            eye, rotation[:, 2], half_angle_rad=self._half_angle_rad, range_m=reach_m
+        ):
+            distances, _ = self._rays.cast(eye, self._rays_C @ rotation.T, range_m=reach_m)
+        depth = distances * self._rays_C[:, 2]
+        depth += DEPTH_NOISE_PER_M * depth * depth * noise
+        depth[(distances < 0.0) | (depth > self._range_m)] = 0.0
+        return depth.astype(np.float32).reshape(self.height, self.width)
 
 
 class PlanarLidar:

@@ -119,11 +119,22 @@ class UnmappedObstacles:
 
     def _strange(self, points: Array, margin_m: Array) -> NDArray[np.bool_]:
         """Which points lie in or near no footprint of the map, shape (k,)."""
-        x, y, c, s, half_x, half_y = (column[None, :] for column in self._boxes.T)
+        boxes = self._boxes_near(points, margin_m)
+        x, y, c, s, half_x, half_y = (column[None, :] for column in boxes.T)
         dx, dy = points[:, 0:1] - x, points[:, 1:2] - y
         along, across = np.abs(c * dx + s * dy), np.abs(c * dy - s * dx)
         margin = margin_m[:, None]
         return np.all((along > half_x + margin) | (across > half_y + margin), axis=1)
+
+    def _boxes_near(self, points: Array, margin_m: Array) -> Array:
+        """The footprints that any of these points could lie in or near."""
+        if not len(points):
+            return self._boxes[:0]
+        reach = np.hypot(self._boxes[:, 4], self._boxes[:, 5]) + 1.5 * float(margin_m.max())
+        at, reach = self._boxes[:, :2], reach[:, None]
+        low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+        near = (at > low - reach) & (at < high + reach)
+        return self._boxes[near.all(axis=1)]
 
     def _merge(self, low: Array, high: Array, stamp_s: float) -> None:
         """Move a known cluster to where it is now, or begin a new one."""
@@ -152,10 +163,9 @@ def _groups(points: Array) -> list[Array]:
 
 def _points(image: DepthImage, X_WC: SE3) -> tuple[Array, Array]:
     """Points in W (rows, columns, 3) of every few pixels, and their depth (inf: too far)."""
-    flat: NDArray[np.float32] = np.frombuffer(image.depth_m, dtype=np.float32)
     step = max(1, image.width // COLUMNS)
     rows, columns = np.arange(0, image.height, step), np.arange(0, image.width, step)
-    depth = flat.reshape(image.height, image.width)[np.ix_(rows, columns)].astype(np.float64)
+    depth = image.pixels()[np.ix_(rows, columns)].astype(np.float64)
     depth[(depth <= 0.0) | (depth > DEPTH_RANGE_M)] = np.inf
     focal_px = 0.5 * image.height / math.tan(0.5 * image.fovy_rad)
     x = (columns[None, :] + 0.5 - 0.5 * image.width) / focal_px

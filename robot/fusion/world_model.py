@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from robot.messages import (
     DepthImage,
@@ -189,8 +188,7 @@ class View:
         self._range_m = range_m
         self._width, self._height = image.width, image.height
         self._focal_px = 0.5 * image.height / math.tan(0.5 * image.fovy_rad)
-        flat: NDArray[np.float32] = np.frombuffer(image.depth_m, dtype=np.float32)
-        self._depth_m = flat.reshape(image.height, image.width)
+        self._image = image
 
     def is_clear(self, p_W: Vector3, radius_m: float) -> bool:
         """Whether the whole disc of `radius_m` about a point is in view with nothing before it."""
@@ -211,5 +209,5 @@ class View:
         )
         if not inside:
             return False
-        patch = self._depth_m[top:bottom, left:right]
+        patch = self._image.pixels()[top:bottom, left:right]
         return not bool(np.any((patch > 0.0) & (patch < front_m)))

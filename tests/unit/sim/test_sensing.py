@@ -6,10 +6,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from robot.messages import DepthImage, LidarScan, PoseFix, Sightings
+from robot.messages import LidarScan, PoseFix, Sightings
 from robot.se3 import SE3
 from sim import faults, world
 from sim.plant import Plant
+from sim.rays import Rays
+from sim.sensors import Exposure, developed
 
 
 @pytest.fixture
@@ -79,7 +81,7 @@ def test_the_error_stays_in_view_and_changes_after_a_while_unseen(standing):
 
 def test_depth_sees_the_table_at_its_distance(standing, robot):
     image = standing.sensing.camera.capture(0.0)
-    depth = np.frombuffer(image.depth_m, np.float32).reshape(image.height, image.width)
+    depth = image.pixels()
     focal = image.height / 2 / math.tan(image.fovy_rad / 2)
     row, column = np.indices(depth.shape)
     x = (column + 0.5 - image.width / 2) / focal * depth
@@ -95,6 +97,24 @@ def test_depth_sees_the_table_at_its_distance(standing, robot):
     floor = points_W[(points_W[:, 2] < 0.1) & (points_W[:, 1] < -0.2), 2]
     assert len(floor) > 25
     assert np.median(floor) == pytest.approx(0.0, abs=0.01)
+
+
+def test_an_image_shows_what_was_there_when_it_was_taken(standing):
+    camera = standing.sensing.camera
+    rays = Rays(standing.model, standing.data, body=camera.body)
+    head = standing.data.site("head_camera")
+    frames = []
+    for yaw_rad in (-2.0, -1.0, 0.0):
+        standing.stand(SE3.from_xy_yaw(1.5, -1.5, yaw_rad))
+        x, y = 1.5 + 1.2 * math.cos(yaw_rad), -1.5 + 1.2 * math.sin(yaw_rad)
+        standing.put("person/anna", SE3.from_xy_yaw(x, y, 0.0))
+        mujoco.mj_kinematics(standing.model, standing.data)
+        ahead = head.xmat.reshape(3, 3)[:, 2:].T
+        frames.append((camera.capture(0.0), rays.cast(head.xpos, ahead, range_m=9.0)[0][0]))
+    for image, ahead_m in frames:
+        middle = image.pixels()[image.height // 2 - 1 :, image.width // 2][:2]
+        assert middle.mean() == pytest.approx(ahead_m, abs=0.1)
+        assert developed(image).pixels().tolist() == image.pixels().tolist()
 
 
 def test_lidar_measures_the_north_wall(robot):
@@ -129,7 +149,7 @@ def test_everything_comes_at_its_rate(standing):
         standing.step(10)
     counts = {kind.__name__: count for kind, count in kinds.items()}
     assert counts == {
-        DepthImage.__name__: 10, LidarScan.__name__: 10, PoseFix.__name__: 10,
+        Exposure.__name__: 10, LidarScan.__name__: 10, PoseFix.__name__: 10,
         Sightings.__name__: 10, "WorldMap": 1, "PowerState": 1,
     }  # fmt: skip
 
@@ -147,7 +167,8 @@ def test_a_silent_sensor_says_nothing_for_its_time(standing):
 
 def test_what_the_camera_cannot_see_need_not_be_tried_against(standing):
     """Rays meet the same at the same distance, whichever way the head looks."""
-    rays, model = standing.sensing.camera.rays, standing.model
+    model = standing.model
+    rays = Rays(model, standing.data, body=standing.sensing.camera.body)
     groups = model.geom_group.copy()
     rng = np.random.default_rng(3)
     eye = standing.data.site("head_camera").xpos
