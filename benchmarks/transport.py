@@ -133,7 +133,7 @@ class Still:
 def lockstep_period_s() -> float:
     """A 2 ms period of `fast` without plant, controller and perception [s]."""
     still = Still()
-    with Lockstep(still, still, still, bus=LocalBus()) as runtime:  # pyright: ignore
+    with Lockstep(still, lambda: still, still, bus=LocalBus()) as runtime:  # pyright: ignore
         runtime.advance(1.0)
         begin = time.process_time()
         runtime.advance(20.0)

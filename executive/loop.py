@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Protocol, runtime_checkable
@@ -61,6 +61,16 @@ class Wakeable(Protocol):
 
     def wake(self) -> None:
         """Let `advance` return at once; from any thread, and from a signal handler."""
+        ...
+
+
+@runtime_checkable
+class Mended(Protocol):
+    """A runtime that starts parts of itself again."""
+
+    @property
+    def restarted(self) -> Sequence[str]:
+        """What was started again so far, in order, a sentence each."""
         ...
 
 
@@ -139,6 +149,7 @@ def run(
     waker = Waker()
     wake = runtime.wake if isinstance(runtime, Wakeable) else waker.wake
     executive.on_request = interrupts.on_press = wake
+    told = len(_restarted(runtime))
     try:
         while not over():
             if not isinstance(runtime, Wakeable) and executive.awaits_operator:
@@ -146,6 +157,9 @@ def run(
                     continue
             else:
                 runtime.advance(PERIOD_S)
+            for text in _restarted(runtime)[told:]:
+                executive.journal.write(runtime.clock.now_s(), "warning", text=text)
+                told += 1
             going_on = _tick(runtime, executive, interrupts)
             on_tick()
             if not going_on:
@@ -155,6 +169,10 @@ def run(
         raise
     finally:
         executive.on_request = interrupts.on_press = _nothing
+
+
+def _restarted(runtime: Runtime) -> Sequence[str]:
+    return runtime.restarted if isinstance(runtime, Mended) else ()
 
 
 def _tick(runtime: Runtime, executive: Executive, interrupts: Interrupts) -> bool:

@@ -109,7 +109,7 @@ class Placed(msgspec.Struct, frozen=True, kw_only=True):
     z_m: float
 
 
-BROKEN = frozenset({"controller_lost", "plant_lost", "internal"})
+BROKEN = frozenset({"plant_lost", "internal"})
 """Codes that mean that the system broke, not the task."""
 
 

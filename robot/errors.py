@@ -146,7 +146,9 @@ CATALOGUE: dict[str, FailureKind] = {
     "battery_low": FailureKind("the battery is nearly empty", "charge it"),
     "emergency_stop": FailureKind("the emergency stop was pressed", "release it, then reset it"),
     "overloaded": FailureKind("the computer does not keep up", "end other programs on it"),
-    "controller_lost": FailureKind("the controller process died", "restart"),
+    "controller_lost": FailureKind(
+        "the controller process died", "see that the robot stands, and say it again"
+    ),
     "plant_lost": FailureKind("the simulation died", "restart"),
     "timeout": FailureKind("it took longer than it may", "try again"),
     "given_up": FailureKind("the mission gave up on purpose", "read the mission's reason"),

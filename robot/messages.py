@@ -154,7 +154,8 @@ class BodyState(Message, frozen=True, kw_only=True):
     """The body as the controller believes it to be; estimated, not true.
 
     `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
-    `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m].
+    `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m]. `since_s` is when
+    this controller took the motors over: another value, another controller, with an N of its own.
     """
 
     mode: Mode
@@ -178,6 +179,7 @@ class BodyState(Message, frozen=True, kw_only=True):
     refused: int = 0
     temperature_c: tuple[float, ...] = ()
     failure: Failure | None = None
+    since_s: float = 0.0
 
 
 class LoopTiming(Message, frozen=True, kw_only=True):

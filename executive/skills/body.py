@@ -51,6 +51,7 @@ class Body:
         self.link = context.link
         self.description = context.description
         self.now_s = 0.0
+        self._since_s: float | None = None
         self.phase = ""
         self.progress = 0.0
         self.companion = ""
@@ -62,7 +63,10 @@ class Body:
 
     @property
     def state(self) -> BodyState:
-        """The body's newest state. Gives up when it is missing or old, or the body is down."""
+        """The body's newest state.
+
+        Gives up when it is missing or old, the body is down, or another controller has taken over.
+        """
         state = self.link.body()
         if state is None:
             raise give_up("sensor_silent", "the body has not reported its state yet")
@@ -73,6 +77,11 @@ class Body:
             raise give_up("fallen", f"the robot fell while {self.phase or 'standing'}")
         if state.mode == "damping" and state.failure is not None:
             raise GaveUp(state.failure)
+        before_s, self._since_s = self._since_s, state.since_s
+        if before_s not in (None, state.since_s):
+            raise give_up(
+                "controller_lost", f"the controller died while {self.phase or 'standing'}"
+            )
         return state
 
     @property

@@ -103,7 +103,7 @@ RULES: dict[str, Rule] = {
     "battery_low": NONE,
     "emergency_stop": NONE,
     "overloaded": _first(wait=2),
-    "controller_lost": NONE,
+    "controller_lost": _first(wait=1),
     "plant_lost": NONE,
     "timeout": _first(retry=1),
     "given_up": NONE,

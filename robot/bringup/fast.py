@@ -44,7 +44,7 @@ class FastRuntime(Lockstep):
         loaded = entry.world(world) if isinstance(world, str) else world
         super().__init__(
             entry.attribute(plant)(loaded, body, seed=seed, physics_ms=PHYSICS_MS),
-            ControlLoop(body),
+            lambda: ControlLoop(body),
             PerceptionNode(bus, body),
             bus=bus,
         )

@@ -36,7 +36,7 @@ class Crew(Protocol):
 
     @property
     def restarted(self) -> Sequence[str]:
-        """Names of processes that were started again, in order."""
+        """What was started again, in order, a sentence each."""
         ...
 
     def check(self) -> Failure | None:
@@ -171,6 +171,11 @@ class LiveRuntime:
         if self._crew is None:
             raise ProcessError("the robot's processes were not started")
         return self._crew
+
+    @property
+    def restarted(self) -> Sequence[str]:
+        """Processes that were started again, in order, a sentence each."""
+        return self.supervisor.restarted
 
     def failure(self) -> Failure | None:
         """Why the run cannot go on, None while it can."""

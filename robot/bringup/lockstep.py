@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from types import TracebackType
 from typing import Any, Protocol, Self
 
 from robot.bringup import entry
+from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
@@ -18,6 +20,8 @@ from robot.messages import BodyCommand, BodyState, Message
 
 CONTROL_PERIOD_MS = 2
 STATE_PERIOD_MS = 20
+TAKE_OVER_MS = 10
+"""How long nobody commands the motors when the controller is killed, as in `live`."""
 PARSE, APPLY = "sim.faults:parse", "sim.faults:apply"
 
 
@@ -75,23 +79,34 @@ class Lockstep:
         plant: the plant; tests and benchmarks reach it, the product does not.
         clock: the simulated clock.
         link: the executive's handle on the body.
+        restarted: what was started again, in order, a sentence each.
     """
 
     def __init__(
-        self, plant: Plant, controller: Controller, perception: Perception, *, bus: LocalBus
+        self,
+        plant: Plant,
+        control: Callable[[], Controller],
+        perception: Perception,
+        *,
+        bus: LocalBus,
     ) -> None:
+        """Put the parts together; `control` makes a controller, and another when one was killed."""
+        self.restarted: list[str] = []
         self.plant: Any = plant
         self.clock = SimulatedClock()
         self.link = BusLink(bus, self.clock)
         self._bus = bus
-        self._controller = controller
+        self._control = control
+        self._controller: Controller | None = control()
         self._perception = perception
         self._commands = bus.subscribe(topics.BODY_COMMAND)
         self._motors = SimulatedMotors(plant)
         self._plant = plant
         self._time_ms = 0
         self._failure: Failure | None = None
-        self._lost = self._headless = False
+        self._lost = False
+        self._starts_s = [0.0]
+        self._back_ms = math.inf
 
     def __enter__(self) -> Self:
         """Open the motors."""
@@ -138,16 +153,28 @@ class Lockstep:
         if fault["fault"] != "kill":
             entry.attribute(APPLY)(self._plant, parsed)
         elif parsed.process == "controller":
-            self._headless = True
-            self._failure = failure("controller_lost", "the controller was killed")
+            self._kill_controller()
         else:
             raise ConfigError(f"the {parsed.process} is no process of its own in a fast run")
 
+    def _kill_controller(self) -> None:
+        """Another one takes over, unless that happened too often."""
+        self._controller, self._back_ms = None, math.inf
+        now_s = self._time_ms / 1000.0
+        if CONTROLLER.may_start_again(self._starts_s, now_s):
+            self._starts_s.append(now_s)
+            self._back_ms = self._time_ms + TAKE_OVER_MS
+            self.restarted.append("the controller was killed; started again")
+        else:
+            self._failure = failure("controller_lost", "the controller was killed")
+
     def _run_until(self, end_ms: int) -> None:
-        commands, motors, controller = self._commands, self._motors, self._controller
+        commands, motors = self._commands, self._motors
         step = self._plant.step
         while self._time_ms < end_ms:
-            if not self._headless:
+            if self._controller is None and self._time_ms >= self._back_ms:
+                self._controller = self._control()
+            if (controller := self._controller) is not None:
                 for command in commands.take():
                     controller.handle(command)
                 motors.write(controller.tick(motors.read()))
@@ -160,7 +187,7 @@ class Lockstep:
         """Publish what is due at this instant."""
         now_s = self._time_ms / 1000.0
         self.clock.set(now_s)
-        if not self._headless:
+        if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
         sensed = list(self._plant.sense(now_s))
         for name, message in sensed:

@@ -39,7 +39,7 @@ class Front(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class State(msgspec.Struct, frozen=True, kw_only=True):
-    """How the robot's processes are: why the run cannot go on, who was restarted, process ids."""
+    """How the robot's processes are: why the run cannot go on, what was restarted, process ids."""
 
     failure: Failure | None = None
     restarted: tuple[str, ...] = ()
@@ -81,7 +81,7 @@ class Handle:
 
     @property
     def restarted(self) -> tuple[str, ...]:
-        """Names of processes that were started again, in order."""
+        """What was started again, in order, a sentence each."""
         return self._read().restarted
 
     def check(self) -> Failure | None:

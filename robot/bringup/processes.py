@@ -15,8 +15,8 @@ class Process:
         module: run as `python -m module RUN_FILE`.
         when: "always", or only where the plant is a simulation.
         death: failure code that its death means, once it is not restarted any more.
-        restarts: how often it may be started again within `RESTART_WINDOW_S`. What moves motors is
-            never restarted by itself: a robot that lost its controller is not where it was.
+        restarts: how often it may be started again within `RESTART_WINDOW_S`.
+        spare: whether a second one is loaded and waits for its turn.
     """
 
     name: str
@@ -24,6 +24,7 @@ class Process:
     when: Literal["always", "simulation"]
     death: str
     restarts: int = 0
+    spare: bool = False
 
     def may_start_again(self, starts_s: list[float], now_s: float) -> bool:
         """Whether it may, after the starts at these times (the first of them was no restart)."""
@@ -33,9 +34,14 @@ class Process:
 
 RESTART_WINDOW_S = 60.0
 
+CONTROLLER = Process(
+    "controller", "robot.control.main", "always", death="controller_lost", restarts=2, spare=True
+)
+"""When it dies the spare holds the robot up; the third death in a minute is the last."""
+
 PROCESSES: tuple[Process, ...] = (
     Process("plant", "sim.main", "simulation", death="plant_lost"),
-    Process("controller", "robot.control.main", "always", death="controller_lost"),
+    CONTROLLER,
     Process("perception", "robot.perception.main", "always", death="localisation_lost", restarts=3),
 )
 """In the order of starting; they are stopped in the order of `STOP_ORDER`."""

@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Self
+from typing import Self
 
 import robot
 from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
@@ -17,6 +17,8 @@ from robot.clock import Clock
 from robot.errors import Failure, ProcessError, failure
 
 STOP_S = 3.0
+SPARE_AFTER_S = 4.0
+"""How long after a start a spare is loaded: it would compete for the processor."""
 POLL_S = 0.01
 LOG_TAIL_BYTES = 4096
 # A worker pool of a numerical library would only steal time from the 500 Hz loop.
@@ -31,6 +33,7 @@ class _Child:
     popen: subprocess.Popen[bytes]
     log: Path
     starts_s: list[float] = field(default_factory=list[float])
+    spare: subprocess.Popen[bytes] | None = None
 
 
 class Supervisor:
@@ -42,7 +45,7 @@ class Supervisor:
     tie is to the thread that started them.
 
     Attributes:
-        restarted: names of processes that were started again, in order.
+        restarted: what was started again, in order, a sentence each.
     """
 
     def __init__(
@@ -108,13 +111,17 @@ class Supervisor:
             if child.popen.poll() is not None and not self._mended(child):
                 self._failure = self._death(child)
                 return self._failure
+            self._prepare(self._children[child.entry.name])
         return None
 
     def close(self) -> None:
         """Ask every process to stop, in order; kill what does not within `STOP_S`. Idempotent."""
         order = {name: place for place, name in enumerate(STOP_ORDER)}
         for name in sorted(self._children, key=lambda one: order.get(one, -1)):
-            child = self._children[name].popen
+            child, spare = self._children[name].popen, self._children[name].spare
+            if spare is not None:  # first, lest its turn comes
+                self._signal(spare, signal.SIGKILL)
+                spare.wait()
             self._signal(child, signal.SIGTERM)
             self._wait(child)
             self._signal(child, signal.SIGKILL)
@@ -123,29 +130,40 @@ class Supervisor:
         self._children.clear()
 
     def _start(self, entry: Process) -> None:
+        """Start a process, or let its spare be the one; that has begun to work by itself."""
         log = self._logs / f"{entry.name}.log"
-        with log.open("ab") as output:
-            popen = self._spawn(entry, output)
-        (self._logs / f"{entry.name}.pid").write_text(f"{popen.pid}\n")
         known = self._children.get(entry.name)
+        spare = known.spare if known else None
+        ready = spare is not None and spare.poll() is None
+        popen = spare if spare and ready else self._spawn(entry, log)
+        (self._logs / f"{entry.name}.pid").write_text(f"{popen.pid}\n")
         starts_s = known.starts_s if known else []
         self._children[entry.name] = _Child(entry, popen, log, [*starts_s, self._clock.now_s()])
 
-    def _spawn(self, entry: Process, output: IO[bytes]) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(
-            command(entry, self._run_file),
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            env=environment(),
-            start_new_session=True,
-        )
+    def _spawn(self, entry: Process, log: Path) -> subprocess.Popen[bytes]:
+        with log.open("ab") as output:
+            return subprocess.Popen(
+                command(entry, self._run_file),
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                env=environment(),
+                start_new_session=True,
+            )
+
+    def _prepare(self, child: _Child) -> None:
+        """Have a spare ready where the table wants one and it may be needed."""
+        entry, now_s = child.entry, self._clock.now_s()
+        due = entry.spare and child.spare is None and now_s > child.starts_s[-1] + SPARE_AFTER_S
+        if due and entry.may_start_again(child.starts_s, now_s):
+            child.spare = self._spawn(entry, child.log)
 
     def _mended(self, child: _Child) -> bool:
         """Start it again if its table entry still allows that."""
         if not child.entry.may_start_again(child.starts_s, self._clock.now_s()):
             return False
-        self.restarted.append(child.entry.name)
+        died = f"the {child.entry.name} {describe_exit(child.popen.returncode)}"
+        self.restarted.append(f"{died}; started again")
         self._start(child.entry)
         return True
 

@@ -2,7 +2,8 @@
 
 Nothing listens on a network. Every process listens on a socket of its own name and connects to the
 names before it in `PEERS` (retrying, so that any order of starts and restarts will do): a full
-mesh, because zenoh peers do not forward for one another when gossip is off.
+mesh, because zenoh peers do not forward for one another when gossip is off. The last of them
+listens nowhere, as nobody connects to it: of the controller there may be two, one of them a spare.
 """
 
 # pyright: basic
@@ -22,7 +23,7 @@ from robot.bus.topics import Topic
 from robot.errors import BusError
 
 M = TypeVar("M")
-PEERS = ("executive", "plant", "controller", "perception", "observer")
+PEERS = ("executive", "plant", "perception", "observer", "controller")
 MAX_PATH_BYTES = 100
 RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 
@@ -90,7 +91,8 @@ class ZenohBus:
         self._encoder = msgspec.msgpack.Encoder()
         self._session: zenoh.Session | None = None
         socket = socket_path(name, folder)
-        socket.unlink(missing_ok=True)  # what a killed process of this name left
+        if name != PEERS[-1]:
+            socket.unlink(missing_ok=True)  # what a killed process of this name left
         try:
             self._session = zenoh.open(_config(name, Path(folder)))
         except zenoh.ZError as error:
@@ -175,13 +177,14 @@ def socket_path(name: str, folder: Path | str) -> Path:
 def _config(name: str, folder: Path) -> zenoh.Config:
     """Peer mode, unix sockets only, no scouting of any kind, join without waiting for anyone."""
     earlier = PEERS[: PEERS.index(name)]
+    own = [f"unixsock-stream/{socket_path(name, folder)}"] if name != PEERS[-1] else []
     settings: dict[str, Any] = {
         "mode": "peer",
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
         "open/return_conditions": {"connect_scouted": False, "declares": False},
-        "listen/endpoints": [f"unixsock-stream/{socket_path(name, folder)}"],
+        "listen/endpoints": own,
         "connect/endpoints": [f"unixsock-stream/{socket_path(one, folder)}" for one in earlier],
         "connect/timeout_ms": -1,
         "connect/exit_on_failure": False,

@@ -13,6 +13,8 @@ CLOSE_RATE_M_S = 0.12
 SETTLE_S = 0.3
 GIVE_UP_S = 2.0
 LOAD_TIME_S = 0.15
+HELD_N = 2.0
+"""A motor that closes with more than this holds something."""
 
 
 class HandControl:
@@ -42,6 +44,12 @@ class HandControl:
         self._force_n = min(self.hand.max_force_n, max(1.0, command.force_n))
         self._time_s, self._still_s = 0.0, 0.0
         self.activity = Activity(id=command.id, status="running")
+
+    def keep(self, state: MotorState) -> None:
+        """Go on with the grip that another controller left: close with the force that is felt."""
+        force_n = -float(state.tau[self.motor])
+        if force_n > HELD_N:
+            self.target, self._force_n = 0.0, min(self.hand.max_force_n, force_n)
 
     def update(self, dt_s: float, state: MotorState, rotation_NW: Array) -> float:
         """Advance; returns the motor's position target, limited so that kp x error is the force.

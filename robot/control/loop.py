@@ -52,6 +52,10 @@ FALLEN_TILT_RAD = 0.9
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
 UNSOLVED_TO_DAMP = 20
+TAKE_OVER_S = 0.1
+"""A robot whose controller died is held up by the next one if that comes so soon, else it damps."""
+CARRYING_SHARE = 0.5
+"""Feet that bear this part of the weight stand on the floor, and flat."""
 
 
 class ControlLoop:
@@ -73,6 +77,7 @@ class ControlLoop:
         self._ticks_to_solve = 0.0
         self._unsolved = 0
         self._started = False
+        self._since_s = 0.0
         self._failure: Failure | None = None
         self._nominal_mass: Array = np.array(self.body.model.body_mass)
         self._nominal_ipos: Array = np.array(self.body.model.body_ipos)
@@ -117,11 +122,34 @@ class ControlLoop:
         if tilt < UPRIGHT_TILT_RAD and height > FALLEN_HEIGHT_SHARE * self._height():
             self.mode = "stand"
 
+    def _takes_over(self, state: MotorState) -> bool:
+        """Whether another controller commanded these motors before this one began."""
+        return not self._started and math.isfinite(state.command_stamp_s)
+
+    def _take_over(self, state: MotorState) -> None:
+        """Hold the robot up where another controller died; let it damp if that is too late."""
+        silence_s = state.stamp_s - state.command_stamp_s
+        if self.mode != "stand":
+            self.mode = "fallen"
+            self._failure = failure("fallen", "the robot was down when its controller was replaced")
+        elif silence_s > TAKE_OVER_S:
+            self.mode = "damping"
+            text = f"nobody commanded the motors for {silence_s:.2f} s; they damp"
+            self._failure = failure("controller_lost", text, silence_s=round(silence_s, 3))
+        else:
+            for hand in self.hands.values():
+                hand.keep(state)
+
     def _upright(self, state: MotorState) -> Quaternion:
-        """Orientation with heading zero: from gravity at rest, else from the soles lying flat."""
+        """Orientation with heading zero: from gravity at rest, else from the soles lying flat.
+
+        A robot whose controller died may be in mid-step: the soles that bear it say what is up.
+        """
         accel = state.accel_m_s2
         norm = float(np.linalg.norm(accel))
-        if abs(norm - 9.81) < 1.5:
+        bearing = state.ankle_wrench[:, 2].clip(min=0.0) / (9.81 * self.body.mass_kg)
+        moving = self._takes_over(state) and float(bearing.sum()) > CARRYING_SHARE
+        if abs(norm - 9.81) < 1.5 and not moving:
             up_B = accel / norm
         else:
             body, data = self.body, self.dynamics.data
@@ -129,7 +157,8 @@ class ControlLoop:
             body.write_joints(data, state.q)
             self.dynamics.kinematics()
             left, right = (data.site_xmat[body.sole_site[side]].reshape(3, 3) for side in SIDES)
-            up_B = left[:, 2] + right[:, 2]
+            share = bearing if moving else (1.0, 1.0)
+            up_B = share[0] * left[:, 2] + share[1] * right[:, 2]
         x, y, z = (float(value) for value in up_B)
         roll, pitch = math.atan2(y, z), math.atan2(-x, math.hypot(y, z))
         return SE3.from_rpy(roll, pitch, 0.0, (0.0, 0.0, 0.0)).quat_wxyz
@@ -229,7 +258,11 @@ class ControlLoop:
     def tick(self, state: MotorState) -> MotorCommand:
         """One bus period: read the state, return what to send."""
         if not self._started:
+            takes_over = self._takes_over(state)
             self._start(state)
+            self._since_s = state.stamp_s
+            if takes_over:
+                self._take_over(state)
         self._state = state
         self._gyro += state.gyro_rad_s
         self._accel += state.accel_m_s2
@@ -359,6 +392,7 @@ class ControlLoop:
             refused=self.limits.refused,
             temperature_c=tuple(state.temperature_c.tolist()),
             failure=self._failure,
+            since_s=self._since_s,
         )
 
     def _activities(self) -> dict[Channel, Activity]:

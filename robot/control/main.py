@@ -1,4 +1,7 @@
-"""The controller as a process: motors in, motors out, at the bus's 500 Hz."""
+"""The controller as a process: motors in, motors out, at the bus's 500 Hz.
+
+A second one is a spare: it waits, loaded and rehearsed, until the motors are nobody's.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,7 @@ from robot.drivers.shared_memory import SharedMotors
 from robot.model import description
 
 STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 500, 0.3
+TURN_POLL_S = 0.001
 
 
 def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: Stop) -> None:
@@ -47,12 +51,16 @@ def main(run_file: str, parent_pid: str) -> None:
     tie_to_parent(int(parent_pid))
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
-    loop = ControlLoop(robot)
+    loop, stop = ControlLoop(robot), Stop()
     motors = SharedMotors.of(robot, config.motors_path, clock=clock)
-    gc.freeze()  # what start-up made stays: the collector need not look at it in every period
     with ZenohBus("controller", config.sockets) as bus, motors:
+        if not motors.claim():
+            ControlLoop(robot).tick(motors.read())  # the first tick of a process is a slow one
         ask_for_real_time()
-        serve(loop, motors, bus, clock=clock, stop=Stop())
+        gc.freeze()  # what start-up made stays: the collector need not look at it in every period
+        while not stop and not motors.claim():
+            clock.sleep_until(clock.now_s() + TURN_POLL_S)
+        serve(loop, motors, bus, clock=clock, stop=stop)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ of motors, and the hash of the configuration; then the command and the state, ea
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import mmap
 import struct
 from pathlib import Path
@@ -55,25 +57,39 @@ class MotorMemory:
             fresh.write_bytes(header + bytes(size - len(header)))
             fresh.rename(path)  # a reader sees all of the header or no file
         try:
-            with path.open("r+b") as file:
-                found = file.read(HEADER.size)
-                _check_header(found, header)
+            with contextlib.ExitStack() as stack:
+                file = stack.enter_context(path.open("r+b"))
+                _check_header(file.read(HEADER.size), header)
                 self._map = mmap.mmap(file.fileno(), size)
+                self._file = file
+                stack.pop_all()  # it stays open: the lock is the file's
         except (OSError, ValueError) as error:
             raise DriverError(f"the motors' memory {path} cannot be mapped: {error}") from error
         self.count = count
         self.command = Seqlock(self._map, HEADER.size, size=_command_size(count))
         self.state = Seqlock(self._map, state_at, size=_state_size(count))
 
+    def lock(self) -> bool:
+        """Become the one that commands, until `close` or the process's end; False: another is."""
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        return True
+
     def close(self) -> None:
         """Let go of the memory; the file stays."""
         self.command.release()
         self.state.release()
         self._map.close()
+        self._file.close()
 
 
 class SharedMotors:
     """The controller's side: a `MotorBus`.
+
+    One process at a time commands the motors; any may read them. The system takes the claim away
+    from a process that dies, at once, and gives it to the next that asks.
 
     Attributes:
         repeats: reads that had to repeat the last state because no new one came in time.
@@ -86,6 +102,7 @@ class SharedMotors:
         self._configuration = configuration
         self._clock = clock
         self._memory: MotorMemory | None = None
+        self._claimed = False
         self._sequence: int = 0
         self._state: MotorState | None = None
         self._heard_s = 0.0
@@ -119,13 +136,19 @@ class SharedMotors:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Damp every motor and close."""
+        """Damp every motor, if it is this driver that commands them, and close."""
         if self._memory is None:
             return
         stamp_s = self._state.stamp_s if self._state else 0.0
-        self.write(MotorCommand.damping(self._count, stamp_s))
+        if self.claim():
+            self.write(MotorCommand.damping(self._count, stamp_s))
         self._memory.close()
-        self._memory = None
+        self._memory, self._claimed = None, False
+
+    def claim(self) -> bool:
+        """Become the one that commands the motors; False while another one is."""
+        self._claimed = self._claimed or self._opened().lock()
+        return self._claimed
 
     def read(self) -> MotorState:
         """The next state, waited for at most one period; else the last one again.
@@ -146,8 +169,14 @@ class SharedMotors:
         return state
 
     def write(self, command: MotorCommand) -> MotorCommand:
-        """Send a command; raises DriverError if it is not finite or of a wrong shape."""
+        """Send a command.
+
+        Raises:
+            DriverError: if it is not finite or of a wrong shape, or another driver commands.
+        """
         memory = self._opened()
+        if not self.claim():
+            raise DriverError("another controller commands the motors")
         fields = (command.q_des, command.qd_des, command.tau_ff, command.kp, command.kd)
         for field in fields:
             if field.shape != (self._count,):

@@ -193,3 +193,30 @@ def test_no_plant_is_an_error_with_the_path(tmp_path: Path):
     )
     with pytest.raises(DriverError, match="motors"):
         driver.__enter__()
+
+
+def test_one_process_at_a_time_commands_shared_motors(tmp_path: Path):
+    device = shared(tmp_path)
+    clock = SimulatedClock()
+    spare = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
+    with spare:
+        with device.driver as first:
+            first.write(hold(COUNT, 0.0))
+            assert not spare.claim()
+            with pytest.raises(DriverError, match="another controller"):
+                spare.write(hold(COUNT, 0.0))
+            device.period()
+            assert spare.read().command_stamp_s == 0.0  # reading is free
+        assert spare.claim()
+        spare.write(hold(COUNT, 0.002))
+
+
+def test_a_spare_that_leaves_does_not_damp_the_motors_of_another(tmp_path: Path):
+    device = shared(tmp_path)
+    clock = SimulatedClock()
+    with device.driver as first:
+        first.write(hold(COUNT, 0.0))
+        with SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock):
+            pass
+        device.period()
+    assert device.plant.commands[-1].kp.all()

@@ -12,11 +12,12 @@ import msgspec
 import pytest
 
 from robot.bringup.live import LiveRuntime
+from robot.bringup.supervisor import SPARE_AFTER_S
 from robot.clock import WallClock
 from robot.drivers.fingerprint import fingerprint
 from robot.drivers.shared_memory import SharedMotors
 from robot.errors import ConfigError
-from robot.messages import Damp, LoopTiming, WalkTo
+from robot.messages import LoopTiming, WalkTo
 from robot.model import description
 from tests.fakes.waiting import eventually
 
@@ -83,25 +84,49 @@ def test_it_walks_and_reports_how_well_it_kept_time(live: LiveRuntime):
         assert 0.1 < report.real_time_factor < 1.05
 
 
-def test_a_killed_controller_is_told_and_the_motors_damp(live: LiveRuntime):
-    failure = killed(live, "controller")
-    assert failure.code == "controller_lost"
-    assert "SIGKILL" in failure.cause
+def test_the_spare_holds_the_robot_up_when_the_controller_is_killed(live: LiveRuntime):
+    """Standing, as a walk is caught nearly always only."""
+    while live.link.now_s() < SPARE_AFTER_S + 4.0:
+        live.advance(0.05)
+    before = live.link.body()
+    os.kill(live.supervisor.pid("controller"), signal.SIGKILL)
+    killed_s = time.monotonic()
+    while not live.restarted and time.monotonic() - killed_s < 1.0:
+        live.advance(0.01)
+    assert time.monotonic() - killed_s < 0.2
+    assert live.restarted == ["the controller was killed by SIGKILL; started again"]
+    live.advance(1.0)
+    after = live.link.body()
+    assert after.since_s > before.since_s
+    assert after.since_s - before.stamp_s < 0.1
+    assert after.mode == "stand"
+    assert after.failure is None
+    walk(live, 3.0)
+    assert live.link.body().mode == "walk"
+
+
+def test_without_a_spare_the_motors_damp_until_the_robot_is_told_to_stand(live: LiveRuntime):
+    os.kill(live.supervisor.pid("controller"), signal.SIGKILL)
     robot = description.load("juno")
-    reader = SharedMotors(
+    with SharedMotors(
         live.run.motors_path,
         count=len(robot.motors),
         configuration=fingerprint(robot),
         clock=WallClock(),
-    )
-    reader.__enter__()
-    before_s = reader.read().stamp_s
-    assert eventually(lambda: reader.read().watchdog, within_s=2.0)
-    state = reader.read()
-    assert eventually(lambda: reader.read().stamp_s > before_s + 0.1)
-    limits = [motor.torque_limit_nm for motor in robot.motors.values()]
-    assert all(abs(tau) <= limit * 1.05 for tau, limit in zip(state.tau, limits, strict=True))
-    live.link.send(Damp(stamp_s=0.0, id=live.link.next_id()))  # nobody hears; nothing breaks
+    ) as reader:
+        assert eventually(lambda: reader.read().watchdog, within_s=2.0)
+        state = reader.read()
+        limits = [motor.torque_limit_nm for motor in robot.motors.values()]
+        assert all(abs(tau) <= limit * 1.05 for tau, limit in zip(state.tau, limits, strict=True))
+    until_s = time.monotonic() + 20.0
+    while live.link.body().since_s == 0.0 and time.monotonic() < until_s:
+        live.advance(0.05)
+    body = live.link.body()
+    assert body.mode in ("damping", "fallen")
+    assert body.failure.code in ("controller_lost", "fallen")
+    walk(live, 0.5)
+    assert live.link.body().activities["legs"].status == "failed"
+    assert live.failure() is None
 
 
 def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: LiveRuntime):
@@ -134,7 +159,7 @@ def test_killed_perception_comes_again(live: LiveRuntime):
         if live.supervisor.restarted and live.link.world().stamp_s > before + 1.0:
             break
     assert live.failure() is None
-    assert live.supervisor.restarted == ["perception"]
+    assert live.restarted == ["the perception was killed by SIGKILL; started again"]
     assert live.link.world().stamp_s > before + 1.0
     assert live.link.body().mode == "stand"
 

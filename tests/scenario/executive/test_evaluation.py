@@ -16,7 +16,10 @@ cases:
   - name: controller killed
     mission: stand for 5 seconds
     world: empty
-    faults: [{at_s: 0.5, fault: kill, process: controller}]
+    faults:  # the third is the last
+      - {at_s: 0.5, fault: kill, process: controller}
+      - {at_s: 0.5, fault: kill, process: controller}
+      - {at_s: 0.5, fault: kill, process: controller}
     expect: [controller_lost]
     damped: true
   - name: nothing

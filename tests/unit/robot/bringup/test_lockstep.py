@@ -2,7 +2,7 @@
 
 import pytest
 
-from robot.bringup.lockstep import Lockstep
+from robot.bringup.lockstep import TAKE_OVER_MS, Lockstep
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.errors import ConfigError
@@ -39,7 +39,7 @@ class Perception:
 def parts():
     plant, controller, bus = FakePlant(), Controller(), LocalBus()
     perception = Perception(plant)
-    with Lockstep(plant, controller, perception, bus=bus) as runtime:
+    with Lockstep(plant, lambda: controller, perception, bus=bus) as runtime:
         yield runtime, plant, controller, perception, bus
 
 
@@ -94,7 +94,7 @@ def test_perception_runs_when_sensors_spoke(parts):
 
 def test_a_lost_plant_is_a_failure_and_time_goes_on():
     plant, bus = FakePlant(diverge_at_s=0.03), LocalBus()
-    with Lockstep(plant, Controller(), Perception(plant), bus=bus) as runtime:
+    with Lockstep(plant, Controller, Perception(plant), bus=bus) as runtime:
         runtime.advance(0.02)
         assert runtime.failure() is None
         runtime.advance(0.05)
@@ -104,6 +104,41 @@ def test_a_lost_plant_is_a_failure_and_time_goes_on():
         runtime.advance(0.05)
         assert runtime.clock.now_s() == pytest.approx(0.12)
         assert len(plant.commands) == written
+
+
+def kill(runtime):
+    runtime.inject({"fault": "kill", "process": "controller"})
+
+
+def test_a_killed_controller_is_followed_by_another_a_little_later():
+    plant, bus, made = FakePlant(), LocalBus(), []
+
+    def control():
+        made.append(Controller())
+        return made[-1]
+
+    with Lockstep(plant, control, Perception(plant), bus=bus) as runtime:
+        runtime.advance(0.1)
+        kill(runtime)
+        runtime.advance(0.1)
+        assert len(made) == 2
+        assert made[0].ticks[-1] == pytest.approx(0.098)
+        assert made[1].ticks[0] == pytest.approx(0.1 + TAKE_OVER_MS / 1000.0)
+        assert runtime.failure() is None
+        assert runtime.restarted == ["the controller was killed; started again"]
+
+
+def test_the_third_death_of_a_controller_within_a_minute_is_the_last(parts):
+    runtime, plant, _, _, _ = parts
+    for k in range(3):
+        assert runtime.failure() is None
+        kill(runtime)
+        runtime.advance(1.0)
+        assert len(runtime.restarted) == min(k + 1, 2)
+    assert runtime.failure().code == "controller_lost"
+    written = len(plant.commands)
+    runtime.advance(1.0)
+    assert len(plant.commands) == written
 
 
 def test_leaving_damps(parts):

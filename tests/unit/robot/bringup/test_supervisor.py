@@ -90,13 +90,50 @@ def test_what_may_be_restarted_is_until_it_is_a_crash_loop(supervise, tmp_path):
     with supervise() as supervisor:
         first = ready(supervisor, tmp_path, *ALL)["perception"]
         os.kill(first, signal.SIGKILL)
-        assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1] == ["perception"])
+        told = ["the perception was killed by SIGKILL; started again"]
+        assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1] == told)
         second = supervisor.pid("perception")
         assert second != first
         assert supervisor.check() is None
         os.kill(second, signal.SIGKILL)
         assert eventually(supervisor.check)
         assert supervisor.check().code == "localisation_lost"
+
+
+def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_path, monkeypatch):
+    monkeypatch.setattr("robot.bringup.supervisor.SPARE_AFTER_S", 0.0)
+    spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare=True)
+    with supervise(processes=(spared,)) as supervisor:
+        first = ready(supervisor, tmp_path, "b")["b"]
+        supervisor.check()
+        os.kill(first, signal.SIGKILL)
+        assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1])
+        second = supervisor.pid("b")
+        log = tmp_path / "logs" / "b.log"
+        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        assert alive(second)
+        assert supervisor.check() is None
+        os.kill(second, signal.SIGKILL)
+        assert eventually(supervisor.check)
+        assert supervisor.check().code == "controller_lost"
+        assert log.read_text().count("ready") == 2  # none was loaded that could not be used
+
+
+def test_a_spare_goes_with_the_rest(supervise, tmp_path, monkeypatch):
+    monkeypatch.setattr("robot.bringup.supervisor.SPARE_AFTER_S", 0.0)
+    spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare=True)
+    with supervise("stubborn", (spared,)) as supervisor:
+        supervisor.check()
+        log = tmp_path / "logs" / "b.log"
+        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
+    here = [int(line) for line in children_of(os.getpid())]
+    assert not any(alive(pid) for pid in here)
+
+
+def children_of(pid: int) -> list[str]:
+    """Process ids of the children of this process."""
+    return Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
 
 
 def test_a_crash_says_what_the_process_said_last(supervise):
@@ -163,8 +200,7 @@ def test_the_table_is_sound():
     assert sorted(names) == sorted(STOP_ORDER)
     for entry in PROCESSES:
         assert entry.death in CATALOGUE
-    moving = [entry for entry in PROCESSES if entry.name in ("plant", "controller")]
-    assert all(entry.restarts == 0 for entry in moving)
+        assert entry.restarts or not entry.spare
 
 
 def test_exit_statuses_are_told_in_words():

@@ -1,0 +1,75 @@
+"""A controller dies in the middle of something and another one takes the motors over."""
+
+import numpy as np
+import pytest
+
+from robot.bringup.fast import FastRuntime
+from robot.messages import Grip, Stand, WalkTo
+
+KILL = {"fault": "kill", "process": "controller"}
+
+
+def walking(runtime: FastRuntime, x_m: float, y_m: float, duration_s: float) -> None:
+    link = runtime.link
+    runtime.advance(0.5)
+    link.send(WalkTo(stamp_s=0.5, id=link.next_id(), x_m=x_m, y_m=y_m, yaw_rad=0.0))
+    runtime.advance(duration_s)
+
+
+@pytest.mark.parametrize(
+    ("x_m", "y_m", "when_s"), [(2.0, 0.0, 2.3), (2.0, 0.0, 2.6), (0.0, 1.0, 2.4), (-1.0, 0.0, 2.5)]
+)
+def test_in_mid_step_the_next_one_holds_the_robot_up(x_m, y_m, when_s):
+    with FastRuntime("empty", seed=1) as runtime:
+        walking(runtime, x_m, y_m, when_s)
+        before = runtime.link.body()
+        assert before.mode == "walk"
+        runtime.inject(KILL)
+        runtime.advance(3.0)
+        after = runtime.link.body()
+        assert (after.mode, after.failure) == ("stand", None)
+        assert after.since_s == pytest.approx(before.stamp_s, abs=0.05)
+        assert runtime.failure() is None
+        walking(runtime, 0.3, 0.0, 2.0)
+        assert runtime.link.body().mode == "walk"
+
+
+def test_one_that_comes_late_lets_the_motors_damp_until_it_is_told_to_stand(monkeypatch):
+    monkeypatch.setattr("robot.bringup.lockstep.TAKE_OVER_MS", 120)
+    with FastRuntime("empty", seed=1) as runtime:
+        runtime.advance(1.0)
+        runtime.inject(KILL)
+        runtime.advance(0.14)
+        body = runtime.link.body()
+        assert body.mode == "damping"
+        assert body.failure.code == "controller_lost"
+        assert body.failure.evidence["silence_s"] == pytest.approx(0.12, abs=0.01)
+        assert not runtime.plant.motors.stiff
+        runtime.link.send(Stand(stamp_s=1.1, id=runtime.link.next_id()))
+        runtime.advance(1.0)
+        body = runtime.link.body()
+        assert (body.mode, body.failure) == ("stand", None)
+
+
+def test_a_robot_that_went_down_meanwhile_is_said_to_have_fallen(monkeypatch):
+    monkeypatch.setattr("robot.bringup.lockstep.TAKE_OVER_MS", 3000)
+    with FastRuntime("empty", seed=1) as runtime:
+        walking(runtime, 2.0, 0.0, 2.3)
+        runtime.inject(KILL)
+        runtime.advance(4.0)
+        assert runtime.link.body().mode == "fallen"
+        assert runtime.link.body().failure.code == "fallen"
+        assert not runtime.plant.motors.stiff
+
+
+def test_a_hand_keeps_its_grip():
+    with FastRuntime("empty", seed=1) as runtime:
+        link, robot = runtime.link, runtime.plant.robot
+        motor = robot.motor_names.index(robot.hands["right"].motor)
+        runtime.advance(0.5)
+        link.send(Grip(stamp_s=0.5, id=link.next_id(), side="right", opening_m=0.0, force_n=12.0))
+        runtime.advance(3.0)
+        before_n = np.array(link.body().tau_nm)[motor]
+        runtime.inject(KILL)
+        runtime.advance(1.0)
+        assert np.array(link.body().tau_nm)[motor] == pytest.approx(before_n, abs=1.0)
