@@ -27,6 +27,8 @@ THIN, WELL = 0.6, 0.8
 """A topic that brings less than this part of what it promises is thin, until it brings that."""
 COOL_C = 70.0
 """A motor that has tripped has to cool down to this before anything moves again."""
+OVERLOAD_SHARE = 0.15
+"""More late periods than this are too many to go on with, once all else makes room."""
 JUMP_REST_S = 2.0
 """How long the pose has to be steady after it has jumped."""
 
@@ -130,6 +132,11 @@ GRADES: dict[str, Scale] = {
             Grade(at=0.90, level=Level.HOLD),
         ),
     ),
+    "overload": Scale(
+        code="overloaded",
+        unit=f"s of more than {100 * OVERLOAD_SHARE:.0f} % late, though all else makes room",
+        grades=(Grade(at=3.0, level=Level.HOLD),),
+    ),
 }
 """Measurement to what its values mean."""
 
@@ -168,8 +175,7 @@ class HealthMonitor:
         self._tripped = False
         self._jumps: int | None = None
         self._jumped_s = -math.inf
-        self._timing: LoopTiming | None = None
-        self._late = 0.0
+        self._fit_s = start_s
 
     def look(
         self,
@@ -209,11 +215,16 @@ class HealthMonitor:
         if power is not None:
             findings += _battery(power)
         if timing is not None:
-            findings += self._lateness(timing)
+            findings += self._lateness(timing, now_s)
         findings.sort(key=lambda finding: -finding.level)
         left = min((finding.speed for finding in findings), default=1.0)
         speed_m_s = left * self._speed_m_s if left < 1.0 else math.inf
-        return Health(findings=tuple(findings), ages_s=ages_s, speed_m_s=speed_m_s)
+        return Health(
+            findings=tuple(findings),
+            ages_s=ages_s,
+            speed_m_s=speed_m_s,
+            pressed=timing is not None and timing.pressed,
+        )
 
     @staticmethod
     def _silence(
@@ -257,13 +268,15 @@ class HealthMonitor:
         reason = failure("localisation_lost", text, jumps=float(world.jumps))
         return [Finding(name="jump", level=Level.HOLD, failure=reason)]
 
-    def _lateness(self, timing: LoopTiming) -> list[Finding]:
+    def _lateness(self, timing: LoopTiming, now_s: float) -> list[Finding]:
         """The part of the controller's periods that were late since its last report."""
-        before, self._timing = self._timing, timing
-        if before is not None and timing.count > before.count:
-            self._late = (timing.late - before.late) / (timing.count - before.count)
-        text = f"{100.0 * self._late:.0f} % of the controller's periods are late"
-        return _graded("lateness", self._late, text)
+        if not timing.pressed or timing.late_share <= OVERLOAD_SHARE:
+            self._fit_s = now_s
+        text = f"{100.0 * timing.late_share:.0f} % of the controller's periods are late"
+        if timing.pressed:
+            text += "; camera, lidar and drawing go slower"
+        late = _graded("lateness", timing.late_share, text)
+        return [*_graded("overload", now_s - self._fit_s, text), *late]
 
 
 class _Flow:

@@ -44,12 +44,13 @@ class Health(msgspec.Struct, frozen=True, kw_only=True):
     """All findings of one look at the robot, worst first; none: it is well.
 
     `ages_s` says how old the newest message of each watched topic is; `speed_m_s` how fast the
-    robot may walk as it is.
+    robot may walk as it is; `pressed` that what is not real-time has to make room.
     """
 
     findings: tuple[Finding, ...] = ()
     ages_s: dict[str, float] = {}
     speed_m_s: float = math.inf
+    pressed: bool = False
 
     @property
     def level(self) -> Level:

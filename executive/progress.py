@@ -16,7 +16,7 @@ from executive.dumps import words
 from executive.dumps.text import MARKS, Line, State, lines
 from executive.journal import Event
 
-REFRESH_S = 0.1
+REFRESH_S, SELDOM_S = 0.1, 1.0
 _STYLES: dict[State, str] = {
     "waiting": "dim", "running": "bold yellow", "done": "green", "failed": "red",
 }  # fmt: skip
@@ -98,9 +98,9 @@ class LiveTree(Silent):
             self._live.console.print(f"warning: {event.data['text']}", style="yellow", markup=False)
 
     def update(self) -> None:
-        """Draw, at most every `REFRESH_S`."""
-        now_s = self._wall_s()
-        if now_s - self._drawn_s >= REFRESH_S:
+        """Draw, at most every `REFRESH_S`, and seldom while the controller is pressed for time."""
+        now_s, health = self._wall_s(), self._executive.board.read(HEALTH)
+        if now_s - self._drawn_s >= (SELDOM_S if health.pressed else REFRESH_S):
             self._drawn_s = now_s
             self._live.update(self._picture(now_s), refresh=True)
 

@@ -40,6 +40,7 @@ class LivePlant:
         self.refused: list[str] = []
         self._plant, self._motors, self._bus, self._clock = plant, motors, bus, clock
         self._faults = bus.subscribe(FAULT)
+        self._controller = bus.subscribe(topics.CONTROLLER_TIMING)
         self._lateness = Lateness("plant", PERIOD_S)
         self._due_s = clock.now_s()
         self._report_s = 0.0
@@ -61,6 +62,8 @@ class LivePlant:
                 self.refused.append(str(error))
         state = plant.read()
         self._motors.publish(state)
+        if (timing := self._controller.latest) is not None:
+            plant.sensing.relieved = timing.pressed
         for name, message in plant.sense():
             self._bus.publish(topics.named(name), developed(message))
         self._exchange(patience_s=PATIENCE_S if self._begun and not state.watchdog else 0.0)

@@ -22,6 +22,10 @@ from sim.sensors import DepthCamera, PlanarLidar
 ORACLE_HZ = 10.0
 MAP_HZ = 1.0
 POWER_HZ = 1.0
+SLOWER = 2.0
+"""By how much camera and lidar are slower while the controller is pressed for time."""
+HEAVY = frozenset({topics.DEPTH.name, topics.LIDAR.name, topics.ORACLE_SIGHTINGS.name})
+"""What costs time to make, and to look at."""
 
 
 class _Source:
@@ -40,6 +44,7 @@ class Sensing:
     Attributes:
         oracle: truth, and the oracle messages made of it.
         camera, lidar: the emulated sensors.
+        relieved: whether they go slower, because the controller is pressed for time.
     """
 
     def __init__(
@@ -64,6 +69,7 @@ class Sensing:
         )  # fmt: skip
         prior = world_map(world)
         sensors = robot.sensors
+        self.relieved = False
         self._sources = [
             _Source(topics.DEPTH.name, sensors.camera.rate_hz, self.camera.capture),
             _Source(topics.LIDAR.name, sensors.lidar.rate_hz, self.lidar.scan),
@@ -94,7 +100,8 @@ class Sensing:
             mujoco.mj_kinematics(self._model, self._data)
         found: list[tuple[str, Message]] = []
         for source in ready:
-            source.due_s = max(source.due_s + source.period_s, now_s)
+            slower = SLOWER if self.relieved and source.topic in HEAVY else 1.0
+            source.due_s = max(source.due_s + slower * source.period_s, now_s)
             if now_s >= source.silent_until_s:
                 found.append((source.topic, source.make(now_s)))
         return found

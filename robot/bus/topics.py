@@ -52,7 +52,7 @@ ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, 
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
 POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "plant")
 WORLD_STATE: Topic[WorldState] = Topic("world/state", WorldState, 10.0, "perception")
-CONTROLLER_TIMING: Topic[LoopTiming] = Topic("controller/timing", LoopTiming, 1.0, "controller")
+CONTROLLER_TIMING: Topic[LoopTiming] = Topic("controller/timing", LoopTiming, 2.0, "controller")
 PLANT_TIMING: Topic[LoopTiming] = Topic("plant/timing", LoopTiming, 1.0, "plant")
 
 TOPICS: tuple[Topic[Any], ...] = (

@@ -19,7 +19,7 @@ from robot.drivers.motors import MotorBus
 from robot.drivers.shared_memory import SharedMotors
 from robot.model import description
 
-STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 500, 0.3
+STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 250, 0.3
 TURN_POLL_S = 0.001
 
 

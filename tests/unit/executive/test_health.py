@@ -150,16 +150,37 @@ def test_a_pose_that_jumped_has_to_be_steady_before_it_is_walked_on():
     assert held[-1] == pytest.approx(1.55 + JUMP_REST_S, abs=0.06)
 
 
-def test_lateness_is_of_late_not_of_all_time():
+def timing(late_share: float, *, pressed: bool = False) -> LoopTiming:
+    return LoopTiming(
+        stamp_s=0.0, process="controller", period_s=0.002, count=1000, late=0, p50_s=0.0,
+        p99_s=0.0, p999_s=0.0, max_s=0.0, late_share=late_share, pressed=pressed,
+    )  # fmt: skip
+
+
+def test_lateness_is_of_late():
     watch = monitor()
-    levels = []
-    for count, late in ((1000, 0), (2000, 40), (3000, 400), (4000, 1350), (5000, 1351)):
-        timing = LoopTiming(
-            stamp_s=0.0, process="controller", period_s=0.002, count=count, late=late,
-            p50_s=0.0, p99_s=0.0, p999_s=0.0, max_s=0.0,
-        )  # fmt: skip
-        levels.append(watch.look(1.0, {}, body=None, world=None, timing=timing).level)
-    assert levels == [Level.OK, Level.OK, Level.DERATE, Level.HOLD, Level.OK]
+    levels = [
+        watch.look(1.0, {}, body=None, world=None, timing=timing(share)).level
+        for share in (0.0, 0.04, 0.06, 0.36, 0.95, 0.001)
+    ]
+    assert levels == [Level.OK, Level.OK, Level.WARN, Level.DERATE, Level.HOLD, Level.OK]
+
+
+def test_a_controller_that_stays_late_though_all_else_makes_room_ends_in_a_hold():
+    watch = monitor()
+
+    def level(now_s: float, share: float, *, pressed: bool = True) -> Level:
+        late = timing(share, pressed=pressed)
+        health = watch.look(now_s, {}, body=None, world=None, timing=late)
+        assert health.pressed == pressed
+        return health.level
+
+    assert level(10.0, 0.0) is Level.OK
+    assert level(12.9, 0.2) is Level.WARN
+    assert level(13.1, 0.2) is Level.HOLD
+    assert level(13.2, 0.1) is Level.WARN  # making room has helped
+    assert level(16.1, 0.2) is Level.WARN
+    assert level(19.3, 0.2, pressed=False) is Level.WARN
 
 
 def test_a_topic_that_thins_out_slows_the_robot_down():

@@ -1,9 +1,11 @@
 """The plant on a clock: waits for the first command, is patient, then lets the motors damp."""
 
 import pytest
+from msgspec.structs import replace
 
 from robot.bus import topics
 from robot.bus.bus import LocalBus
+from robot.bus.timing import Lateness
 from robot.clock import SimulatedClock
 from robot.drivers.shared_memory import MotorServer, SharedMotors
 from sim import faults, world
@@ -96,3 +98,28 @@ def test_it_reports_its_timing(parts, hold):
     live.period()
     assert heard.latest is not None
     assert heard.latest.process == "plant"
+
+
+def test_camera_and_lidar_go_slower_while_the_controller_is_pressed_for_time(parts, hold):
+    _, live, motors, bus, _ = parts
+    readers = [bus.subscribe(topic) for topic in (topics.LIDAR, topics.ORACLE_FIX)]
+
+    def counted(duration_s: float) -> list[int]:
+        for reader in readers:
+            reader.take()
+        for _ in range(round(duration_s / 0.002)):
+            motors.write(hold(0.0))
+            live.period()
+        return [len(reader.take()) for reader in readers]
+
+    def press(*, pressed: bool) -> None:
+        report = Lateness("controller", 0.002).report(0.0, 0.0)
+        bus.publish(topics.CONTROLLER_TIMING, replace(report, pressed=pressed))
+
+    assert counted(0.8) == pytest.approx([8, 8], abs=1)
+    press(pressed=True)
+    counted(0.2)
+    assert counted(0.8) == pytest.approx([4, 8], abs=1)
+    press(pressed=False)
+    counted(0.2)
+    assert counted(0.8) == pytest.approx([8, 8], abs=1)

@@ -2,7 +2,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.bus.timing import BIN_S, Lateness
+from robot.bus.timing import (
+    BIN_S,
+    PRESSED_REPORTS,
+    WELL_REPORTS,
+    Lateness,
+)
 
 PERIOD_S = 0.002
 
@@ -45,3 +50,33 @@ def test_long_delays_do_not_overflow():
     lateness.tick(0.0)
     assert lateness.tick(100.0) == pytest.approx(100.0 - PERIOD_S)
     assert lateness.percentile_s(0.5) <= lateness.max_s
+
+
+class Loop:
+    """A loop that reports every 250 periods, a part of them late."""
+
+    def __init__(self):
+        self.lateness, self.now_s = Lateness("x", PERIOD_S), 0.0
+        self.lateness.tick(0.0)
+
+    def report(self, late: float):
+        for k in range(250):
+            self.now_s += PERIOD_S + (0.0015 if k < 250 * late else 0.0)
+            self.lateness.tick(self.now_s)
+        return self.lateness.report(self.now_s, self.now_s)
+
+
+def test_lateness_is_told_of_the_last_half_second_not_of_all_time():
+    loop = Loop()
+    shares = [loop.report(late).late_share for late in (0.0, 0.4, 0.02, 0.0)]
+    assert shares == pytest.approx([0.0, 0.4, 0.02, 0.0])
+
+
+def test_a_loop_is_pressed_when_it_stays_late_and_until_it_stays_well():
+    loop = Loop()
+    assert not any(loop.report(late).pressed for late in (0.04, 0.3, 0.0, 0.3, 0.04) * 5)
+    reports = [loop.report(0.06).pressed for _ in range(PRESSED_REPORTS)]
+    assert reports == [False] * (PRESSED_REPORTS - 1) + [True]
+    assert all(loop.report(late).pressed for late in (0.0, 0.03, 0.0, 0.1) * 5)
+    reports = [loop.report(0.0).pressed for _ in range(WELL_REPORTS)]
+    assert reports == [True] * (WELL_REPORTS - 1) + [False]
