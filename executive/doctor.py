@@ -19,7 +19,7 @@ from robot.errors import RobotError
 MIN_FREE_MB = 200
 EGL_PACKAGES = "sudo apt install libegl1 libgl1-mesa-dri libopengl0"
 LIBRARIES = {
-    "mujoco": "mujoco", "daqp": "daqp", "ompl": "ompl",
+    "mujoco": "mujoco", "daqp": "daqp", "ompl": "ompl", "ruckig": "ruckig",
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
     "scipy": "scipy", "typer": "typer", "rich": "rich",
     "pocketsphinx": "pocketsphinx",

@@ -103,6 +103,12 @@ class MoveHand(Command, frozen=True, kw_only=True):
     stop_load_n: float | None = None
 
 
+class HoldArm(Command, frozen=True, kw_only=True):
+    """Brake an arm, with bounds on acceleration and jerk, and hold its joints where they rest."""
+
+    side: Side
+
+
 class Grip(Command, frozen=True, kw_only=True):
     """Open or close the fingers to `opening_m` with at most `force_n` a finger."""
 
@@ -124,7 +130,9 @@ class Payload(Command, frozen=True, kw_only=True):
     mass_kg: float
 
 
-BodyCommand = Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | Grip | Look | Payload
+BodyCommand = (
+    Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | HoldArm | Grip | Look | Payload
+)
 
 
 # --- controller -> everybody -------------------------------------------------------------------

@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.skills.body import ARM_CHANNEL, SIDES, Body
 from executive.skills.script import Script
 from executive.skills.skill import Resource
-from robot.messages import MoveHand, Side, Stand
+from robot.messages import HoldArm, Side, Stand
 
 REST_TIMEOUT_S = 6.0
 STILL_RAD_S = 0.1
@@ -45,7 +45,7 @@ def _is_still(body: Body, side: Side) -> bool:
 
 
 def hold_arm(body: Body, side: Side) -> None:
-    """Brake one arm where its hand is, if it is under way."""
+    """Brake one arm, if it is under way."""
     activity = body.state.activities.get(ARM_CHANNEL[side])
     if activity is not None and activity.status == "running":
-        body.send(MoveHand(**body.header(), side=side, X_NG=body.hand(side).X_NG))
+        body.send(HoldArm(**body.header(), side=side))

@@ -1,4 +1,4 @@
-"""One arm: hold, follow a joint trajectory, or move the grasp frame on a line in N.
+"""One arm: follow a joint trajectory, move the grasp frame on a line in N, or brake and hold.
 
 The line is differential inverse kinematics by damped least squares (Nakamura & Hanafusa, 1986) on
 the arm's own joints, closed over the measured grasp pose, so that neither the body's sway nor the
@@ -12,9 +12,10 @@ import math
 import mujoco
 import numpy as np
 
+from robot.control.braking import Brake
 from robot.kinematics.dynamics import Dynamics
 from robot.kinematics.spline import ClampedSpline
-from robot.messages import Activity, MoveArm, MoveHand, Side
+from robot.messages import Activity, HoldArm, MoveArm, MoveHand, Side
 from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array
 
@@ -28,6 +29,7 @@ ROTATION_DONE_RAD = 0.04
 GIVE_UP_S = 1.5
 GIVE_UP_ERROR_M = 0.02
 JOINT_DONE_RAD = 0.06
+BRAKE_RAD_S2, BRAKE_RAD_S3 = 12.0, 200.0  # twice what planned motions take: 2 rad/s end in 0.23 s
 
 
 class Arm:
@@ -52,6 +54,7 @@ class Arm:
         self._time_s = 0.0
         self._spline: ClampedSpline | None = None
         self._line: Line | None = None
+        self._brake: Brake | None = None
         nv = body.model.nv
         self._jac: Array = np.zeros((6, nv))
 
@@ -68,10 +71,8 @@ class Arm:
             positions = np.vstack([self.q, positions])
         else:
             positions[0] = self.q
+        self._begin(command.id)
         self._spline = ClampedSpline(times, positions)
-        self._line = None
-        self._time_s = 0.0
-        self.activity = Activity(id=command.id, status="running")
 
     def _problem(self, times: Array, positions: Array) -> str:
         if positions.ndim != 2 or positions.shape[1] != len(self.q):
@@ -90,16 +91,23 @@ class Arm:
 
     def reach(self, command: MoveHand, X_NG: SE3, load_n: float) -> None:
         """Start a straight line of the grasp frame from its measured pose X_NG."""
-        self._spline = None
+        self._begin(command.id)
         self._line = Line(command, X_NG, load_n)
-        self._time_s = 0.0
-        self.activity = Activity(id=command.id, status="running")
 
-    def stop(self) -> None:
-        """Hold where it is."""
-        self._spline, self._line = None, None
-        self.qd[:] = 0.0
-        self.qdd[:] = 0.0
+    def hold(self, command: HoldArm) -> None:
+        """Brake, and hold the joints where they come to rest."""
+        self._begin(command.id)
+        self._come_to_rest()
+
+    def _begin(self, command_id: int) -> None:
+        self._spline = self._line = self._brake = None
+        self._time_s = 0.0
+        self.activity = Activity(id=command_id, status="running")
+
+    def _come_to_rest(self) -> None:
+        self._spline = self._line = None
+        self._time_s = 0.0
+        self._brake = Brake(self.q, self.qd, self.qdd, acceleration=BRAKE_RAD_S2, jerk=BRAKE_RAD_S3)
 
     def update(
         self, dt_s: float, dynamics: Dynamics, measured: Array, *, load_n: float, standing: bool
@@ -108,11 +116,23 @@ class Arm:
         self._time_s += dt_s
         if self._spline is not None:
             self._follow(measured)
+        elif self._brake is not None:
+            self._slow_down(self._brake)
         elif self._line is not None:
             if self.activity.status != "running" and not standing:
-                self.stop()
+                self._come_to_rest()
             else:
                 self._track(dt_s, dynamics, measured, load_n)
+
+    def _slow_down(self, brake: Brake) -> None:
+        q, qd, self.qdd = brake.at(self._time_s)
+        self.q = np.minimum(np.maximum(q, self.lower), self.upper)
+        self.qd = np.where(self.q == q, qd, 0.0)
+        if self._time_s >= brake.duration_s:
+            self.qd, self.qdd = np.zeros_like(q), np.zeros_like(q)
+            self._brake = None
+            if self.activity.status == "running":
+                self.activity = Activity(id=self.activity.id, status="done")
 
     def _follow(self, measured: Array) -> None:
         assert self._spline is not None

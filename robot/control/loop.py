@@ -32,6 +32,7 @@ from robot.messages import (
     Damp,
     Grip,
     HandState,
+    HoldArm,
     Look,
     Mode,
     MoveArm,
@@ -186,6 +187,8 @@ class ControlLoop:
             self.head.look(command)
         elif isinstance(command, MoveArm):
             self.arms[command.side].follow(command)
+        elif isinstance(command, HoldArm):
+            self.arms[command.side].hold(command)
         elif isinstance(command, MoveHand):
             X_NG = self.body.site_pose(self.dynamics.data, self.body.grasp_site[command.side])
             self.arms[command.side].reach(command, X_NG, self.hands[command.side].load_n)

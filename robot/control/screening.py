@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import msgspec
 
-from robot.messages import BodyCommand, Channel, Grip, Look, MoveArm, MoveHand, Payload
+from robot.messages import BodyCommand, Channel, Grip, HoldArm, Look, MoveArm, MoveHand, Payload
 
 MAX_PAYLOAD_KG = 3.0
 
@@ -26,7 +26,7 @@ def channel(command: BodyCommand) -> Channel:
     """The channel whose activity answers a command."""
     if isinstance(command, Grip | Payload):
         return "left_hand" if command.side == "left" else "right_hand"
-    if isinstance(command, MoveArm | MoveHand):
+    if isinstance(command, MoveArm | MoveHand | HoldArm):
         return "left_arm" if command.side == "left" else "right_arm"
     return "head" if isinstance(command, Look) else "legs"
 

@@ -15,6 +15,7 @@ from robot.errors import BusError, failure
 from robot.messages import (
     DepthImage,
     Grip,
+    HoldArm,
     LidarScan,
     Message,
     MoveHand,
@@ -55,6 +56,7 @@ def subscribe(sender: Bus, receiver: Bus, topic: topics.Topic, probe: Message):
 MESSAGES = [
     (topics.BODY_STATE, body_state(1.0, SE3((1.0, 2.0, 3.0)), q_rad=(0.1, -0.2))),
     (topics.BODY_COMMAND, Walk(stamp_s=1.0, id=1, forward_m_s=0.3)),
+    (topics.BODY_COMMAND, HoldArm(stamp_s=1.0, id=2, side="left")),
     (topics.BODY_COMMAND, MoveHand(stamp_s=1.0, id=2, side="left", X_NG=SE3((0.1, 0.2, 0.3)))),
     (topics.ORACLE_FIX, PoseFix(stamp_s=1.0, X_WB=SE3(), source="oracle")),
     (topics.DEPTH, DepthImage(stamp_s=1.0, width=2, height=1, fovy_rad=1.0, depth_m=b"12345678")),

@@ -175,6 +175,9 @@ class Puppet:
                 if not self.stuck_arm:
                     self._goals[command.side] = (X_SG, command.stop_load_n)
                 self._begin(f"{command.side}_arm", command.id, span_s + 0.1)
+            case m.HoldArm():
+                self._goals[command.side] = (self._hands[command.side], None)
+                self._begin(f"{command.side}_arm", command.id, 0.25)
             case m.Grip():
                 self._wanted[command.side] = command.opening_m
                 self._begin(f"{command.side}_hand", command.id, 0.3)

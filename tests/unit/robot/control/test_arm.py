@@ -7,8 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.control.arm import MAX_JOINT_RATE_RAD_S, Arm, Line, rotation_vector
-from robot.messages import MoveArm, MoveHand
+from robot.control.arm import (
+    BRAKE_RAD_S2,
+    BRAKE_RAD_S3,
+    MAX_JOINT_RATE_RAD_S,
+    Arm,
+    Line,
+    rotation_vector,
+)
+from robot.messages import HoldArm, MoveArm, MoveHand
 from robot.se3 import SE3
 
 DT_S = 0.005
@@ -259,3 +266,36 @@ def test_times_that_are_not_finite_are_refused(bench):
     for times in ([math.nan], [math.inf]):
         follow(bench.arm, times, [before])
         assert bench.arm.activity.status == "failed", times
+
+
+# --- braking ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("before_s", [0.0, 0.1, 0.3, 0.5])
+@pytest.mark.parametrize("kind", ["trajectory", "line"])
+def test_an_arm_that_is_told_to_hold_comes_to_rest_without_a_jerk(bench, kind, before_s):
+    if kind == "line":
+        line_to(bench, dx=0.08, dz=0.1, speed_m_s=0.4)
+    else:
+        goal = bench.arm.q + np.array([0.5, -0.2, 0.3, 0.4, -0.3, 0.2, 0.1])
+        goal = np.clip(goal, bench.arm.lower, bench.arm.upper)
+        bench.arm.follow(MoveArm(id=1, stamp_s=0.0, side=bench.side, times_s=(0.6,),
+                                 positions_rad=(tuple(goal),)))  # fmt: skip
+    bench.run(before_s)
+    q, qd, qdd = bench.arm.q, bench.arm.qd.copy(), bench.arm.qdd.copy()
+    bench.arm.hold(HoldArm(id=2, stamp_s=0.0, side=bench.side))
+    for _ in range(200):
+        bench.run(DT_S)
+        arm = bench.arm
+        most = np.maximum(BRAKE_RAD_S2, np.abs(qdd)) + 1e-9
+        assert (np.abs(arm.q - q) <= (np.abs(qd) + most * DT_S) * DT_S + 1e-9).all()
+        assert (np.abs(arm.qd - qd) <= most * DT_S).all()
+        assert (np.abs(arm.qdd - qdd) <= BRAKE_RAD_S3 * DT_S + 1e-9).all()
+        q, qd, qdd = arm.q, arm.qd.copy(), arm.qdd.copy()
+        if arm.activity.status == "done":
+            break
+    assert arm.activity.id == 2
+    assert arm.activity.status == "done"
+    assert not arm.qd.any()
+    bench.run(0.2)
+    assert (arm.q == q).all()
