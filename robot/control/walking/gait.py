@@ -358,6 +358,7 @@ class Gait:
         )
         if math.hypot(*shift) > TIMING_DEADBAND_M:
             self._retime(dt_s, self._best_time(xi, zmp))
+            self.swing.urgent = True
             shift = self._shift(xi, zmp, self.duration_s)
         else:
             self._retime(dt_s, self._nominal_s)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from robot.control.walking.footsteps import Sole
 from robot.se3 import wrap_angle
 
-LATE_DESCENT_M_S = 0.10
+TOUCH_M_S = 0.10  # downward where the floor should be, and on if it is not there
 FREEZE_S = 0.08
 LANDING_FILTER_S = 0.04
 LIFT_SHARE = 0.45
-PRESS_M = 0.006  # the height profile ends below the floor, so that the foot meets it in time
+TOUCH_M = 0.001  # below the floor: where the height profile of an ordinary step ends,
+PRESS_M = 0.006  # and that of an urgent one, which so meets the floor a good while earlier
 LONGEST_LIFT_S = 0.6
 
 
@@ -20,6 +21,7 @@ class Swing:
         position, velocity, acceleration: of (x, y, yaw), each (3,).
         z, vz, az: height of the sole above the floor [m] and its derivatives.
         landing: where it is going to, filtered.
+        urgent: whether it is to catch the body: better a little early than late.
     """
 
     def __init__(self, start: Sole, landing: Sole, duration_s: float, height_m: float) -> None:
@@ -30,6 +32,7 @@ class Swing:
         self.duration_s = duration_s
         self.height_m = height_m
         self.time_s = 0.0
+        self.urgent = False
         self.z, self.vz, self.az = 0.0, 0.0, 0.0
         yaw = start.yaw + wrap_angle(landing.yaw - start.yaw)
         self.landing = [landing.x, landing.y, yaw]
@@ -75,38 +78,45 @@ class Swing:
             )
 
     def _height(self, dt_s: float) -> None:
-        """Up to the apex, down to the floor, and on at a slow constant speed if it is late."""
+        """Up to the apex, down to the floor, and on at a slow constant speed if it is late.
+
+        A step that lands before its time falls short: the foot is still on its way.
+        """
         lift_s = min(LONGEST_LIFT_S, LIFT_SHARE * self.duration_s)
         drop_s = min(LONGEST_LIFT_S, (1.0 - LIFT_SHARE) * self.duration_s)
         before_s = self.time_s - dt_s
+        goal, rate = self.height_m, 0.0
         if before_s < lift_s - dt_s:
-            goal, left_s = self.height_m, lift_s - before_s
+            left_s = lift_s - before_s
         elif before_s < self.duration_s - drop_s - dt_s:
-            goal, left_s = self.height_m, 0.1
+            left_s = 0.1
         elif before_s < self.duration_s - dt_s:
-            goal, left_s = -PRESS_M, self.duration_s - before_s
+            left_s = self.duration_s - before_s
+            goal, rate = (-PRESS_M, 0.0) if self.urgent else (-TOUCH_M, -TOUCH_M_S)
         else:
-            self.z -= LATE_DESCENT_M_S * dt_s
-            self.vz, self.az = -LATE_DESCENT_M_S, 0.0
+            self.z -= TOUCH_M_S * dt_s
+            self.vz, self.az = -TOUCH_M_S, 0.0
             return
         self.z, self.vz, self.az = minimum_jerk(
-            self.z, self.vz, self.az, goal=goal, left_s=left_s, dt_s=dt_s
+            self.z, self.vz, self.az, goal=goal, left_s=left_s, dt_s=dt_s, rate=rate
         )
 
 
 def minimum_jerk(
-    p: float, v: float, a: float, *, goal: float, left_s: float, dt_s: float
+    p: float, v: float, a: float, *, goal: float, left_s: float, dt_s: float, rate: float = 0.0
 ) -> tuple[float, float, float]:
-    """State after `dt_s` on the quintic from (p, v, a) to rest at `goal` in `left_s`.
+    """State after `dt_s` on the quintic from (p, v, a) to `goal` in `left_s`, there at `rate`.
 
     Replanned every tick it stays smooth however goal and time change (Flash & Hogan, 1985).
     """
-    d, t, T = goal - p, dt_s, left_s
+    t, T = dt_s, left_s
+    p, v = p + rate * T, v - rate  # seen from what moves at `rate` and is at the goal in the end
+    d = goal - p
     c3 = (20 * d - 12 * v * T - 3 * a * T * T) / (2 * T**3)
     c4 = (-30 * d + 16 * v * T + 3 * a * T * T) / (2 * T**4)
     c5 = (12 * d - 6 * v * T - a * T * T) / (2 * T**5)
     return (
-        p + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5)))),
-        v + t * (a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5))),
+        p + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5)))) + rate * (t - T),
+        v + rate + t * (a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5))),
         a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5)),
     )

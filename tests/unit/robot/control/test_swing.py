@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot.control.walking.footsteps import Sole
-from robot.control.walking.swing import LATE_DESCENT_M_S, PRESS_M, Swing, minimum_jerk
+from robot.control.walking.swing import PRESS_M, TOUCH_M, TOUCH_M_S, Swing, minimum_jerk
 
 DT_S = 0.004
 HEIGHT_M = 0.05
@@ -50,16 +50,30 @@ def test_it_moves_without_jumps(landing, duration_s):
         before = list(swing.position)
 
 
-@given(landings, durations)
-def test_it_clears_the_floor_then_comes_down_a_little_below_it(landing, duration_s):
+@given(landings, durations, st.booleans())
+def test_it_clears_the_floor_then_comes_down_a_little_below_it(landing, duration_s, urgent):
     swing = Swing(START, landing, duration_s, HEIGHT_M)
+    swing.urgent = urgent
     heights = [one.z for one in fly(swing, until_s=duration_s)]
     assert max(heights) == pytest.approx(HEIGHT_M, abs=0.004)
     middle = heights[int(0.25 * len(heights)) : int(0.75 * len(heights))]
     assert min(middle) > 0.2 * HEIGHT_M
-    assert heights[-1] == pytest.approx(-PRESS_M, abs=0.002)
+    assert heights[-1] == pytest.approx(-PRESS_M if urgent else -TOUCH_M, abs=0.002)
     steps = [abs(b - a) for a, b in pairwise(heights)]
     assert max(steps) < 2.2 * HEIGHT_M / (0.45 * duration_s) * DT_S
+
+
+@given(landings, st.floats(0.4, 0.8))
+def test_it_meets_the_floor_slowly_when_it_should_and_sooner_if_urgent(landing, duration_s):
+    meets = []
+    for urgent in (False, True):
+        swing = Swing(START, landing, duration_s, HEIGHT_M)
+        swing.urgent = urgent
+        next(one for one in fly(swing, until_s=1.0) if one.z <= 0.0 and one.vz < 0.0)
+        assert -swing.vz <= (0.3 if urgent else 1.3 * TOUCH_M_S)
+        meets.append(swing.time_s)
+    assert duration_s - 0.03 <= meets[0] <= duration_s + DT_S
+    assert meets[1] < meets[0] - 0.02
 
 
 @given(durations)
@@ -70,7 +84,7 @@ def test_a_late_foot_keeps_going_down_slowly(duration_s):
     before = swing.z
     for _ in fly(swing, until_s=swing.time_s + 0.1):
         pass
-    assert (before - swing.z) == pytest.approx(0.1 * LATE_DESCENT_M_S, abs=1.5e-3)
+    assert (before - swing.z) == pytest.approx(0.1 * TOUCH_M_S, abs=1.5e-3)
 
 
 @given(landings, st.lists(st.tuples(st.floats(0.05, 0.3), st.floats(0.4, 0.7)), max_size=4))
@@ -112,16 +126,16 @@ def test_a_landing_is_frozen_shortly_before_touchdown():
 small = st.floats(-1.0, 1.0)
 
 
-@given(small, small, small, small, st.floats(0.05, 1.0))
-def test_one_whole_step_of_the_quintic_is_its_end(p, v, a, goal, left_s):
-    end = minimum_jerk(p, v, a, goal=goal, left_s=left_s, dt_s=left_s)
-    assert end == pytest.approx((goal, 0.0, 0.0), abs=1e-6)
+@given(small, small, small, small, small, st.floats(0.05, 1.0))
+def test_one_whole_step_of_the_quintic_is_its_end(p, v, a, goal, rate, left_s):
+    end = minimum_jerk(p, v, a, goal=goal, left_s=left_s, dt_s=left_s, rate=rate)
+    assert end == pytest.approx((goal, rate, 0.0), abs=1e-6)
 
 
-@given(small, small, small, small, st.floats(0.2, 1.0))
-def test_replanning_on_the_way_stays_on_the_same_curve(p, v, a, goal, left_s):
-    half = 0.5 * left_s
-    once = minimum_jerk(p, v, a, goal=goal, left_s=left_s, dt_s=half)
-    first = minimum_jerk(p, v, a, goal=goal, left_s=left_s, dt_s=0.5 * half)
-    twice = minimum_jerk(*first, goal=goal, left_s=left_s - 0.5 * half, dt_s=0.5 * half)
+@given(small, small, small, small, small, st.floats(0.2, 1.0))
+def test_replanning_on_the_way_stays_on_the_same_curve(p, v, a, goal, rate, left_s):
+    half, end = 0.5 * left_s, {"goal": goal, "rate": rate}
+    once = minimum_jerk(p, v, a, **end, left_s=left_s, dt_s=half)
+    first = minimum_jerk(p, v, a, **end, left_s=left_s, dt_s=0.5 * half)
+    twice = minimum_jerk(*first, **end, left_s=left_s - 0.5 * half, dt_s=0.5 * half)
     assert twice == pytest.approx(once, rel=1e-6, abs=1e-6)
