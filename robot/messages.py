@@ -16,7 +16,7 @@ from robot.errors import Failure
 from robot.se3 import SE3, Vector3
 
 Side = Literal["left", "right"]
-Mode = Literal["damping", "stand", "walk", "fallen"]
+Mode = Literal["damping", "stand", "walk", "fallen", "rising"]
 Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
 
@@ -38,6 +38,10 @@ class Command(Message, frozen=True, kw_only=True, tag=True):
 
 class Damp(Command, frozen=True, kw_only=True):
     """Let every motor damp (kp = 0, velocity target 0)."""
+
+
+class GetUp(Command, frozen=True, kw_only=True):
+    """Get up from the floor and stand; only for a robot that has fallen. `Damp` ends it at once."""
 
 
 class Stand(Command, frozen=True, kw_only=True):
@@ -131,7 +135,18 @@ class Payload(Command, frozen=True, kw_only=True):
 
 
 BodyCommand = (
-    Damp | Stand | OneLeg | Walk | WalkTo | MoveArm | MoveHand | HoldArm | Grip | Look | Payload
+    Damp
+    | GetUp
+    | Stand
+    | OneLeg
+    | Walk
+    | WalkTo
+    | MoveArm
+    | MoveHand
+    | HoldArm
+    | Grip
+    | Look
+    | Payload
 )
 
 

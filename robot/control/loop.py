@@ -13,6 +13,7 @@ import numpy as np
 
 from robot.control import screening
 from robot.control.arm import Arm
+from robot.control.getting_up import GettingUp, towards
 from robot.control.hand import HandControl
 from robot.control.head import Head
 from robot.control.legs import Legs
@@ -30,6 +31,7 @@ from robot.messages import (
     BodyState,
     Channel,
     Damp,
+    GetUp,
     Grip,
     HandState,
     HoldArm,
@@ -80,6 +82,7 @@ class ControlLoop:
         self._started = False
         self._since_s = 0.0
         self._failure: Failure | None = None
+        self._getting_up: GettingUp | None = None
         self._nominal_mass: Array = np.array(self.body.model.body_mass)
         self._nominal_ipos: Array = np.array(self.body.model.body_ipos)
         self._payload: dict[Side, float] = {}
@@ -179,6 +182,8 @@ class ControlLoop:
         elif isinstance(command, Damp):
             self.mode = "damping"
             self._damp_activity = Activity(id=command.id, status="done")
+        elif isinstance(command, GetUp):
+            self._get_up(command)
         elif isinstance(command, Payload):
             self._carry(command.side, command.mass_kg)
         elif isinstance(command, Grip):
@@ -212,8 +217,26 @@ class ControlLoop:
         """Damp from the next tick on, until a Stand arms the motors again."""
         self.limits.tripped = why
 
+    def _get_up(self, command: GetUp) -> None:
+        """Begin to get up; refused on the feet, and by a robot that knows no way."""
+        down = self.mode in ("fallen", "damping") and self._tilt() > UPRIGHT_TILT_RAD
+        able = self.description.getting_up is not None
+        if not down or not able:
+            detail = "this robot knows no way to get up" if down else "it does not lie on the floor"
+            self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
+            return
+        self.limits.reset()
+        self._failure = None
+        for side in tuple(self._payload):
+            self._carry(side, 0.0)
+        self._getting_up = GettingUp(self.body, self._state.q, self._up_B())
+        self.legs.activity = Activity(id=command.id, status="running")
+        self.mode = "rising"
+
     def _move(self, command: Stand | OneLeg | Walk | WalkTo) -> None:
-        """A command to the legs: refused while down."""
+        """A command to the legs: refused while down; on the way up it ends that."""
+        if self._getting_up is not None:
+            self._fall("getting up was broken off")
         if self.mode in ("damping", "fallen") and not self._may_rise(command):
             detail = f"the motors are in {self.mode}"
             self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
@@ -277,7 +300,10 @@ class ControlLoop:
             self._command.stamp_s = state.stamp_s
         self._ticks_to_solve -= 1.0
         self._command = self.limits.apply(self._command, state)
-        if self.limits.tripped and self.mode not in ("damping", "fallen"):
+        if self.limits.tripped and self._getting_up is not None:
+            self.limits.reset()  # the floor can twist a joint; it has been let go for a moment
+            self._getting_up.miss()
+        elif self.limits.tripped and self.mode not in ("damping", "fallen"):
             self.mode = "damping"
             self._failure = failure("lost_balance", self.limits.tripped)
         return self._command
@@ -301,10 +327,31 @@ class ControlLoop:
         dynamics.shift_base_velocity(shift_v)
         dynamics.dynamics()
         self._update_mode()
-        if self.mode in ("damping", "fallen"):
+        if self.mode == "fallen" or self._getting_up is not None:
+            estimator.v[:] = 0.0  # no foot bears anything that would hold a drift
+        if self._getting_up is not None:
+            self._command = self._rise(self._getting_up, dt_s, state)
+        elif self.mode in ("damping", "fallen"):
             self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
-            return
-        self._command = self._compute(dt_s, state)
+        else:
+            self._command = self._compute(dt_s, state)
+
+    def _rise(self, rising: GettingUp, dt_s: float, state: MotorState) -> MotorCommand:
+        """Play the motions of getting up; on its feet, hand over to the whole body."""
+        body = self.body
+        rising.update(dt_s, self.dynamics, state.q)
+        if rising.outcome == "on its feet":
+            activity, self._getting_up = self.legs.activity, None
+            self._start(state)
+            self.mode = "rising"  # until it stands tall
+            self.legs.stand(Stand(stamp_s=state.stamp_s, id=activity.id))
+        elif rising.outcome == "failed":
+            self._fall(f"the robot lies {towards(self._up_B())} and did not get up")
+            return MotorCommand.damping(body.count, state.stamp_s, body.kd)
+        zero = np.zeros(body.count)
+        return MotorCommand(
+            state.stamp_s, rising.q.copy(), rising.qd.copy(), zero, body.kp, body.kd
+        )
 
     def _compute(self, dt_s: float, state: MotorState) -> MotorCommand:
         body, dynamics = self.body, self.dynamics
@@ -342,21 +389,41 @@ class ControlLoop:
         _, x, y, _ = self.estimator.quat_wxyz
         return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
 
+    def _up_B(self) -> Array:
+        """The world's up in the base's axes, shape (3,)."""
+        return self.estimator.X_NB().rotation()[2]
+
     def _update_mode(self) -> None:
         if self.mode in ("damping", "fallen"):
+            self._getting_up = None
+        gave_up = self.mode == "damping" and self._failure is not None
+        down = self.mode in ("damping", "fallen") and not gave_up
+        if down or self._getting_up is not None:
             return
         tilt = self._tilt()
         height = float(self.estimator.p[2])
-        if tilt > FALLEN_TILT_RAD or height < FALLEN_HEIGHT_SHARE * self._height():
-            self.mode = "fallen"
-            self._failure = failure(
-                "fallen",
-                f"the trunk leans {math.degrees(tilt):.0f} degrees, {height:.2f} m above the floor",
-                tilt_rad=tilt,
-                height_m=height,
+        low = self.mode != "rising" and height < FALLEN_HEIGHT_SHARE * self._height()
+        if tilt > FALLEN_TILT_RAD or low:
+            self._fall(
+                f"the robot falls {towards(self._up_B())}: the trunk leans "
+                f"{math.degrees(tilt):.0f} degrees, {height:.2f} m above the floor"
             )
-            return
-        self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
+        elif not gave_up and (self.mode != "rising" or self.legs.activity.status == "done"):
+            self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
+
+    def _fall(self, why: str) -> None:
+        """Damp, and say so."""
+        self.mode = "fallen"
+        self._getting_up = None
+        self._failure = failure(
+            "fallen",
+            why,
+            tilt_rad=self._tilt(),
+            height_m=float(self.estimator.p[2]),
+            side=towards(self._up_B()),
+        )
+        if self.legs.activity.status == "running":
+            self.legs.activity = Activity(id=self.legs.activity.id, status="failed", detail=why)
 
     # --- what it knows -------------------------------------------------------------------------
 

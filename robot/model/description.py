@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
+from typing import Literal
 
 import msgspec
 
@@ -129,6 +130,39 @@ class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     max_turn_rad_s: float
 
 
+class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One stage of a motion: the joints named move to their values, the others stay.
+
+    `duration_s` is the least it takes (the joints' speed may ask for more), `hold_s` how long it
+    then rests. With `needs` it begins only if the trunk is so by then; else the motion is missed.
+    """
+
+    name: str
+    duration_s: float
+    posture: dict[str, float]
+    hold_s: float = 0.0
+    needs: Literal["front", "upright"] | None = None
+
+
+class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What gets it up, by how it lies.
+
+    From the `front` into a squat on both soles; over its `left` or `right` side onto the front.
+    From the back it goes over the side that is lower.
+    """
+
+    front: tuple[Keyframe, ...]
+    left: tuple[Keyframe, ...]
+    right: tuple[Keyframe, ...]
+
+
+class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How the robot gets up from the floor: with at most so many motions."""
+
+    tries: int
+    motions: Motions
+
+
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A humanoid: joint groups, limits, feet, hands, sensors, postures."""
 
@@ -146,6 +180,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     shoulder_height_m: float
     body_radius_m: float
     battery: Battery | None = None
+    getting_up: GettingUp | None = None
     folder: str = ""
 
     @property
@@ -215,5 +250,16 @@ def _check(description: RobotDescription, file: str) -> None:
     for posture, values in description.postures.items():
         for name in values:
             want(name, f"posture {posture!r}")
+    for keyframe in _keyframes(description):
+        for name in keyframe.posture:
+            want(name, f"keyframe {keyframe.name!r}")
     if problems:
         raise ConfigError(problems)
+
+
+def _keyframes(description: RobotDescription) -> tuple[Keyframe, ...]:
+    """Every keyframe of getting up, if it knows how."""
+    if description.getting_up is None:
+        return ()
+    motions = description.getting_up.motions
+    return (*motions.front, *motions.left, *motions.right)

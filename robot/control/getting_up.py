@@ -1,0 +1,150 @@
+"""Getting up from the floor: keyframes of the robot's description, played at motor level.
+
+Nothing here balances. A motion moves joint by joint to postures that the description names, slowly
+enough for every joint, with the description's gains; then it is looked again how the robot lies.
+On its back or a side it first rolls onto its front, from there it pushes itself up into a squat on
+both soles; there the whole-body stand takes over. A motion that is missed is followed by the one
+for how the robot then lies, as often as the description allows.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from robot.kinematics.dynamics import Dynamics
+from robot.model.body import BodyModel
+from robot.model.description import Keyframe
+from robot.se3 import Array
+
+SPEED_SHARE = 0.75
+"""Of a joint's fastest speed, what a keyframe may ask for."""
+PEAK = 1.875
+"""The fastest speed of a minimum-jerk motion, as a multiple of its mean."""
+LYING = 0.65
+"""Cosine to the vertical from which a side of the trunk counts as up."""
+UPRIGHT = 0.5
+SQUAT_UPRIGHT = 0.9
+FLAT = 0.97
+LEVEL_M = 0.02
+EDGE_M = 0.02
+"""How far inside the ends of the soles the centre of mass has to be."""
+
+Outcome = Literal["running", "on its feet", "failed"]
+
+
+def towards(up_B: Array) -> str:
+    """Onto which side a trunk falls or lies; `up_B` is the world's up in the base's axes, (3,)."""
+    x, y, _ = (float(value) for value in up_B)
+    if abs(x) > abs(y):
+        return "on its back" if x > 0.0 else "on its front"
+    return "on its left side" if y < 0.0 else "on its right side"
+
+
+class GettingUp:
+    """One attempt to get up, from `__init__` to an outcome.
+
+    Attributes:
+        outcome: "on its feet" when the whole body may take over.
+        q, qd: targets of the motors, shape (n,).
+        stage: what it does, for people.
+    """
+
+    def __init__(self, body: BodyModel, q: Array, up_B: Array) -> None:
+        """Begin from measured joints, shape (n,), as the robot lies."""
+        plan = body.description.getting_up
+        assert plan is not None
+        self.body = body
+        self.outcome: Outcome = "running"
+        self.q: Array = q.copy()
+        self.qd: Array = np.zeros(body.count)
+        self.stage = ""
+        self._plan = plan
+        self._tries = 0
+        self._keyframes: list[Keyframe] = []
+        self._goal = self._from = self.q
+        self._duration_s = self._end_s = self._time_s = 0.0
+        self._choose(up_B, q)
+
+    def update(self, dt_s: float, dynamics: Dynamics, q: Array) -> None:
+        """Advance by `dt_s`; `q` are the measured joints, shape (n,)."""
+        self._time_s += dt_s
+        if self._time_s < self._end_s:
+            self._interpolate()
+            return
+        up_B = dynamics.data.xmat[self.body.base_body].reshape(3, 3)[2]
+        if self._keyframes and _so(self._keyframes[0].needs, up_B):
+            self._next()
+        elif not self._keyframes and on_its_feet(dynamics, self.body):
+            self.outcome = "on its feet"
+            self.qd[:] = 0.0
+        elif self._tries < self._plan.tries:
+            self._choose(up_B, q)
+        else:
+            self.outcome = "failed"
+
+    def miss(self) -> None:
+        """What is under way cannot go on: look again how the robot lies."""
+        self._keyframes, self._end_s = [], 0.0
+
+    def _choose(self, up_B: Array, q: Array) -> None:
+        """Begin the motion for how the robot lies."""
+        self._tries += 1
+        motions = self._plan.motions
+        over = motions.left if up_B[1] <= 0.0 else motions.right
+        self._keyframes = list(motions.front if up_B[0] < -LYING else over)
+        self._goal = q.copy()
+        self._next()
+
+    def _next(self) -> None:
+        """Begin the next keyframe, where the last one's targets are."""
+        keyframe = self._keyframes.pop(0)
+        self.stage = keyframe.name
+        body, names = self.body, self.body.description.motor_names
+        self._from = self._goal
+        goal = self._from.copy()
+        for name, value in keyframe.posture.items():
+            goal[names.index(name)] = value
+        self._goal = np.minimum(np.maximum(goal, body.lower_rad), body.upper_rad)
+        rate = np.abs(self._goal - self._from) / (SPEED_SHARE * body.velocity_limit_rad_s)
+        self._duration_s = max(keyframe.duration_s, PEAK * float(rate.max()))
+        self._end_s = self._duration_s + keyframe.hold_s
+        self._time_s = 0.0
+        self._interpolate()
+
+    def _interpolate(self) -> None:
+        """Minimum jerk between two postures."""
+        t = min(1.0, self._time_s / self._duration_s)
+        way = self._goal - self._from
+        self.q = self._from + t**3 * (10.0 - 15.0 * t + 6.0 * t * t) * way
+        self.qd = 30.0 * t * t * (1.0 - t) ** 2 / self._duration_s * way
+
+
+def _so(needs: Literal["front", "upright"] | None, up_B: Array) -> bool:
+    """Whether the trunk is as a keyframe needs it."""
+    if needs is None:
+        return True
+    return bool(up_B[0] < -LYING if needs == "front" else up_B[2] > UPRIGHT)
+
+
+def on_its_feet(dynamics: Dynamics, body: BodyModel) -> bool:
+    """Whether the trunk is upright over two flat soles at one height, the mass between their ends.
+
+    Only what is true of the body in any frame with z up is asked, not where it is.
+    """
+    upright = float(dynamics.data.xmat[body.base_body].reshape(3, 3)[2, 2]) > SQUAT_UPRIGHT
+    left, right = dynamics.sole_position
+    flat = all(float(rotation[2, 2]) > FLAT for rotation in dynamics.sole_rotation)
+    if not upright or not flat or abs(float(left[2] - right[2])) > LEVEL_M:
+        return False
+    heading = dynamics.sole_rotation[0][:2, 0] + dynamics.sole_rotation[1][:2, 0]
+    x, y = float(heading[0]), float(heading[1])
+    norm = math.hypot(x, y)
+    off = dynamics.com[:2] - 0.5 * (left[:2] + right[:2])
+    ahead_m = abs(float(off[0]) * x + float(off[1]) * y) / norm
+    aside_m = abs(float(off[1]) * x - float(off[0]) * y) / norm
+    foot = body.description.feet["left"]
+    half_width_m = 0.5 * float(np.linalg.norm(left[:2] - right[:2]))
+    return ahead_m < foot.half_length_m - EDGE_M and aside_m < half_width_m
