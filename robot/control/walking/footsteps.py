@@ -10,10 +10,12 @@ import math
 import msgspec
 
 from robot.messages import Side
-from robot.model.description import Walking
+from robot.model.description import Foot, Walking
 from robot.se3 import wrap_angle
 
 INWARD_TURN_RAD = 0.08
+GAP_M = 0.015
+"""Between the soles, seen along the standing one: a turned foot's heel comes near its neighbour."""
 
 
 class Sole(msgspec.Struct, frozen=True):
@@ -77,9 +79,10 @@ def stance_of(left: Sole, right: Sole) -> Sole:
 class FootstepPlanner:
     """Chooses footsteps one at a time; pure but for its limits."""
 
-    def __init__(self, walking: Walking) -> None:
-        """Take the gait's limits."""
+    def __init__(self, walking: Walking, foot: Foot) -> None:
+        """Take the gait's limits, and the size of a sole."""
         self.walking = walking
+        self._foot = foot
         self.step_time_s = walking.single_support_s + walking.double_support_s
 
     def first_swing(self, left: Sole, right: Sole, wish: Wish) -> Side:
@@ -101,9 +104,20 @@ class FootstepPlanner:
         middle = support.offset(0.0, s * half)
         dx, dy, turn = self._increments(middle, s, wish)
         landing = middle.offset(dx, dy, turn_rad=turn).offset(0.0, s * half)
+        landing = self.apart(support, landing, side)
         if self._met(swing, landing, middle, wish):
             return None
         return landing
+
+    def apart(self, support: Sole, landing: Sole, side: Side) -> Sole:
+        """The landing of the foot `side`, so far out that it does not come down on the other."""
+        forward, left, turn = support.relative(landing)
+        half_x, half_y = self._foot.half_length_m, self._foot.half_width_m
+        inner = half_x * abs(math.sin(turn)) + half_y * abs(math.cos(turn))
+        width, s = half_y + GAP_M + inner, sign_of(side)
+        if s * left >= width:
+            return landing
+        return support.offset(forward, s * width, turn_rad=turn)
 
     def _met(self, swing: Sole, landing: Sole, middle: Sole, wish: Wish) -> bool:
         """Nothing to do: the foot would land where it is, and the stance is where it should be."""

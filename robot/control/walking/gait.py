@@ -114,7 +114,8 @@ class Gait:
 
     def __post_init__(self) -> None:
         """Begin standing."""
-        self.planner = FootstepPlanner(self.description.walking)
+        description = self.description
+        self.planner = FootstepPlanner(description.walking, description.feet["left"])
         self._stand()
 
     # --- decisions ---------------------------------------------------------------------------
@@ -409,13 +410,14 @@ class Gait:
 
     def _reachable(self, landing: Sole) -> Sole:
         """Keep a landing where the swing leg can put it without crossing the other."""
-        support = self.planted[self.support]
-        s = sign_of(other(self.support))
+        support, side = self.planted[self.support], other(self.support)
+        s = sign_of(side)
         forward, left, turn = support.relative(landing)
         forward = max(-REACH_FORWARD_M, min(REACH_FORWARD_M, forward))
         width = min(CATCH_WIDTH_M, self.description.walking.min_stance_width_m)
         left = s * max(width, min(REACH_SIDE_M, s * left))
-        return support.offset(forward, left, turn_rad=turn)
+        landing = support.offset(forward, left, turn_rad=turn)
+        return self.planner.apart(support, landing, side)
 
     def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
         """The ZMP that brings the DCM back, clipped to the support (walking: or just beyond)."""

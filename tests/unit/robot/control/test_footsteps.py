@@ -7,6 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from robot.control.walking.footsteps import (
+    GAP_M,
     FootstepPlanner,
     Sole,
     Target,
@@ -18,7 +19,8 @@ from robot.control.walking.footsteps import (
 from robot.model import description
 from robot.se3 import wrap_angle
 
-WALKING = description.load().walking
+ROBOT = description.load()
+WALKING, FOOT = ROBOT.walking, ROBOT.feet["left"]
 HALF_M = 0.5 * WALKING.stance_width_m
 START = {"left": Sole(0.0, HALF_M, 0.0), "right": Sole(0.0, -HALF_M, 0.0)}
 
@@ -30,7 +32,7 @@ twists = st.builds(Twist, st.floats(-0.3, 0.5), st.floats(-0.18, 0.18), st.float
 
 @pytest.fixture(scope="module")
 def planner():
-    return FootstepPlanner(WALKING)
+    return FootstepPlanner(WALKING, FOOT)
 
 
 def target(goal):
@@ -64,6 +66,11 @@ def within_limits(side, landing, support):
     assert width >= WALKING.min_stance_width_m - slack
     assert width <= WALKING.stance_width_m + WALKING.max_step_width_m + slack
     assert abs(turn) <= WALKING.max_step_turn_rad + 1e-9
+    for x in (-FOOT.half_length_m, FOOT.half_length_m):
+        for y in (-FOOT.half_width_m, FOOT.half_width_m):
+            corner = landing.offset(x, y)
+            _, corner_left, _ = support.relative(corner)
+            assert s * corner_left >= FOOT.half_width_m + GAP_M - 1e-9
 
 
 @given(twists, st.sampled_from(["left", "right"]))
