@@ -67,10 +67,11 @@ def do(options: Do) -> int:
     """
     where = _setting(options)
     asking = at_terminal() and not options.as_json
-    understood = request.request(
-        options.text, where, ask=ask if asking else None, fallback=language_model(options.model)
-    )
+    model = language_model(options.model)
+    understood = request.request(options.text, where, ask=ask if asking else None, fallback=model)
     if isinstance(understood, request.Refused):
+        if model is not None and model.trouble:
+            typer.echo(f"The language model was of no help: {model.trouble}.", err=True)
         return refuse(understood, as_json=options.as_json)
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for(options.text, stamp=stamp)

@@ -61,6 +61,7 @@ class Dialogue:
     Attributes:
         context: What was said before; also holds the open question.
         confirm: Whether risky goals are read back before they are returned.
+        risk: Why goals are read back, in words; empty where they need not be.
     """
 
     def __init__(
@@ -82,7 +83,7 @@ class Dialogue:
         self.vocabulary = vocabulary
         self.confirm = confirm
         self.fallback = fallback
-        self._risk = risk
+        self.risk = risk
         self.context = Context()
         self._repeats = 0
         self._pending: Context | None = None
@@ -154,7 +155,7 @@ class Dialogue:
         if isinstance(told, Reply):
             self.context = after
             return replace(told, ms=outcome.ms)
-        why = self._risk(outcome.goals) if self.confirm else ""
+        why = self.risk(outcome.goals) if self.confirm else ""
         if self.confirm and outcome.parser == "model":
             why = why or "that is how I understand it"
         if told is None and not why:

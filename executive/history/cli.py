@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from executive.options import Model
+
 Run = Annotated[
     str | None, typer.Argument(help="A run's folder or a part of its name (default: the newest).")
 ]
@@ -62,7 +64,7 @@ def replay(run: Run = None, *, as_json: AsJson = False) -> None:
     raise typer.Exit(showing.replay(run, as_json=as_json))
 
 
-def resume(run: Run = None, *, as_json: AsJson = False) -> None:
+def resume(run: Run = None, *, model: Model = None, as_json: AsJson = False) -> None:
     """Go on with a run that was cut off: by kill -9, a crash, a power cut.
 
     A --fast run is done again up to where it was, proved to be the same, and goes on. Of a live run
@@ -77,4 +79,4 @@ def resume(run: Run = None, *, as_json: AsJson = False) -> None:
     """
     from executive.history import resume as command
 
-    raise typer.Exit(command.resume(run, as_json=as_json))
+    raise typer.Exit(command.resume(run, model=model, as_json=as_json))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import datetime
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -21,7 +22,7 @@ PROMPT = "executive.repl.cli:again"
 """Goes on with what was done at the prompt, at the prompt."""
 
 
-def resume(run: str | None, *, as_json: bool) -> int:
+def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     """Go on with a run that was cut off (default: the newest); returns the exit status.
 
     Raises:
@@ -30,8 +31,8 @@ def resume(run: str | None, *, as_json: bool) -> int:
     folder = past.find(run)
     recorded = resuming.check(folder)
     if recorded.header.attended:
-        again: Callable[[Recording], int] = entry.attribute(PROMPT)
-        return again(recorded)
+        again: Callable[[Recording, Path | None], int] = entry.attribute(PROMPT)
+        return again(recorded, model)
     where, changed = recording.setting(recorded)
     for change in changed:
         typer.echo(f"note: {change}, since it was recorded", err=True)

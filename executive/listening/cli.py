@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from executive.options import Fast, Robot, RunDir, Seed, World
+from executive.options import Fast, Model, Robot, RunDir, Seed, World
 
 
 class RecogniserName(StrEnum):
@@ -47,8 +47,8 @@ def listen(
     recogniser: Annotated[
         RecogniserName, typer.Option("--recogniser", help="What turns sound into words.")
     ] = RecogniserName.POCKETSPHINX,
-    model: Annotated[
-        Path | None, typer.Option("--model", help="Folder of a Whisper model (ONNX).")
+    whisper: Annotated[
+        Path | None, typer.Option("--whisper", help="Folder of a Whisper model (ONNX).")
     ] = None,
     voice: Annotated[
         VoiceName, typer.Option("--voice", help="What speaks the answers; they are printed too.")
@@ -62,6 +62,7 @@ def listen(
     seed: Seed = 0,
     fast: Fast = False,
     run_dir: RunDir = None,
+    model: Model = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="With --parse-only: one JSON object an utterance.")
     ] = False,
@@ -82,13 +83,13 @@ def listen(
 
     if as_json and not parse_only:
         raise typer.BadParameter("--json goes with --parse-only")
-    if recogniser is RecogniserName.WHISPER and model is None:
-        raise typer.BadParameter("whisper needs --model FOLDER")
+    if recogniser is RecogniserName.WHISPER and whisper is None:
+        raise typer.BadParameter("whisper needs --whisper FOLDER")
     options = hearing.Options(
         world=world, robot=robot, seed=seed, fast=fast, file=file, push_to_talk=push_to_talk,
-        wake_word=wake_word, recogniser=recogniser.value, model=model, voice=voice.value,
+        wake_word=wake_word, recogniser=recogniser.value, whisper=whisper, voice=voice.value,
         voice_model=voice_model, device=device, parse_only=parse_only, yes=yes, as_json=as_json,
-        folder=run_dir,
+        folder=run_dir, model=model,
     )  # fmt: skip
     with hearing.audio_errors():
         if parse_only:

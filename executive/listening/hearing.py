@@ -12,6 +12,7 @@ from typing import Literal
 import msgspec
 import typer
 
+from executive.endpoint import language_model
 from executive.knowledge import Knowledge
 from intents.dialogue import Dialogue
 from intents.goals import to_builtins
@@ -42,7 +43,7 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     push_to_talk: bool = False
     wake_word: str = ""
     recogniser: RecogniserName = "pocketsphinx"
-    model: Path | None = None
+    whisper: Path | None = None
     voice: Program = "auto"
     voice_model: Path | None = None
     device: str | None = None
@@ -50,6 +51,7 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     yes: bool = False
     as_json: bool = False
     folder: Path | None = None
+    model: Path | None = None
 
 
 class Block(msgspec.Struct, frozen=True, kw_only=True):
@@ -88,7 +90,7 @@ def _recogniser(options: Options, vocabulary: Vocabulary) -> Recogniser:
     if options.recogniser == "whisper":
         from intents.speech.whisper import Whisper
 
-        return Whisper(options.model)
+        return Whisper(options.whisper)
     from intents.speech.sphinx import Sphinx
 
     return Sphinx(vocabulary, wake_word=options.wake_word)
@@ -159,7 +161,7 @@ def parse_only(options: Options) -> int:
     knowledge = Knowledge(entry.world_map(options.world))
     vocabulary = knowledge.vocabulary()
     state = RobotState(entities=knowledge.entities())
-    dialogue = Dialogue(vocabulary, confirm=False)
+    dialogue = Dialogue(vocabulary, confirm=False, fallback=language_model(options.model))
     understood = False
     with audio_errors(), sound(options) as blocks:
         listener = ear(options, vocabulary)

@@ -17,7 +17,6 @@ from executive.overseeing import oversee
 from executive.repl import cli
 from executive.repl.shell import Shell
 from intents import goals as g
-from intents.dialogue import Dialogue
 from intents.goals import Goal
 from intents.risks import each, risk
 from intents.speech.ear import Ear, Spoken
@@ -61,11 +60,11 @@ def converse(options: Options, *, handle: Handle | None = None) -> int:
     """Listen, and do what is said; `handle` is that of a live robot."""
     prompt = cli.Options(
         world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
-        vary=False, folder=options.folder,
+        vary=False, folder=options.folder, model=options.model,
     )  # fmt: skip
     with cli.conversation(prompt, handle=handle) as shell:
         vocabulary = shell.robot.where.knowledge.vocabulary()
-        shell.dialogue = Dialogue(vocabulary, risk=risk if options.yes else heard_risk)
+        shell.dialogue.risk = risk if options.yes else heard_risk
         listener = ear(options, vocabulary)
         speech = voice(options.voice, model=options.voice_model)
         try:

@@ -48,7 +48,7 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     left_by: Path | None = None
 
 
-def again(left_by: Recording) -> int:
+def again(left_by: Recording, model: Path | None) -> int:
     """Prompt, and go on with what was open at a prompt that was cut off; the exit status."""
     header = left_by.header
     return repl(
@@ -59,6 +59,7 @@ def again(left_by: Recording) -> int:
             fast=header.runtime == "fast",
             vary=header.varied,
             folder=None,
+            model=model,
             left_by=left_by.folder,
         )
     )

@@ -14,6 +14,8 @@ from intents.speech.audio import AudioError, Resampler, Samples, mono
 BLOCK_S = 0.05
 KEPT_BLOCKS = 2_000
 """So much waits while the recogniser is at work; the oldest is lost beyond."""
+GONE_S = 3.0
+"""A microphone that delivers nothing for so long, not even silence, is there no more."""
 _LIBRARY = "install it: sudo apt install libportaudio2"
 _PLUG_IN = "plug one in, or use a recording: humanoid listen --file FILE.wav"
 
@@ -39,12 +41,22 @@ class Microphone:
             self.lost += 1
 
     def blocks(self, *, timeout_s: float = 0.2) -> Iterator[Samples]:
-        """Sound at 16 kHz as it comes; an empty block when none came in time."""
-        while True:
+        """Sound at 16 kHz as it comes; an empty block when none came in time.
+
+        Raises:
+            AudioError: nothing came for long; it was unplugged.
+        """
+        missed = 0
+        while missed * timeout_s < GONE_S:
             try:
-                yield self._resampler.push(self._blocks.get(timeout=timeout_s))
+                block = self._blocks.get(timeout=timeout_s)
             except queue.Empty:
+                missed += 1
                 yield np.zeros(0, np.float32)
+            else:
+                missed = 0
+                yield self._resampler.push(block)
+        raise AudioError("the microphone delivers nothing any more", _PLUG_IN)
 
 
 @contextmanager

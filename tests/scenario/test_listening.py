@@ -70,7 +70,7 @@ def test_a_file_that_is_cut_off_says_so(humanoid, tmp_path):
     [
         (("--file", "none.wav"), "cannot be read"),
         (("--file", "text.wav"), "is no WAV file"),
-        (("--recogniser", "whisper", "--model", "none", "--file", "good.wav"), "is no folder"),
+        (("--recogniser", "whisper", "--whisper", "none", "--file", "good.wav"), "is no folder"),
         (("--world", "kitchn", "--file", "good.wav"), "did you mean 'kitchen'"),
         (("--voice", "piper", "--file", "good.wav", "--fast"), "piper"),
     ],

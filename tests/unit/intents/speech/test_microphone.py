@@ -60,6 +60,20 @@ def test_sound_comes_at_the_rate_that_is_wanted(stand_in):
     assert Stream.made[-1].closed
 
 
+def test_a_microphone_that_is_unplugged_ends_the_stream(stand_in, monkeypatch):
+    stand_in()
+    monkeypatch.setattr(microphone, "GONE_S", 0.03)
+    parts = []
+    with (
+        microphone.opened() as source,
+        pytest.raises(AudioError, match="nothing any more") as caught,
+    ):
+        for block in source.blocks(timeout_s=0.01):
+            parts.append(len(block))
+    assert [length > 0 for length in parts] == 3 * [True] + 3 * [False]
+    assert "plug one in" in caught.value.cure
+
+
 def test_it_is_closed_after_an_error(stand_in):
     stand_in()
     with pytest.raises(ZeroDivisionError), microphone.opened():
