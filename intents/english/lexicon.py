@@ -235,6 +235,8 @@ DIRECTIONS = words(
 _PREPOSITIONS = frozenset(
     p[0] for table in (LOCATIVES, GOALWARDS, SOURCEWARDS, OTHER_PREPOSITIONS) for p in table
 )
+ADVERBS = words("still already currently again")
+"""Of time; they say nothing in a question."""
 FUNCTION_WORDS = (
     DETERMINERS | ALL | PRONOUNS | AUXILIARIES | WH | CONJUNCTIONS | DIRECTIONS | _PREPOSITIONS
     | words("me us i you we they myself yourself 's let there here please")

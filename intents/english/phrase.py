@@ -76,11 +76,11 @@ class NounPhrase:
 
 SOMETHING = lexicon.words("something anything everything")
 _NO_NOUN = (
-    lexicon.FUNCTION_WORDS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
+    lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "twice thrice closed opened need "
-                    "needs belong belongs only still already currently")
+                    "needs belong belongs only")
 )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping
 from typing import TypeVar
 
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
-from intents.english.lexicon import DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
+from intents.english.lexicon import ADVERBS, DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
 from intents.english.names import Match, NameIndex, index_of
 from intents.english.spelling import KNOWN_WORDS, speller_of
 from intents.vocabulary import Vocabulary
@@ -13,7 +13,6 @@ T = TypeVar("T")
 _LONGEST_PHRASE = 7
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
-_ADVERBS = words("still already currently again")
 _CALLS = words("hey hi hello ok okay dear yo")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -125,7 +124,7 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 def _adverb_end(words: list[str], at: int) -> int | None:
     """Is the cup *still* on the table? But: stand still."""
     asked = words[0] in ("is", "are", "do", "does", "what", "where") and at + 1 < len(words)
-    return at + 1 if asked and words[at] in _ADVERBS else None
+    return at + 1 if asked and words[at] in ADVERBS else None
 
 
 def _filler_end(words: list[str], at: int) -> int | None:
