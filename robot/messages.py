@@ -114,7 +114,7 @@ class HoldArm(Command, frozen=True, kw_only=True):
 
 
 class Grip(Command, frozen=True, kw_only=True):
-    """Open or close the fingers to `opening_m` with at most `force_n` a finger."""
+    """Open or close the fingers to `opening_m` with `force_n` a finger, more if it is pulled at."""
 
     side: Side
     opening_m: float
@@ -165,12 +165,14 @@ class HandState(msgspec.Struct, frozen=True, kw_only=True):
     """One hand: grasp pose, measured opening [m] and opening speed [m/s], force at the wrist.
 
     `load_n` is the vertical force the hand bears beyond its own weight [N], low-pass filtered.
+    `pulls` is how often it has gripped harder, because what it holds was about to slip.
     """
 
     X_NG: SE3
     opening_m: float
     opening_m_s: float
     load_n: float
+    pulls: int = 0
 
 
 class BodyState(Message, frozen=True, kw_only=True):

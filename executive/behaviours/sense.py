@@ -12,6 +12,7 @@ from executive.health import HealthMonitor
 from executive.ladder import Health, Level
 from executive.skills.holding import Held, Holdings
 from robot.link import BodyLink
+from robot.messages import BodyState, Side
 
 
 def _stamp(message: object) -> float | None:
@@ -33,6 +34,7 @@ class Sense(Behaviour):
         self._board = stage.board.claim("sense")
         self._health = Health()
         self._held: tuple[Held, ...] = ()
+        self._pulls: dict[Side, int] = {}
 
     def at(self, now_s: float) -> None:
         """Set the time of the tick that comes."""
@@ -48,6 +50,7 @@ class Sense(Behaviour):
         if self._stage.board.read(HOME) is None and body is not None and world is not None:
             board.set(HOME, (world.X_WN @ body.X_NS).flat())
         self._feel()
+        self._notice_pulls(body)
         stamps_s = {
             "body/state": _stamp(body),
             "world/state": _stamp(world),
@@ -77,6 +80,13 @@ class Sense(Behaviour):
             self._held = held
             hands = {one.side: msgspec.to_builtins(one) for one in held}
             self._stage.record("held", hands=hands)
+
+    def _notice_pulls(self, body: BodyState | None) -> None:
+        """Journal that something was about to slip out of a hand."""
+        for side, hand in body.hands.items() if body else ():
+            if hand.pulls > self._pulls.get(side, 0):
+                self._stage.record("slip", side=side)
+            self._pulls[side] = hand.pulls
 
     def _journal(self, health: Health) -> None:
         """Journal what has come up or gone away since the last tick."""

@@ -24,6 +24,7 @@ SENTENCES: Mapping[str, str] = {
     "branch": "{name}: {took}",
     "held": "in the hands: {hands}",
     "warning": "warning: {text}",
+    "slip": "the {side} hand is pulled at and grips harder",
     "stop": "stop: {why}",
     "cancel": "cancelling: {why}",
     "abort": "ending the task: {cause}",

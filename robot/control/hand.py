@@ -1,6 +1,12 @@
-"""One hand: opening and force of its two coupled fingers."""
+"""One hand: opening and force of its two coupled fingers.
+
+As people do, it grips harder when what it holds is pulled at: with the force that `FRICTION` asks
+for, times a margin, but never less than it was told, nor more than the motor bears for a moment.
+"""
 
 from __future__ import annotations
+
+import numpy as np
 
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
@@ -13,6 +19,13 @@ CLOSE_RATE_M_S = 0.12
 SETTLE_S = 0.3
 GIVE_UP_S = 2.0
 LOAD_TIME_S = 0.15
+FRICTION = 0.4
+"""The least, between a finger and what it holds (the hand study of the robot's description)."""
+MARGIN = 1.25
+PEAK_SHARE = 0.9
+"""Of the motor's peak force, for as long as it pulls and `TIGHT_S` after that."""
+PULL_TIME_S, TIGHT_S = 0.01, 1.0
+STOPPED = "stopped by something"
 HELD_N = 2.0
 """A motor that closes with more than this holds something."""
 
@@ -32,6 +45,11 @@ class HandControl:
         self.target: float = float(q_start[self.motor])
         self._reference = self.target
         self._force_n = self.hand.max_force_n
+        self._most_n = PEAK_SHARE * float(body.torque_limit_nm[self.motor])
+        self._pull_N: Array = np.zeros(3)
+        self._tight_n = 0.0
+        self._tight_s = 0.0
+        self.pulls = 0
         self._time_s = 0.0
         self._still_s = 0.0
         self.load_n = 0.0
@@ -43,6 +61,7 @@ class HandControl:
         self.target = opening / self.hand.opening_per_motor
         self._force_n = min(self.hand.max_force_n, max(1.0, command.force_n))
         self._time_s, self._still_s = 0.0, 0.0
+        self._tight_n = 0.0
         self.activity = Activity(id=command.id, status="running")
 
     def keep(self, state: MotorState) -> None:
@@ -50,6 +69,7 @@ class HandControl:
         force_n = -float(state.tau[self.motor])
         if force_n > HELD_N:
             self.target, self._force_n = 0.0, min(self.hand.max_force_n, force_n)
+            self.activity = Activity(id=0, status="done", detail=STOPPED)
 
     def update(self, dt_s: float, state: MotorState, rotation_NW: Array) -> float:
         """Advance; returns the motor's position target, limited so that kp x error is the force.
@@ -57,15 +77,35 @@ class HandControl:
         `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
         """
         self._time_s += dt_s
-        load = -float(rotation_NW[2].dot(state.wrist_wrench[self.row, :3])) - self._weight_n
+        pull_N = -rotation_NW @ state.wrist_wrench[self.row, :3]
+        pull_N[2] -= self._weight_n
+        load = float(pull_N[2])
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
         step = CLOSE_RATE_M_S * dt_s
         self._reference += max(-step, min(step, self.target - self._reference))
-        reach = self._force_n / self._kp
+        self._tighten(dt_s, pull_N)
+        force_n = max(self._force_n, self._tight_n)
+        reach = force_n / self._kp
+        if self._tight_n:
+            self._reference = max(self.target, q - reach)
         self._reference = max(q - reach, min(q + reach, self._reference))
         self._report(dt_s, q, qd)
         return self._reference
+
+    def _tighten(self, dt_s: float, pull_N: Array) -> None:
+        """Note how much harder to grip what is pulled at, and for how long."""
+        self._pull_N += min(1.0, dt_s / PULL_TIME_S) * (pull_N - self._pull_N)
+        self._tight_s -= dt_s
+        if self._tight_s <= 0.0:
+            self._tight_n = 0.0
+        holds = self.activity.status == "done" and self.activity.detail == STOPPED
+        needed_n = MARGIN * float(np.linalg.norm(self._pull_N)) / (2.0 * FRICTION)
+        if not holds or needed_n <= max(self._force_n, self._tight_n):
+            return
+        self.pulls += not self._tight_n
+        self._tight_n = min(self._most_n, needed_n)
+        self._tight_s = TIGHT_S
 
     def _report(self, dt_s: float, q: float, qd: float) -> None:
         if self.activity.status != "running":
@@ -74,7 +114,7 @@ class HandControl:
         self._still_s = self._still_s + dt_s if still else 0.0
         arrived = abs(q - self.target) * self.hand.opening_per_motor < OPENING_DONE_M
         if arrived or (self._still_s > SETTLE_S and self._time_s > SETTLE_S):
-            detail = "" if arrived else "stopped by something"
+            detail = "" if arrived else STOPPED
             self.activity = Activity(id=self.activity.id, status="done", detail=detail)
         elif self._time_s > GIVE_UP_S:
             self.activity = Activity(id=self.activity.id, status="failed", detail="still moving")
@@ -87,4 +127,5 @@ class HandControl:
             opening_m=gain * float(motors.q[self.motor]),
             opening_m_s=gain * float(motors.qd[self.motor]),
             load_n=self.load_n,
+            pulls=self.pulls,
         )

@@ -141,6 +141,29 @@ def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
 
 
 @pytest.mark.slow
+def test_a_cup_that_is_pulled_at_is_held_by_gripping_harder(planner):
+    """Otherwise it would be gone (docs/control.md); a pull of 60 N takes it, see above."""
+    world = msgspec.structs.replace(load_world("kitchen"), start=Start(at_m=(0.6, 0.1)))
+    with FastRuntime(world, seed=1) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=1)
+        report = carry_out(runtime, context, PickParams(object_id="red_cup"))
+        assert report.status == "succeeded", report
+        (held,) = context.holdings.all()
+        name = JUNO.hands[held.side].motor
+        motor, limit_n = JUNO.motor_names.index(name), JUNO.motors[name].torque_limit_nm
+        assert runtime.link.body().hands[held.side].pulls == 0
+        down = faults.Push(impulse_n_s=(0.0, 0.0, -6.0), duration_s=0.3, target="red_cup")
+        faults.apply(runtime.plant, down)
+        for _ in range(100):
+            runtime.advance(0.02)
+            assert abs(runtime.link.body().tau_nm[motor]) < 1.02 * limit_n
+        hand = runtime.link.body().hands[held.side]
+        assert hand.opening_m == pytest.approx(held.gap_m, abs=0.005)
+        assert hand.pulls == 1
+
+
+@pytest.mark.slow
 def test_a_cup_that_is_knocked_over_is_taken_as_it_lies(planner):
     world = msgspec.structs.replace(
         load_world("kitchen"), start=Start(at_m=(1.1, -0.6), yaw_deg=90)

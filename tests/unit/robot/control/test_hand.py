@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot.control.hand import CLOSE_RATE_M_S, GIVE_UP_S, HandControl
+from robot.control.hand import CLOSE_RATE_M_S, GIVE_UP_S, PEAK_SHARE, HandControl
 from robot.drivers.motors import MotorState
 from robot.messages import Grip
 from robot.se3 import SE3
@@ -106,3 +106,59 @@ def test_the_load_is_what_hangs_below_the_hands_own_weight(bench):
     bench.run(2.0)
     assert bench.control.load_n == pytest.approx(4.0, abs=0.05)
     assert bench.control.state(bench.state(0.0), SE3()).load_n == bench.control.load_n
+
+
+def holding(bench, load_n: float = 2.0) -> float:
+    """Grip something 40 mm wide; the force with which it is held."""
+    bench.stop_m, bench.load_n = 0.02, load_n
+    bench.grip(0.0)
+    bench.run(2.0)
+    return bench.force_n[-1]
+
+
+def pulled(bench, load_n: float, duration_s: float) -> float:
+    bench.load_n = load_n
+    bench.run(duration_s)
+    return bench.force_n[-1]
+
+
+@pytest.mark.parametrize("load", [0.0, 4.0, 9.0])
+def test_what_is_carried_is_gripped_as_it_was_asked(bench, load):
+    assert holding(bench, load) == pytest.approx(15.0, rel=0.01)
+    assert bench.control.pulls == 0
+
+
+def test_what_is_pulled_at_is_gripped_harder_at_once_and_no_longer_than_needed(bench):
+    bench.stop_m = 0.035
+    holding(bench)
+    assert pulled(bench, 15.0, 0.03) > 15.0 * 1.25
+    assert pulled(bench, 4.0, 0.9) > 15.0 * 1.25
+    assert pulled(bench, 4.0, 0.3) == pytest.approx(15.0, rel=0.01)
+    assert bench.control.pulls == 1
+    pulled(bench, 14.0, 0.1)
+    assert bench.control.pulls == 2
+
+
+@pytest.mark.parametrize("load", [-30.0, 25.0, 60.0, 500.0])
+def test_no_pull_asks_for_more_than_the_motor_gives_nor_for_less_than_nothing(bench, load):
+    holding(bench)
+    force_n = pulled(bench, load, 0.5)
+    assert 15.0 < force_n <= PEAK_SHARE * bench.body.torque_limit_nm[bench.motor]
+    assert min(bench.q) >= min(bench.body.lower_rad)
+
+
+def test_an_opening_hand_and_an_empty_one_are_not_tightened(bench):
+    bench.grip(0.1)
+    bench.load_n = 30.0
+    bench.run(2.0)
+    bench.grip(0.0)
+    bench.run(3.0)
+    assert bench.control.pulls == 0
+
+
+def test_a_new_grip_ends_what_a_pull_asked_for(bench):
+    holding(bench)
+    pulled(bench, 20.0, 0.1)
+    bench.grip(0.08)
+    bench.run(2.0)
+    assert bench.q[bench.motor] * bench.hand.opening_per_motor == pytest.approx(0.08, abs=0.004)
