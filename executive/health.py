@@ -29,6 +29,8 @@ COOL_C = 70.0
 """A motor that has tripped has to cool down to this before anything moves again."""
 OVERLOAD_SHARE = 0.15
 """More late periods than this are too many to go on with, once all else makes room."""
+DOWN = ("fallen", "rising")
+"""Modes of a body without a foot that says where it is: its pose has to be found again anyway."""
 JUMP_REST_S = 2.0
 """How long the pose has to be steady after it has jumped."""
 
@@ -211,7 +213,8 @@ class HealthMonitor:
         if body is not None:
             findings += [*_fall(body), *self._heat(body)]
         if world is not None:
-            findings += [*_fix(world, now_s), *self._jump(world, now_s)]
+            place = [*_fix(world, now_s), *self._jump(world, now_s)]
+            findings += [] if body is not None and body.mode in DOWN else place
         if power is not None:
             findings += _battery(power)
         if timing is not None:

@@ -25,7 +25,7 @@ class Level(IntEnum):
     SIT = 5
     """end the task and come to rest"""
     DAMP = 6
-    """the motors damp: the body can no longer be held up"""
+    """the motors damp: the body lies; what it does fails by itself, and may be tried again"""
 
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
@@ -56,6 +56,10 @@ class Health(msgspec.Struct, frozen=True, kw_only=True):
     def level(self) -> Level:
         """The level of the worst finding."""
         return self.findings[0].level if self.findings else Level.OK
+
+    def calls_for(self, level: Level) -> bool:
+        """Whether a finding asks for just this level."""
+        return any(finding.level is level for finding in self.findings)
 
     @property
     def failure(self) -> Failure | None:

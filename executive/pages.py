@@ -12,7 +12,7 @@ from pathlib import Path
 from executive import health
 from executive.evaluation.campaign import SHIPPED, Campaign
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
-from executive.trees.remedies import HELP, REMEDIES, STEP_BACK_M, WAIT_S
+from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot import config
 from robot.bus.topics import BY_NAME
 from robot.errors import CATALOGUE
@@ -30,6 +30,7 @@ WHAT = {
     "fetch_again": "look for the object and take it again",
     "wait": f"stand for {WAIT_S:g} s",
     "step_back": f"walk {100 * STEP_BACK_M:g} cm backwards, then look again",
+    "get_up": "ask a person whether it may, and on `continue` get up and stand",
     "ask": "ask a person, and wait for `continue` or `give up`",
 }
 
@@ -69,7 +70,8 @@ def rules() -> str:
     for code, rule in RULES.items():
         tries = [f"{REMEDIES[remedy][0]} ({times}×)" for remedy, times in rule.tries]
         if tries:
-            asked = HELP[code].format(it="the cup", where="") if "ask" in dict(rule.tries) else ""
+            asks = any(remedy in ASKING for remedy, _ in rule.tries)
+            asked = HELP[code].format(it="the cup", where="") if asks else ""
             rows.append([f"`{code}`", CATALOGUE[code].meaning, "; ".join(tries), asked])
     return _table(
         ["code", "meaning", "what is tried, in this order", "what a person is asked"], rows

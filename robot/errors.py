@@ -139,7 +139,7 @@ CATALOGUE: dict[str, FailureKind] = {
     "place_missed": FailureKind("the object did not stay where it was put", "check the place"),
     "lost_balance": FailureKind("the robot could not keep its balance", "stand it up"),
     # body and system
-    "fallen": FailureKind("the robot lies on the floor", "stand it up, then reset"),
+    "fallen": FailureKind("the robot lies on the floor", "make room, then say 'get up'"),
     "localisation_lost": FailureKind("the robot does not know where it is", "wait, or re-localise"),
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
     "overheated": FailureKind("a motor is too hot", "let it cool down"),

@@ -29,7 +29,7 @@ class Check(Behaviour):
 
 def must_end(board: Blackboard) -> bool:
     """A person asked for a stop, or the robot is too unwell to go on."""
-    return bool(board.read(STOP)) or board.read(HEALTH).level >= Level.SIT
+    return bool(board.read(STOP)) or board.read(HEALTH).calls_for(Level.SIT)
 
 
 def must_return(board: Blackboard) -> bool:
@@ -39,7 +39,7 @@ def must_return(board: Blackboard) -> bool:
 
 def must_hold(board: Blackboard) -> bool:
     """Something is missing without which the robot had better stand still."""
-    return board.read(HEALTH).level >= Level.HOLD
+    return board.read(HEALTH).calls_for(Level.HOLD)
 
 
 def must_pause(board: Blackboard) -> bool:

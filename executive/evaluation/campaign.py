@@ -35,6 +35,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         faults: what strikes, and when (`executive.faults`).
         expect: "recovered", or the codes of failure with which it may end safely; a run that is
             done in truth all the same is better than expected.
+        helped: whether somebody answers every question with "continue".
         damped: whether the motors may damp at the end, and the robot lie.
         truth: what has to be so in the simulator at the end of a run that is done (`sim.judge`).
         limit_s: simulated time after which a run is ended as hanging.
@@ -47,6 +48,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     start: tuple[float, float, float] | None = None
     faults: tuple[dict[str, Any], ...] = ()
     expect: str | tuple[str, ...] = RECOVERED
+    helped: bool = False
     damped: bool = False
     truth: tuple[dict[str, Any], ...] = ()
     limit_s: float = 150.0

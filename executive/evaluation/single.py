@@ -105,10 +105,12 @@ class _Trial:
                 late = runtime.clock.now_s() > end_s
                 return self.killed or late or of.outcome is not None
 
-            def strike() -> None:
+            def on_tick(of: Executive = executive) -> None:
                 injector.tick(runtime.clock.now_s())
+                if self.run.case.helped and of.question:
+                    of.answer("continue")
 
-            loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=strike, until=over)
+            loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=on_tick, until=over)
             if executive.outcome is not None:
                 return executive.outcome.failure
             if not self.killed:

@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from executive.skills.context import SkillContext
 from executive.skills.parameters import BalanceParams
+from executive.skills.rising import get_up
 from executive.skills.script import Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.walking import stand_still
@@ -22,7 +23,7 @@ PUSHED_M_S = 0.15
 
 
 class Balance(ScriptedSkill):
-    """Take a posture, hold it for its time, and stand again."""
+    """Take a posture, hold it for its time, and stand again; to stand, get up if it lies."""
 
     resources = frozenset({"legs"})
 
@@ -35,6 +36,8 @@ class Balance(ScriptedSkill):
     def script(self) -> Script[None]:
         """Take it, hold it, stand."""
         body, wanted = self.body, self.parameters
+        if wanted.mode == "stand":
+            yield from get_up(body)
         if wanted.mode == "one_leg":
             yield from self._one_leg("right" if wanted.side == "right" else "left")
             return

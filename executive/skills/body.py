@@ -67,14 +67,9 @@ class Body:
 
         Gives up when it is missing or old, the body is down, or another controller has taken over.
         """
-        state = self.link.body()
-        if state is None:
-            raise give_up("sensor_silent", "the body has not reported its state yet")
-        age_s = self.now_s - state.stamp_s
-        if age_s > SILENT_AFTER_S:
-            raise give_up("sensor_silent", "the body stopped reporting its state", age_s=age_s)
+        state = self.state_down
         if state.mode == "fallen":
-            raise give_up("fallen", f"the robot fell while {self.phase or 'standing'}")
+            raise self._fell(state)
         if state.mode == "damping" and state.failure is not None:
             raise GaveUp(state.failure)
         before_s, self._since_s = self._since_s, state.since_s
@@ -83,6 +78,25 @@ class Body:
                 "controller_lost", f"the controller died while {self.phase or 'standing'}"
             )
         return state
+
+    @property
+    def state_down(self) -> BodyState:
+        """The body's newest state, even if it lies. Gives up when it is missing or old."""
+        state = self.link.body()
+        if state is None:
+            raise give_up("sensor_silent", "the body has not reported its state yet")
+        age_s = self.now_s - state.stamp_s
+        if age_s > SILENT_AFTER_S:
+            raise give_up("sensor_silent", "the body stopped reporting its state", age_s=age_s)
+        return state
+
+    def _fell(self, state: BodyState) -> GaveUp:
+        """It lies, onto which side, and what it was doing when it fell."""
+        side = str(state.failure.evidence.get("side", "")) if state.failure else ""
+        where = f" {side}" if side else ""
+        if not self.phase:
+            return give_up("fallen", f"the robot lies{where or ' on the floor'}", side=side)
+        return give_up("fallen", f"the robot fell{where} while {self.phase}", side=side)
 
     @property
     def world(self) -> WorldState:

@@ -32,7 +32,7 @@ from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.stage import Stage
 from executive.trees.idioms import Alternatives, in_order
 from executive.trees.parts import Errand
-from executive.trees.remedies import HELP, REMEDIES, Remedy, question
+from executive.trees.remedies import ASKING, HELP, REMEDIES, Remedy, question
 from robot.errors import Failure, failure
 
 PER_STEP, PER_TASK = 6, 14
@@ -96,7 +96,7 @@ RULES: dict[str, Rule] = {
     "place_missed": _first(fetch_again=1, ask=1),
     "lost_balance": _first(wait=1),
     # body and system
-    "fallen": NONE,
+    "fallen": _first(get_up=1),
     "localisation_lost": _first(wait=2, ask=1),
     "sensor_silent": _first(wait=2, ask=1),
     "overheated": NONE,
@@ -184,9 +184,9 @@ class Recover(Behaviour):
             run(step, self._stage, attempt=attempt, path=f"{path}.{number}")
             for number, step in enumerate(steps(self._errand, reason), 1)
         ]
-        if remedy == "ask":
+        if remedy in ASKING:
             asked = question(reason, self._errand)
-            nodes.append(AskForHelp(asked, stage=self._stage, step_id=path))
+            nodes.insert(0, AskForHelp(asked, stage=self._stage, step_id=path))
         nodes.append(run(self._errand, self._stage, attempt=attempt, path=path))
         following = Recover(self._errand, self._stage, self._used, path=self._path)
         parent.extend(self, [in_order(name, nodes), following])
@@ -194,5 +194,5 @@ class Recover(Behaviour):
 
 def unasked() -> list[str]:
     """Codes for which help is asked without a question to ask; there must be none."""
-    asking = [code for code, rule in RULES.items() if any(r == "ask" for r, _ in rule.tries)]
+    asking = [code for code, rule in RULES.items() if any(r in ASKING for r, _ in rule.tries)]
     return [code for code in asking if code not in HELP]

@@ -16,9 +16,10 @@ from executive.skills.parameters import (
 from executive.trees.parts import Errand
 from robot.errors import Failure
 
-Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "ask"]
+Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "get_up", "ask"]
 
 WAIT_S = 3.0
+STEADY_S = 2.0
 STEP_BACK_M = 0.3
 EYE_LEVEL_M = 1.1
 
@@ -60,15 +61,24 @@ def _fetch_again(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
     )
 
 
+def _get_up(_errand: Errand, _reason: Failure) -> tuple[Errand, ...]:
+    params = BalanceParams(mode="stand", duration_s=STEADY_S)
+    return (Errand(name="get up", params=params),)
+
+
 REMEDIES: dict[Remedy, tuple[str, Callable[[Errand, Failure], tuple[Errand, ...]]]] = {
     "retry": ("try again", _retry),
     "wait": ("wait, then try again", _wait),
     "look_again": ("look again, then retry", _look_again),
     "fetch_again": ("fetch it again, then retry", _fetch_again),
     "step_back": ("step back, then retry", _step_back),
+    "get_up": ("get up if allowed, then retry", _get_up),
     "ask": ("ask for help, then retry", _retry),
 }
 """Remedy to its name for people and the steps that come before the next attempt."""
+
+ASKING: frozenset[Remedy] = frozenset({"get_up", "ask"})
+"""Remedies that begin with a question to a person."""
 
 _SHOW = "please put {it} upright where I can see and reach it"
 _CLEAR = "please clear the way"
@@ -94,6 +104,7 @@ HELP: dict[str, str] = {
     "person_not_seen": "please stand where I can see you",
     "localisation_lost": "please see that I can find out where I am",
     "sensor_silent": "please check my sensors",
+    "fallen": "may I get up? Please see that nobody and nothing is near me",
     "hands_full": "please take something out of my hands",
 }
 """Failure code to what a person is asked to do; `{it}` is what the step is about."""

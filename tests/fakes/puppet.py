@@ -157,6 +157,9 @@ class Puppet:
             case m.Stand():
                 self._walk = self._walk_to = None
                 self._begin("legs", command.id, 0.3)
+            case m.GetUp():
+                self.mode = "rising"
+                self._begin("legs", command.id, 1.0)
             case m.OneLeg():
                 self._begin("legs", command.id, 1.0 + command.duration_s)
             case m.MoveArm():

@@ -78,6 +78,16 @@ def test_a_fall_is_worst_of_all(robot):
     assert [finding.level for finding in health.findings] == [Level.DAMP, Level.HOLD]
 
 
+@pytest.mark.parametrize(("mode", "rests"), [("stand", True), ("fallen", False), ("rising", False)])
+def test_a_pose_that_jumps_matters_only_to_who_is_on_his_feet(robot, mode, rests):
+    monitor = HealthMonitor({}, start_s=0.0)
+    body = replace(robot.body(), mode=mode)
+    world = replace(robot.world(), fix_age_s=9.0)
+    monitor.look(1.0, {}, body=body, world=world)
+    health = monitor.look(1.1, {}, body=body, world=replace(world, jumps=1))
+    assert health.calls_for(Level.HOLD) is rests
+
+
 @pytest.mark.parametrize(("hot_c", "level"), [(79, Level.OK), (81, Level.DERATE), (101, Level.SIT)])
 def test_a_hot_motor_is_named(robot, hot_c, level):
     body = replace(robot.body(), temperature_c=(25.0, float(hot_c)))

@@ -60,7 +60,7 @@ def test_a_job_that_gets_on_with_nothing_ends_when_its_recoveries_are_spent():
 
 
 def test_remedies_go_from_local_to_global_and_a_person_comes_last():
-    order = ["retry", "look_again", "fetch_again", "wait", "step_back", "ask"]
+    order = ["retry", "look_again", "fetch_again", "wait", "step_back", "get_up", "ask"]
     assert set(order) == set(REMEDIES)
     for rule in RULES.values():
         names = [remedy for remedy, _ in rule.tries]
@@ -68,6 +68,27 @@ def test_remedies_go_from_local_to_global_and_a_person_comes_last():
         assert "ask" not in names[:-1]
         if "step_back" in names:
             assert set(names[names.index("step_back") + 1 :]) <= {"ask"}
+
+
+def test_a_fallen_robot_gets_up_only_when_a_person_lets_it():
+    rig = Rig({NavigateParams: [Script(code="fallen"), Script()]}).begin(WALK)
+    rig.executive.attended = True
+    rig.tick(100)
+    assert "may I get up" in rig.executive.question
+    assert "get up" not in [
+        event.data["step"] for event in rig.journal.recent if event.event == "step"
+    ]
+    rig.executive.answer("continue")
+    assert rig.run() is True
+    steps = [event.data["step"] for event in rig.journal.recent if event.event == "step"]
+    assert steps == ["walk", "get up", "walk"]
+
+
+def test_a_fallen_robot_that_nobody_lets_up_stays_down():
+    rig = Rig({NavigateParams: [Script(code="fallen"), Script()]}).begin(WALK)
+    assert rig.run().code == "fallen"
+    steps = [event.data["step"] for event in rig.journal.recent if event.event == "step"]
+    assert steps == ["walk"]
 
 
 def test_there_is_a_question_for_every_code_that_asks_for_help():

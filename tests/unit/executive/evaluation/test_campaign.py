@@ -13,6 +13,7 @@ FAULTS = (
     "missed grasp", "object knocked over", "object dropped while carrying",
     "object moved after it was seen", "object gone", "place occupied", "path blocked for a while",
     "path blocked for good", "chair pushed into the way", "push of 10 N·s while walking",
+    "knocked down while walking", "knocked down and allowed to get up",
     "push of 10 N·s while reaching", "camera silent", "lidar silent", "localisation jump",
     "controller killed", "executive killed", "planner over budget", "a person steps in front",
     "hot motor", "low battery", "disk full",
