@@ -6,12 +6,12 @@ for, times a margin, but never less than it was told, nor more than the motor be
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
-from robot.se3 import SE3, Array
+from robot.se3 import SE3, Array, Vector3
 
 OPENING_DONE_M = 0.004
 STILL_M_S = 0.004
@@ -46,7 +46,7 @@ class HandControl:
         self._reference = self.target
         self._force_n = self.hand.max_force_n
         self._most_n = PEAK_SHARE * float(body.torque_limit_nm[self.motor])
-        self._pull_N: Array = np.zeros(3)
+        self._pull_n: Vector3 = (0.0, 0.0, 0.0)  # in the axes of N
         self._tight_n = 0.0
         self._tight_s = 0.0
         self.pulls = 0
@@ -77,14 +77,13 @@ class HandControl:
         `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
         """
         self._time_s += dt_s
-        pull_N = -rotation_NW @ state.wrist_wrench[self.row, :3]
-        pull_N[2] -= self._weight_n
-        load = float(pull_N[2])
+        x, y, z = rotation_NW.dot(state.wrist_wrench[self.row, :3]).tolist()
+        load = -z - self._weight_n
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
         step = CLOSE_RATE_M_S * dt_s
         self._reference += max(-step, min(step, self.target - self._reference))
-        self._tighten(dt_s, pull_N)
+        self._tighten(dt_s, (-x, -y, load))
         force_n = max(self._force_n, self._tight_n)
         reach = force_n / self._kp
         if self._tight_n:
@@ -93,15 +92,19 @@ class HandControl:
         self._report(dt_s, q, qd)
         return self._reference
 
-    def _tighten(self, dt_s: float, pull_N: Array) -> None:
-        """Note how much harder to grip what is pulled at, and for how long."""
-        self._pull_N += min(1.0, dt_s / PULL_TIME_S) * (pull_N - self._pull_N)
+    def _tighten(self, dt_s: float, pull_n: Vector3) -> None:
+        """Note how much harder to grip what is pulled at, and for how long; `pull_n` is in N."""
         self._tight_s -= dt_s
         if self._tight_s <= 0.0:
             self._tight_n = 0.0
-        holds = self.activity.status == "done" and self.activity.detail == STOPPED
-        needed_n = MARGIN * float(np.linalg.norm(self._pull_N)) / (2.0 * FRICTION)
-        if not holds or needed_n <= max(self._force_n, self._tight_n):
+        if self.activity.status != "done" or self.activity.detail != STOPPED:
+            self._pull_n = (0.0, 0.0, 0.0)
+            return  # it holds nothing
+        gain = min(1.0, dt_s / PULL_TIME_S)
+        x, y, z = (was + gain * (now - was) for was, now in zip(self._pull_n, pull_n, strict=True))
+        self._pull_n = (x, y, z)
+        needed_n = MARGIN * math.hypot(x, y, z) / (2.0 * FRICTION)
+        if needed_n <= max(self._force_n, self._tight_n):
             return
         self.pulls += not self._tight_n
         self._tight_n = min(self._most_n, needed_n)
