@@ -27,11 +27,11 @@ from intents.vocabulary import Vocabulary
 
 OPTIONS: dict[str, Any] = {
     "lm": None, "bestpath": False, "loglevel": "FATAL",
-    "compallsen": True, "beam": 1e-60, "pbeam": 1e-60, "wbeam": 1e-40, "wip": 0.05, "lw": 4.0,
+    "compallsen": True, "beam": 1e-80, "pbeam": 1e-80, "wbeam": 1e-50, "wip": 0.05, "lw": 4.0,
 }  # fmt: skip
 """Of the decoder: all senones scored, wide beams, few insertions; no lattice, which loses words."""
 USUAL = {
-    "the": 15.0, "me": 30.0, "them": 0.3, "stop": 4.0, "halt": 2.0, "freeze": 2.0,
+    "the": 15.0, "me": 80.0, "them": 0.3, "stop": 4.0, "halt": 2.0, "freeze": 2.0,
     "emergency": 2.0,
 }  # fmt: skip
 """How much likelier a word is than another that may stand in its place."""
@@ -39,10 +39,12 @@ SAY_OF_GRAMMAR = 8.0
 """The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
-SHORT_S = 1.5
+SHORT_S = 1.7
 """What is no longer may be a cry to stop, whatever else it is like."""
-FOR_A_CRY = 1.7
-"""How much worse than a command a cry may fit a short utterance, to be heeded [nat/frame]."""
+FEW_WORDS = 2
+FOR_A_CRY = {True: 3.0, False: 0.5}
+"""How much worse than a command (of few words or not) a cry may fit a short utterance, to be heeded
+[nat/frame]: a cry is misheard as one or two words, hardly as five that happen to fit."""
 WORST_CRY = -6.5
 """How badly a cry may fit where no command does [nat/frame]."""
 _SHORT_BYTES = round(2 * RATE_HZ * SHORT_S)
@@ -70,7 +72,9 @@ class Sphinx:
         fits = self._decoded(data, REPLY if replying else SPOKEN)
         if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
             cry = self._decoded(data, CRY)
-            if cry and mean_score(cry) > (mean_score(fits) if fits else WORST_CRY) - FOR_A_CRY:
+            needed = mean_score(fits) if fits else WORST_CRY
+            few = len(fits) <= FEW_WORDS and not replying  # a "yes" is short, too
+            if cry and mean_score(cry) > needed - FOR_A_CRY[few]:
                 fits = cry
         return Heard(
             text=_text(fits),
