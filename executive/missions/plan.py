@@ -1,8 +1,10 @@
 """A dry run: every step with its path, about how long it takes, and whether the way is free.
 
-Times are typical ones, measured in `--fast` runs (docs/missions.md): the planned way over a typical
-speed, and a fixed span for what is done there. The robot's place is followed from step to step;
-things are taken to be where the world file puts them (oracle), which a real robot has to find out.
+The planner is asked for every way, and for every pick and place: which hand, where to stand, which
+grasp, which spot. A way takes as long as it takes a point that is led along it
+(`executive.missions.pacing`), what is done at its end a typical time, measured in `--fast` runs
+(docs/missions.md). The robot and the things are followed from step to step; they are taken to begin
+where the world file puts them (oracle), which a real robot has to find out.
 What turns out only on the way (a branch's answer, the rounds of a `while`, recoveries) is named,
 not guessed: a branch counts with its longer side, a `while` with one round.
 """
@@ -10,26 +12,27 @@ not guessed: a branch counts with its longer side, a `while` with one round.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from itertools import pairwise
 
 import msgspec
 
+from executive.missions.hands import Hands
+from executive.missions.pacing import walking_s
 from executive.request import Setting
 from executive.skills import parameters as k
 from executive.skills.obstructions import clearance_m
 from executive.skills.visiting import AT_PERSON_M, ROOM_M, stances_around, stances_at
+from executive.skills.walking import CLEARANCE_M
 from executive.trees import parts as p
 from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import Place
-from robot.planning.requests import BasePath, BasePathRequest, Stance, Surroundings
-from robot.planning.solve import Solver
-from robot.se3 import SE3, wrap_angle
+from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PlacePlan, Stance
+from robot.se3 import SE3
 
 WALK_M_S, TURN_RAD_S = 0.23, 0.38
+"""Where no way is planned: a step by so much, or one too many."""
 BEGIN_S = 1.5
-"""Of every step on foot: planning, tucking the arms in, coming to a stand."""
+"""Of such a step: getting under way, coming to a stand."""
 PICK_S, PLACE_S, SEARCH_S, LOOK_S, SAY_S = 14.0, 14.0, 4.0, 1.1, 0.05
 """What is done on the spot, the walk there left out."""
 BALANCE_S = {"stand": 0.5, "squat": 2.5, "one_leg": 2.0, "lean": 2.1, "hold": 0.5}
@@ -107,11 +110,10 @@ class _Forecaster:
     def __init__(self, where: Setting, done: frozenset[str], rows: list[Row]) -> None:
         self._where, self._done, self._rows = where, done, rows
         self._knowledge = where.knowledge
-        self._around = Surroundings(map=where.world_map)
-        self._solver: Solver | None = None
-        self._ways: dict[tuple[Stance, Stance], BasePath | Failure] = {}
+        self._ways: dict[tuple[Stance, Stance, bool], float | Failure] = {}
         self._stance: SE3 = entry.attribute("sim.atlas:start_pose")(where.world)
         self._on: dict[str, str] = {item.id: item.on for item in where.world.objects}
+        self._hands = Hands(where)
 
     def part(self, part: p.Part, path: str, depth: int) -> float:
         """Add the rows of a part; returns how long it takes [s]."""
@@ -188,13 +190,13 @@ class _Forecaster:
             case k.NavigateParams():
                 return self._navigate(params)
             case k.PickParams():
-                span_s, problem = self._go(self._place_of(params.object_id))
+                place = self._place_of(params.object_id)
                 self._on.pop(params.object_id, None)
-                return span_s + PICK_S, problem
+                return self._handle(self._hands.pick(params, self._at), place, PICK_S)
             case k.PlaceParams():
-                span_s, problem = self._go(self._knowledge.place(params.place_id or ""))
+                place = self._knowledge.place(params.place_id or "")
                 self._on[params.object_id] = params.place_id or ""
-                return span_s + PLACE_S, problem
+                return self._handle(self._hands.place(params, place, self._at), place, PLACE_S)
             case k.SearchParams():
                 return self._search(params)
             case k.LookParams():
@@ -205,6 +207,15 @@ class _Forecaster:
                 return params.duration_s or 0.0, ""
             case _:
                 return SAY_S, ""
+
+    def _handle(
+        self, plan: PickPlan | PlacePlan | Failure | None, place: Place | None, span_s: float
+    ) -> tuple[float, str]:
+        """Walk to where the planner would stand (None: it was not asked), and do it there."""
+        if isinstance(plan, Failure):
+            return span_s, plan.cause
+        walked_s, problem = self._walk([plan.standoff]) if plan else self._go(place)
+        return walked_s + span_s, problem
 
     def _search(self, params: k.SearchParams) -> tuple[float, str]:
         asked = [self._knowledge.place(place_id) for place_id in params.place_ids]
@@ -237,39 +248,41 @@ class _Forecaster:
 
     def _walk(self, goals: list[Stance]) -> tuple[float, str]:
         """To the first of some stances that a way leads to."""
-        x_m, y_m, _ = self._stance.p
-        start = (round(x_m, 3), round(y_m, 3), round(self._stance.yaw_rad, 3))
-        problem = ""
+        start, problem = self._at, ""
         for goal in sorted(goals, key=self._is_narrow):  # as skills do
             way = self._way(start, goal)
             if isinstance(way, Failure):
                 problem = problem or way.cause
                 continue
             self._stance = SE3.from_xy_yaw(*goal)
-            turn_rad = sum(_turns([start, *way.waypoints]))
-            return BEGIN_S + way.length_m / WALK_M_S + 0.3 * turn_rad / TURN_RAD_S, ""
+            return way, ""
         return BEGIN_S, problem or "no way leads there"
+
+    @property
+    def _at(self) -> Stance:
+        """Where the robot stands by now."""
+        x_m, y_m, _ = self._stance.p
+        return (round(x_m, 3), round(y_m, 3), round(self._stance.yaw_rad, 3))
 
     def _is_narrow(self, stance: Stance) -> bool:
         things = self._knowledge.map.obstacles
         return any(clearance_m(stance[:2], thing) < ROOM_M for thing in things)
 
-    def _way(self, start: Stance, goal: Stance) -> BasePath | Failure:
-        known = self._ways.get((start, goal))
+    def _way(self, start: Stance, goal: Stance) -> float | Failure:
+        """How long the way takes [s], or why there is none."""
+        carrying = self._hands.carrying
+        known = self._ways.get((start, goal, carrying))
         if known is not None:
             return known
         if len(self._ways) >= MAX_PATHS:
-            length_m = math.dist(start[:2], goal[:2])
-            return BasePath(waypoints=(goal,), length_m=length_m, clearance_m=0.0)
-        self._solver = self._solver or Solver(self._where.description)
-        request = BasePathRequest(start=start, goal=goal, around=self._around)
-        way = self._solver.solve(request)
+            return BEGIN_S + math.dist(start[:2], goal[:2]) / WALK_M_S
+        request = BasePathRequest(
+            start=start, goal=goal, around=self._hands.around(), clearance_m=CLEARANCE_M
+        )
+        way = self._hands.solver.solve(request)
         assert isinstance(way, BasePath | Failure)
-        self._ways[start, goal] = way
+        description = self._where.description
+        if isinstance(way, BasePath):
+            way = walking_s(start, way, description, carrying=carrying)
+        self._ways[start, goal, carrying] = way
         return way
-
-
-def _turns(stances: list[Stance]) -> Iterator[float]:
-    """How far is turned between stances [rad]."""
-    for before, after in pairwise(stances):
-        yield abs(wrap_angle(after[2] - before[2]))

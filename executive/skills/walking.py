@@ -20,8 +20,9 @@ from executive.skills.stepping import is_at_stance, miss, step_to
 from executive.skills.support import surroundings
 from executive.skills.zone import in_the_path
 from robot.messages import Obstacle, Stand, Walk
+from robot.model.description import Walking
 from robot.planning.requests import BasePath, BasePathRequest, Stance
-from robot.se3 import wrap_angle
+from robot.se3 import SE3, wrap_angle
 
 REPLANS = 3
 CRUISE = 0.8
@@ -118,13 +119,10 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     Returns what blocks it. The body is left walking: step on, or stand still.
     """
     gait = body.description.walking
-    part = CRUISE_CARRYING if body.context.holdings.all() else CRUISE
-    if path.clearance_m < NARROW_M:
-        part = CRUISE_NARROW
-    speed_m_s = part * gait.max_forward_m_s
+    speed_m_s = cruise_m_s(path, gait, carrying=bool(body.context.holdings.all()))
     follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
     watch = _Watch(body, follower.total_m)
-    while not _arrived(body, follower, path.waypoints[-1]):
+    while not is_there(body.X_WS, follower, path.waypoints[-1]):
         check_grips(body)
         twist = follower.twist(body.X_WS)
         if follower.done:
@@ -235,9 +233,15 @@ def _is_near(body: Body, goal: Stance) -> bool:
     return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD
 
 
-def _arrived(body: Body, follower: Follower, goal: Stance) -> bool:
+def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> float:
+    """How fast a path is walked where it is straight."""
+    part = CRUISE_CARRYING if carrying else CRUISE
+    return (CRUISE_NARROW if path.clearance_m < NARROW_M else part) * gait.max_forward_m_s
+
+
+def is_there(X_WS: SE3, follower: Follower, goal: Stance) -> bool:
     """Whether exact steps should take over: near the goal, facing as it does, not beside it."""
-    X_WS, X_WS_goal = body.X_WS, pose_of(goal)
+    X_WS_goal = pose_of(goal)
     off_m, off_rad = miss(X_WS, X_WS_goal)
     if off_m > HAND_OVER_M or off_rad > HAND_OVER_RAD:
         return False
