@@ -13,10 +13,13 @@ import time
 import warnings
 from typing import Any
 
+import numpy as np
 import pocketsphinx
+from numpy.typing import NDArray
 
 from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.automaton import Automaton
+from intents.speech.endpointing import FRAME
 from intents.speech.frontend import prepared
 from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce
@@ -91,16 +94,18 @@ class Sphinx:
         self._decoder.start_utt()
         self._decoder.process_raw(data, full_utt=True)
         self._decoder.end_utt()
-        return self._fits() if self._decoder.hyp() else []
+        return self._fits(_power(data)) if self._decoder.hyp() else []
 
-    def _fits(self) -> list[Fit]:
+    def _fits(self, power: NDArray[np.float64]) -> list[Fit]:
         """How each word of the sentence found fits the sound; pauses and noises are left out."""
+        total = max(float(power.sum()), 1e-12)
         return [
             Fit(
                 word=re.sub(r"\(\d+\)$", "", segment.word),
                 frames=segment.end_frame - segment.start_frame + 1,
                 score=_UNSCALED * math.log(max(segment.ascore, 1e-300)),
                 chance=_UNSCALED * math.log(max(segment.lscore, 1e-300)),
+                power=float(power[segment.start_frame : segment.end_frame + 1].sum()) / total,
             )
             for segment in self._decoder.seg()
             if segment.word[0] not in "<[(+"
@@ -117,6 +122,12 @@ class Sphinx:
             self._decoder.add_fsg(root, _fsg(self._decoder, root, automaton))
             self._compiled.add(root)
         self._decoder.activate_search(root)
+
+
+def _power(data: bytes) -> NDArray[np.float64]:
+    """The mean square of each frame of an utterance for the decoder."""
+    samples = np.frombuffer(data, "<i2").astype(np.float64)
+    return np.mean(samples[: len(samples) // FRAME * FRAME].reshape(-1, FRAME) ** 2, axis=1)
 
 
 def _text(fits: list[Fit]) -> str:

@@ -120,11 +120,24 @@ def test_the_frontend_cuts_levels_and_never_overflows():
     assert prepared(np.zeros(RATE_HZ, np.float32)) == b""
 
 
-def fit(score=-5.0, frames=30, chance=-0.5):
-    return Fit(word="cup", frames=frames, score=score * frames, chance=chance)
+def fit(score=-5.0, frames=30, chance=-0.5, power=0.33):
+    return Fit(word="cup", frames=frames, score=score * frames, chance=chance, power=power)
 
 
 def test_doubt_grows_as_words_fit_worse():
     doubts = [doubt([fit(), fit(score=score), fit()]) for score in (-4, -6, -8, -12, -100)]
     assert doubts == sorted(doubts)
     assert doubts[0] < 1.0 < doubts[-1] <= 2.0
+
+
+def test_doubt_grows_with_what_no_word_accounts_for():
+    doubts = [doubt([fit(power=power)] * 3) for power in (0.33, 0.3, 0.25, 0.1)]
+    assert doubts == sorted(doubts)
+    assert doubts[0] < 1.0 < doubts[-1]
+
+
+def test_a_pause_between_words_makes_nothing_doubtful(recogniser):
+    spoken = sound("command")
+    middle = len(spoken) // 2 + int(np.abs(spoken[len(spoken) // 2 :][:8000]).argmin())
+    halves = [in_noise(half, 40) for half in (spoken[:middle], spoken[middle:])]
+    assert recogniser.recognise(np.concatenate(halves)).doubt < 1.0
