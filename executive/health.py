@@ -326,6 +326,8 @@ def _fall(body: BodyState) -> list[Finding]:
     if body.mode == "fallen":
         reason = body.failure or failure("fallen", "the robot lies on the floor")
         return [Finding(name="fall", level=Level.DAMP, failure=reason)]
+    if body.mode == "damping" and body.failure is not None and body.failure.code == "lost_balance":
+        return [Finding(name="fall", level=Level.DAMP, failure=body.failure)]
     if body.failure is not None:
         return [Finding(name="controller", level=Level.SIT, failure=body.failure)]
     return []

@@ -19,11 +19,12 @@ LEAN_RAD = 0.35
 LEAN_BACK_RAD = -0.2
 TURN_RAD = 0.5
 SHIFT_S = 8.0
+STANDING = ("stand", "get_up", "hold")
 PUSHED_M_S = 0.15
 
 
 class Balance(ScriptedSkill):
-    """Take a posture, hold it for its time, and stand again; to stand, get up if it lies."""
+    """Take a posture, hold it for its time, and stand again."""
 
     resources = frozenset({"legs"})
 
@@ -36,12 +37,12 @@ class Balance(ScriptedSkill):
     def script(self) -> Script[None]:
         """Take it, hold it, stand."""
         body, wanted = self.body, self.parameters
-        if wanted.mode == "stand":
+        if wanted.mode == "get_up":
             yield from get_up(body)
         if wanted.mode == "one_leg":
             yield from self._one_leg("right" if wanted.side == "right" else "left")
             return
-        body.phase = "standing" if wanted.mode in ("stand", "hold") else f"going to {wanted.mode}"
+        body.phase = "standing" if wanted.mode in STANDING else f"going to {wanted.mode}"
         if wanted.mode == "squat":
             height_m = SQUAT * body.description.walking.base_height_m
             yield from stand_still(body, height_m=height_m)

@@ -10,7 +10,7 @@ import msgspec
 from robot.messages import Side
 from robot.se3 import SE3, Vector3
 
-BalanceMode = Literal["stand", "squat", "one_leg", "lean", "hold"]
+BalanceMode = Literal["stand", "get_up", "squat", "one_leg", "lean", "hold"]
 GestureKind = Literal[
     "wave", "point", "nod", "shake_head", "bow",
     "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
@@ -110,7 +110,7 @@ class SearchParams(Parameters, frozen=True, kw_only=True):
 
 
 class BalanceParams(Parameters, frozen=True, kw_only=True):
-    """Take a posture and hold it.
+    """Take a posture and hold it. To stand, only "get_up" leaves the floor if the robot lies there.
 
     `side` is the leg stood on, or with "lean" the side leant to; a lean without one is forward.
     """

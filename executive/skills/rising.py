@@ -8,6 +8,7 @@ from executive.skills.script import Script, give_up
 from robot.messages import GetUp, Side
 
 RISE_LIMIT_S = 120.0
+GOING_DOWN_S = 3.0
 
 
 def get_up(body: Body) -> Script[None]:
@@ -16,6 +17,9 @@ def get_up(body: Body) -> Script[None]:
     What the hands held counts as lost: they let go of it before the next step looks for it.
     Gives up with `fallen`.
     """
+    down_s = body.now_s + GOING_DOWN_S
+    while body.state_down.mode == "damping" and body.now_s < down_s:
+        yield
     if body.state_down.mode != "fallen":
         return
     body.phase = "getting up"

@@ -94,7 +94,7 @@ RULES: dict[str, Rule] = {
     "hands_full": _first(ask=1),
     "arm_stalled": _first(retry=1, step_back=1, ask=1),
     "place_missed": _first(fetch_again=1, ask=1),
-    "lost_balance": _first(wait=1),
+    "lost_balance": _first(wait=1, get_up=1),
     # body and system
     "fallen": _first(get_up=1),
     "localisation_lost": _first(wait=2, ask=1),

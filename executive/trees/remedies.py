@@ -62,7 +62,7 @@ def _fetch_again(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
 
 
 def _get_up(_errand: Errand, _reason: Failure) -> tuple[Errand, ...]:
-    params = BalanceParams(mode="stand", duration_s=STEADY_S)
+    params = BalanceParams(mode="get_up", duration_s=STEADY_S)
     return (Errand(name="get up", params=params),)
 
 
@@ -82,6 +82,7 @@ ASKING: frozenset[Remedy] = frozenset({"get_up", "ask"})
 
 _SHOW = "please put {it} upright where I can see and reach it"
 _CLEAR = "please clear the way"
+_LEAVE = "may I get up? Please see that nobody and nothing is near me"
 
 HELP: dict[str, str] = {
     "no_path": _CLEAR,
@@ -104,7 +105,8 @@ HELP: dict[str, str] = {
     "person_not_seen": "please stand where I can see you",
     "localisation_lost": "please see that I can find out where I am",
     "sensor_silent": "please check my sensors",
-    "fallen": "may I get up? Please see that nobody and nothing is near me",
+    "lost_balance": _LEAVE,
+    "fallen": _LEAVE,
     "hands_full": "please take something out of my hands",
 }
 """Failure code to what a person is asked to do; `{it}` is what the step is about."""

@@ -166,7 +166,9 @@ def _balance(goal: goals.Balance, _scene: Scene) -> Part:
     if goal.mode == "sit":
         raise cannot("unsupported", "this robot cannot sit down yet", suggestion="let it squat")
     duration_s = 3.0 if goal.duration_s is None else goal.duration_s
-    params = BalanceParams(mode=goal.mode, side=goal.side, duration_s=duration_s)
+    rises = goal.mode == "stand" and goal.duration_s is None  # "get up", "stand up"
+    mode = "get_up" if rises else goal.mode
+    params = BalanceParams(mode=mode, side=goal.side, duration_s=duration_s)
     words = {"stand": "stand", "squat": "squat", "one_leg": "stand on one leg", "lean": "lean"}
     return Errand(name=f"{words[goal.mode]} for {duration_s:g} s", params=params)
 

@@ -28,6 +28,8 @@ LYING = 0.65
 UPRIGHT = 0.5
 SQUAT_UPRIGHT = 0.9
 FLAT = 0.97
+STILL_RAD_S, REST_S, REST_LIMIT_S = 0.3, 0.5, 4.0
+"""Joints and trunk slower than this for so long lie still; longer than the limit nobody waits."""
 LEVEL_M = 0.02
 EDGE_M = 0.02
 """How far inside the ends of the soles the centre of mass has to be."""
@@ -48,50 +50,61 @@ class GettingUp:
 
     Attributes:
         outcome: "on its feet" when the whole body may take over.
+        resting: whether the motors are to damp until the body lies still.
         q, qd: targets of the motors, shape (n,).
         stage: what it does, for people.
     """
 
-    def __init__(self, body: BodyModel, q: Array, up_B: Array) -> None:
-        """Begin from measured joints, shape (n,), as the robot lies."""
+    def __init__(self, body: BodyModel) -> None:
+        """Begin by lying still."""
         plan = body.description.getting_up
         assert plan is not None
         self.body = body
         self.outcome: Outcome = "running"
-        self.q: Array = q.copy()
+        self.resting = True
+        self.q: Array = np.zeros(body.count)
         self.qd: Array = np.zeros(body.count)
         self.stage = ""
         self._plan = plan
         self._tries = 0
         self._keyframes: list[Keyframe] = []
         self._goal = self._from = self.q
-        self._duration_s = self._end_s = self._time_s = 0.0
-        self._choose(up_B, q)
+        self._duration_s = self._end_s = self._time_s = self._still_s = 0.0
 
-    def update(self, dt_s: float, dynamics: Dynamics, q: Array) -> None:
-        """Advance by `dt_s`; `q` are the measured joints, shape (n,)."""
+    def update(self, dt_s: float, dynamics: Dynamics, q: Array, qd: Array) -> None:
+        """Advance by `dt_s`; `q` and `qd` are the measured joints, shape (n,)."""
         self._time_s += dt_s
+        up_B = dynamics.data.xmat[self.body.base_body].reshape(3, 3)[2]
+        if self.resting:
+            turning = float(np.abs(dynamics.data.qvel[3:6]).max())
+            still = max(turning, float(np.abs(qd).max())) < STILL_RAD_S
+            self._still_s = self._still_s + dt_s if still else 0.0
+            if self._still_s >= REST_S or self._time_s >= REST_LIMIT_S:
+                self._choose(up_B, q)
+            return
         if self._time_s < self._end_s:
             self._interpolate()
             return
-        up_B = dynamics.data.xmat[self.body.base_body].reshape(3, 3)[2]
         if self._keyframes and _so(self._keyframes[0].needs, up_B):
             self._next()
         elif not self._keyframes and on_its_feet(dynamics, self.body):
             self.outcome = "on its feet"
             self.qd[:] = 0.0
-        elif self._tries < self._plan.tries:
-            self._choose(up_B, q)
         else:
-            self.outcome = "failed"
+            self._choose(up_B, q)
 
     def miss(self) -> None:
         """What is under way cannot go on: look again how the robot lies."""
-        self._keyframes, self._end_s = [], 0.0
+        self.resting = True
+        self._time_s = self._still_s = 0.0
 
     def _choose(self, up_B: Array, q: Array) -> None:
         """Begin the motion for how the robot lies."""
+        if self._tries == self._plan.tries:
+            self.outcome = "failed"
+            return
         self._tries += 1
+        self.resting = False
         motions = self._plan.motions
         over = motions.left if up_B[1] <= 0.0 else motions.right
         self._keyframes = list(motions.front if up_B[0] < -LYING else over)

@@ -54,6 +54,7 @@ BUS_PERIOD_S = 0.002
 FALLEN_TILT_RAD = 0.9
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
+STEADY_RAD_S = 1.0
 UNSOLVED_TO_DAMP = 20
 TAKE_OVER_S = 0.1
 """A robot whose controller died is held up by the next one if that comes so soon, else it damps."""
@@ -219,7 +220,7 @@ class ControlLoop:
 
     def _get_up(self, command: GetUp) -> None:
         """Begin to get up; refused on the feet, and by a robot that knows no way."""
-        down = self.mode in ("fallen", "damping") and self._tilt() > UPRIGHT_TILT_RAD
+        down = self.mode == "fallen" or (self.mode == "damping" and self._lies())
         able = self.description.getting_up is not None
         if not down or not able:
             detail = "this robot knows no way to get up" if down else "it does not lie on the floor"
@@ -229,7 +230,7 @@ class ControlLoop:
         self._failure = None
         for side in tuple(self._payload):
             self._carry(side, 0.0)
-        self._getting_up = GettingUp(self.body, self._state.q, self._up_B())
+        self._getting_up = GettingUp(self.body)
         self.legs.activity = Activity(id=command.id, status="running")
         self.mode = "rising"
 
@@ -256,9 +257,12 @@ class ControlLoop:
             return False
         if self.estimator.p[2] < FALLEN_HEIGHT_SHARE * self._height():
             return False
-        self._failure = None
+        if float(np.abs(self._state.gyro_rad_s).max()) > STEADY_RAD_S:
+            return False  # on its way down, where gravity cannot be felt
         self.limits.reset()
         self._start(self._state)
+        if self.mode == "stand":
+            self._failure = None
         return self.mode == "stand"
 
     def _carry(self, side: Side, mass_kg: float) -> None:
@@ -339,7 +343,7 @@ class ControlLoop:
     def _rise(self, rising: GettingUp, dt_s: float, state: MotorState) -> MotorCommand:
         """Play the motions of getting up; on its feet, hand over to the whole body."""
         body = self.body
-        rising.update(dt_s, self.dynamics, state.q)
+        rising.update(dt_s, self.dynamics, state.q, state.qd)
         if rising.outcome == "on its feet":
             activity, self._getting_up = self.legs.activity, None
             self._start(state)
@@ -347,6 +351,7 @@ class ControlLoop:
             self.legs.stand(Stand(stamp_s=state.stamp_s, id=activity.id))
         elif rising.outcome == "failed":
             self._fall(f"the robot lies {towards(self._up_B())} and did not get up")
+        if rising.resting or self.mode == "fallen":
             return MotorCommand.damping(body.count, state.stamp_s, body.kd)
         zero = np.zeros(body.count)
         return MotorCommand(
@@ -393,12 +398,19 @@ class ControlLoop:
         """The world's up in the base's axes, shape (3,)."""
         return self.estimator.X_NB().rotation()[2]
 
+    def _lies(self) -> bool:
+        """Whether damped legs have let the body down; by the joints, wherever it is."""
+        base = float(self.dynamics.data.xpos[self.body.base_body, 2])
+        lower = min(float(sole[2]) for sole in self.dynamics.sole_position)
+        low = base - lower < FALLEN_HEIGHT_SHARE * self._height()
+        return low or self._tilt() > UPRIGHT_TILT_RAD
+
     def _update_mode(self) -> None:
         if self.mode in ("damping", "fallen"):
             self._getting_up = None
-        gave_up = self.mode == "damping" and self._failure is not None
-        down = self.mode in ("damping", "fallen") and not gave_up
-        if down or self._getting_up is not None:
+            if self.mode == "damping" and self._failure is not None and self._lies():
+                self._fall(f"the robot went down {towards(self._up_B())}: {self._failure.cause}")
+        if self.mode in ("damping", "fallen") or self._getting_up is not None:
             return
         tilt = self._tilt()
         height = float(self.estimator.p[2])
@@ -408,7 +420,7 @@ class ControlLoop:
                 f"the robot falls {towards(self._up_B())}: the trunk leans "
                 f"{math.degrees(tilt):.0f} degrees, {height:.2f} m above the floor"
             )
-        elif not gave_up and (self.mode != "rising" or self.legs.activity.status == "done"):
+        elif self.mode != "rising" or self.legs.activity.status == "done":
             self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
 
     def _fall(self, why: str) -> None:

@@ -80,3 +80,20 @@ def test_who_stands_is_not_told_to_get_up():
     assert rig.loop.state().activities["legs"].status == "failed"
     assert rig.run(0.5)
     assert rig.loop.mode == "stand"
+
+
+def test_motors_that_gave_up_let_it_down_and_it_gets_up():
+    rig = Rig(seed=3)
+    rig.run(0.5)
+    rig.plant.push(25.0, math.radians(90.0))
+    rig.run(0.3)
+    rig.loop.trip("something broke")
+    assert not rig.run(0.3)
+    rig.send(Stand)  # on its way down: no
+    assert rig.loop.mode == "damping"
+    assert rig.loop.state().failure.code == "lost_balance"
+    lie(rig)
+    assert "something broke" in rig.loop.state().failure.cause
+    get_up(rig)
+    assert rig.loop.mode == "stand"
+    assert rig.upright

@@ -19,20 +19,21 @@ def sent(stage, kind):
 
 def test_who_lies_gets_up_to_stand(stage):
     stage.puppet.mode = "fallen"
-    report = stage.run(BalanceParams(mode="stand", duration_s=0.5))
+    report = stage.run(BalanceParams(mode="get_up", duration_s=0.5))
     assert report.status == "succeeded"
     assert len(sent(stage, GetUp)) == 1
     assert stage.puppet.mode == "stand"
 
 
 def test_who_stands_does_not_get_up(stage):
-    assert stage.run(BalanceParams(mode="stand", duration_s=0.5)).status == "succeeded"
+    assert stage.run(BalanceParams(mode="get_up", duration_s=0.5)).status == "succeeded"
     assert sent(stage, GetUp) == []
 
 
-def test_only_to_stand_is_the_floor_left_and_the_cure_is_named(stage):
+@pytest.mark.parametrize("mode", ["squat", "stand"])
+def test_only_who_is_told_to_leaves_the_floor_and_the_cure_is_named(stage, mode):
     stage.puppet.mode = "fallen"
-    report = stage.run(BalanceParams(mode="squat"))
+    report = stage.run(BalanceParams(mode=mode))
     assert report.failure.code == "fallen"
     assert "get up" in report.failure.suggestion
     assert sent(stage, GetUp) == []
@@ -46,14 +47,14 @@ def test_a_body_that_does_not_get_up_has_fallen(stage, monkeypatch):
         puppet._activities["legs"] = Activity(id=command.id, status="failed", detail="it slid")
 
     monkeypatch.setattr(Puppet, "send", refuse)
-    report = stage.run(BalanceParams(mode="stand"))
+    report = stage.run(BalanceParams(mode="get_up"))
     assert report.failure.code == "fallen"
     assert "it slid" in report.failure.cause
 
 
 def test_a_stop_on_the_way_up_tells_the_body_at_once(stage):
     stage.puppet.mode = "fallen"
-    stage.run(BalanceParams(mode="stand"), until_phase="getting up")
+    stage.run(BalanceParams(mode="get_up"), until_phase="getting up")
     assert stage.puppet.mode == "rising"
     stage.skill.stop(stage.puppet.time_s)
     assert len(sent(stage, Stand)) == 1  # any command to the legs ends the way up

@@ -23,6 +23,15 @@ def lay(dynamics, roll_rad, pitch_rad):
     return X_NB.rotation()[2]
 
 
+def begun(dynamics, q, side):
+    """Lying on a side, still, with a motion under way."""
+    lay(dynamics, *SIDES[side])
+    rising = GettingUp(dynamics.body)
+    while rising.resting:
+        rising.update(DT_S, dynamics, q, np.zeros(len(q)))
+    return rising
+
+
 @pytest.fixture
 def q(juno):
     return np.array(juno.posture("nominal"))
@@ -35,10 +44,10 @@ def test_it_is_said_how_it_lies(dynamics, side):
 
 @pytest.mark.parametrize("side", SIDES)
 def test_every_motion_stays_inside_the_joints_ranges_and_speeds(dynamics, body, q, side):
-    rising = GettingUp(body, q, lay(dynamics, *SIDES[side]))
+    rising = begun(dynamics, q, side)
     before, seen = rising.q, set()
     for _ in range(4000):
-        rising.update(DT_S, dynamics, q)
+        rising.update(DT_S, dynamics, q, np.zeros(len(q)))
         seen.add(rising.stage)
         assert (rising.q >= body.lower_rad - 1e-9).all()
         assert (rising.q <= body.upper_rad + 1e-9).all()
@@ -57,31 +66,41 @@ def test_on_its_front_it_pushes_itself_up_and_on_a_side_it_rolls(dynamics, body,
         ("on its left side", motions.left),
         ("on its right side", motions.right),
     ):
-        rising = GettingUp(body, q, lay(dynamics, *SIDES[side]))
+        rising = begun(dynamics, q, side)
         assert rising.stage == keyframes[0].name
 
 
 def test_a_body_that_does_not_follow_is_tried_so_often_and_then_given_up(dynamics, body, juno, q):
-    rising = GettingUp(body, q, lay(dynamics, *SIDES["on its front"]))
+    rising = begun(dynamics, q, "on its front")
     needed = next(i for i, k in enumerate(juno.getting_up.motions.front) if k.needs == "upright")
     beyond = juno.getting_up.motions.front[needed].name
-    begun, stage = 0, ""
+    times, stage = 0, ""
     while rising.outcome == "running":
         if rising.stage != stage and rising.stage == juno.getting_up.motions.front[0].name:
-            begun += 1
+            times += 1
         stage = rising.stage
         assert stage != beyond  # it still lies: what follows would throw it over
-        rising.update(DT_S, dynamics, q)
+        rising.update(DT_S, dynamics, q, np.zeros(len(q)))
     assert rising.outcome == "failed"
-    assert begun == juno.getting_up.tries
+    assert times == juno.getting_up.tries
+
+
+def test_who_still_falls_is_not_moved(dynamics, body, q):
+    lay(dynamics, *SIDES["on its back"])
+    rising = GettingUp(body)
+    for _ in range(300):
+        rising.update(DT_S, dynamics, q, np.full(len(q), 2.0))
+        assert rising.resting
 
 
 def test_a_motion_that_is_broken_off_is_chosen_anew(dynamics, body, juno, q):
-    rising = GettingUp(body, q, lay(dynamics, *SIDES["on its front"]))
-    rising.update(DT_S, dynamics, q)
+    rising = begun(dynamics, q, "on its front")
+    rising.update(DT_S, dynamics, q, np.zeros(len(q)))
     lay(dynamics, *SIDES["on its right side"])
     rising.miss()
-    rising.update(DT_S, dynamics, q)
+    assert rising.resting
+    while rising.resting:
+        rising.update(DT_S, dynamics, q, np.zeros(len(q)))
     assert rising.stage == juno.getting_up.motions.right[0].name
 
 
