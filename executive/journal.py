@@ -17,12 +17,12 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import msgspec
 
 from executive.lines import BackgroundFile, LineFile, Lines, is_open
+from robot.closing import Closing
 from robot.errors import ConfigError
 
 FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
@@ -41,7 +41,7 @@ class Event(msgspec.Struct, frozen=True):
     data: dict[str, Any] = {}
 
 
-class Journal:
+class Journal(Closing):
     """The journal of one run: a context manager that closes its files."""
 
     def __init__(
@@ -142,19 +142,6 @@ class Journal:
         for lines in (self._lines, self._wall):
             if lines is not None:
                 lines.close()
-
-    def __enter__(self) -> Self:
-        """Return the journal itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close the files."""
-        self.close()
 
 
 def encode(event: Event) -> bytes:

@@ -24,6 +24,7 @@ from executive.dumps.model import Run
 from executive.dumps.reading import Reader
 from executive.history.why import why
 from executive.journal import Event
+from robot.closing import Closing
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 
@@ -52,7 +53,7 @@ def attach(
     return Dumper(executive, directory, on=on, formats=tuple(formats))
 
 
-class Dumper:
+class Dumper(Closing):
     """Listens to the journal and writes files; a context manager that writes the last ones.
 
     Attributes:
@@ -92,19 +93,6 @@ class Dumper:
         if not self._closed:
             self._closed = True
             self._write("end")
-
-    def __enter__(self) -> Self:
-        """Return the dumper itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Write the end."""
-        self.close()
 
     def _heard(self, event: Event) -> None:
         if self._closed:

@@ -6,7 +6,6 @@ import os
 import signal
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Protocol, Self
 
 import msgspec
@@ -20,6 +19,7 @@ from robot.bus import topics
 from robot.bus.run import Run
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, Waker, WallClock
+from robot.closing import Closing
 from robot.errors import BusError, ConfigError, Failure, ProcessError, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
@@ -52,7 +52,7 @@ class Crew(Protocol):
         ...
 
 
-class LiveRuntime:
+class LiveRuntime(Closing):
     """A robot in a simulated world, on the wall clock; a context manager.
 
     It starts the processes itself; with a `handle` it has the process above start them, or attaches
@@ -155,15 +155,6 @@ class LiveRuntime:
         self._timings = [
             bus.subscribe(topic) for topic in (topics.CONTROLLER_TIMING, topics.PLANT_TIMING)
         ]
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Stop everything."""
-        self.close()
 
     @property
     def supervisor(self) -> Crew:

@@ -8,12 +8,12 @@ import subprocess
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 import robot
 from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
 from robot.clock import Clock
+from robot.closing import Closing
 from robot.errors import Failure, ProcessError, failure
 
 STOP_S = 3.0
@@ -36,7 +36,7 @@ class _Child:
     spare: subprocess.Popen[bytes] | None = None
 
 
-class Supervisor:
+class Supervisor(Closing):
     """A context manager over child processes.
 
     Every child leads its own session (Ctrl-C in the terminal reaches the parent only, which stops
@@ -82,15 +82,6 @@ class Supervisor:
             self.close()
             raise ProcessError(f"a process did not start: {error}") from error
         return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Stop every process."""
-        self.close()
 
     def pid(self, name: str) -> int:
         """Process id of a child."""

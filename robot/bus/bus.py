@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 from robot.bus.topics import Topic
+from robot.closing import Closing
 from robot.errors import BusError
 
 M = TypeVar("M")
@@ -87,7 +88,7 @@ class LocalSubscription(Generic[M]):
         return messages
 
 
-class LocalBus:
+class LocalBus(Closing):
     """A bus inside one process: delivered before `publish` returns, so runs repeat exactly."""
 
     def __init__(self) -> None:
@@ -110,19 +111,6 @@ class LocalBus:
     def close(self) -> None:
         """Refuse what comes after."""
         self._open = False
-
-    def __enter__(self) -> Self:
-        """Ready to use."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close."""
-        self.close()
 
     def _check_open(self) -> None:
         if not self._open:

@@ -13,13 +13,13 @@ from __future__ import annotations
 import json
 from collections import deque
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Generic, Self, TypeVar
+from typing import Any, Generic, TypeVar
 
 import msgspec
 import zenoh
 
 from robot.bus.topics import Topic
+from robot.closing import Closing
 from robot.errors import BusError
 
 M = TypeVar("M")
@@ -73,7 +73,7 @@ class ZenohSubscription(Generic[M]):
             self._queue.append(message)
 
 
-class ZenohBus:
+class ZenohBus(Closing):
     """One process's end of the bus."""
 
     def __init__(self, name: str, folder: Path | str) -> None:
@@ -124,19 +124,6 @@ class ZenohBus:
         session, self._session = self._session, None
         self._writers.clear()
         session.close()
-
-    def __enter__(self) -> Self:
-        """Ready to use."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close."""
-        self.close()
 
     def _declare(self, topic: Topic[Any]) -> zenoh.Publisher:
         """A publisher: commands and states go before images."""

@@ -15,6 +15,7 @@ from multiprocessing.context import SpawnProcess
 
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import Clock, WallClock
+from robot.closing import Closing
 from robot.errors import ProcessError, failure
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
@@ -32,7 +33,7 @@ class _Waiting:
     deadline_s: float | None = None
 
 
-class ProcessPlanner:
+class ProcessPlanner(Closing):
     """One worker process, one request at a time, in the order they came. A context manager.
 
     The process is started at once (it takes about a second) and again after each kill.
@@ -56,14 +57,6 @@ class ProcessPlanner:
         self._ready = False
         self._stillborn = 0
         self._start()
-
-    def __enter__(self) -> ProcessPlanner:
-        """Itself; the worker is already starting."""
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """End the worker."""
-        self.close()
 
     def submit(self, request: PlanRequest, *, now_s: float) -> int:  # noqa: ARG002
         """Put a request in line."""

@@ -141,7 +141,7 @@ def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: 
     assert body.mode == "damping"
     assert "stood still for 0." in body.failure.cause
     walk(live, 0.5)
-    assert live.link.body().mode == "damping"
+    assert live.link.body().mode in ("damping", "fallen")  # it goes down meanwhile
     assert live.link.body().activities["legs"].status == "failed"
     assert live.failure() is None
 

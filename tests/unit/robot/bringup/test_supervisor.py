@@ -122,18 +122,21 @@ def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_pa
 def test_a_spare_goes_with_the_rest(supervise, tmp_path, monkeypatch):
     monkeypatch.setattr("robot.bringup.supervisor.SPARE_AFTER_S", 0.0)
     spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare=True)
+    before = children()
     with supervise("stubborn", (spared,)) as supervisor:
         supervisor.check()
         log = tmp_path / "logs" / "b.log"
         assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        both = children() - before
+        assert len(both) == 2
         monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
-    here = [int(line) for line in children_of(os.getpid())]
-    assert not any(alive(pid) for pid in here)
+    assert not any(alive(pid) for pid in both)
 
 
-def children_of(pid: int) -> list[str]:
+def children() -> set[int]:
     """Process ids of the children of this process."""
-    return Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    own = os.getpid()
+    return {int(pid) for pid in Path(f"/proc/{own}/task/{own}/children").read_text().split()}
 
 
 def test_a_crash_says_what_the_process_said_last(supervise):

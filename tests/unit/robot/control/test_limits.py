@@ -79,6 +79,7 @@ def test_what_is_clamped_is_counted(body, limits, field, value):
     assert limits.refused == 0
 
 
+@pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")  # inf x 0
 @pytest.mark.parametrize("field", ["q_des", "qd_des", "tau_ff", "kp", "kd"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 def test_what_is_not_finite_is_refused_and_the_last_good_command_held(body, limits, field, value):
