@@ -5,14 +5,14 @@ statement ("there is a cup on the table") or a condition with clauses of its own
 several senses; the first one whose frame accepts the complements is the one that was meant.
 """
 
-from msgspec.structs import replace
+import re
 
 from intents.english import lexicon
 from intents.english.clauses import connector_end
 from intents.english.conditions import condition
 from intents.english.constructions import Constructions
 from intents.english.corrections import correction_end, substitute
-from intents.english.joining import joined
+from intents.english.joining import as_wished, joined, same_object
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
@@ -28,23 +28,21 @@ from intents.goals import (
     Answer,
     Bring,
     Condition,
-    Count,
     Find,
     ForEach,
     Give,
     Goal,
-    GoTo,
     Greet,
     Holding,
     If,
-    LookAt,
     ObjectQuery,
     Person,
     Pick,
+    Place,
     Present,
     Repeat,
-    Tell,
 )
+from intents.risks import each
 
 _IF = lexicon.phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
@@ -53,6 +51,7 @@ _HELLO = lexicon.phrases(
 )
 
 
+_NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")
 _OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 _DEEPEST = 4
 
@@ -70,6 +69,7 @@ class Grammar(Constructions):
         self.history = history
         self.trace: list[tuple[str, tuple[Goal, ...]]] = []
         self._depth = 0
+        self._one_hand = False
 
     def read(self) -> list[Goal]:
         """The goals of the whole sentence.
@@ -82,6 +82,8 @@ class Grammar(Constructions):
         goals, end = self._sequence(0, nested=False)
         if end < len(self.text):
             raise self.not_understood(end)
+        if self._one_hand:
+            raise Partly("I choose the hand myself", tuple(goals))
         return goals
 
     def _sequence(self, at: int, *, nested: bool) -> tuple[list[Goal], int]:
@@ -100,7 +102,7 @@ class Grammar(Constructions):
         while True:
             if nested and goals and self._ends_nested(at):
                 return goals, at
-            at = self.skip(at)
+            begun, at = at, self.skip(at)
             if at >= len(self.text) or (nested and self.text.phrase_end(lexicon.ELSE, at)):
                 return goals, at
             changed = self._change_of_last(at, goals[last:]) if goals else None
@@ -110,14 +112,12 @@ class Grammar(Constructions):
             wish = goals[-1:] if self.wanted else []
             self.wanted = False
             found, end = self._one_more(at, goals)
+            self._one_hand |= _names_hand(self.text.raw(begun, end), tuple(found))
             if not self._depth:
                 self.trace.append((self.text.raw(at, end), tuple(found)))
-            if wish and _same_object(wish[0], found[:1]):
-                found[0] = _as_wished(found[0], goals.pop())
+            if wish and same_object(wish[0], found[:1]):
+                found[0] = as_wished(found[0], goals.pop())
             if goals and found:
-                found[0] = _told_there(goals[-1], found[0])
-                if _already_sought(goals[-1], found[0]):
-                    goals.pop()
                 found[0] = joined(goals, found[0], first=self.text.word(at))
             last = len(goals)
             goals += found
@@ -404,46 +404,10 @@ class Grammar(Constructions):
         return at if closed and (told or (phrase.superlative and not old.superlative)) else None
 
 
-def _same_object(wanted: Goal, found: list[Goal]) -> bool:
-    """I want the chips, can you bring them: one wish, said twice."""
-    if not found or not isinstance(found[0], Bring | Pick | Find | Give):
-        return False
-    one, other = wanted.object if isinstance(wanted, Bring) else None, found[0].object
-    return one is not None and other is not None and one.name == other.name
-
-
-def _as_wished(goal: Goal, wish: Goal) -> Goal:
-    """The goal with where the wish said that the thing is; to fetch it is to bring it."""
-    if isinstance(goal, Pick):
-        return wish
-    if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
-        return replace(goal, object=replace(goal.object, at=wish.object.at))
-    return goal
-
-
-def _told_there(before: Goal, goal: Goal) -> Goal:
-    """Look at the table and count the cups: those on the table."""
-    if not isinstance(before, GoTo | LookAt) or not isinstance(goal, Tell | Count):
-        return goal
-    if before.place is None:
-        return goal
-    if goal.object and not (goal.object.at or goal.object.relation or goal.object.held):
-        return replace(goal, object=replace(goal.object, at=before.place))
-    if goal.person and goal.person.at is None and goal.person.who is None:
-        return replace(goal, person=replace(goal.person, at=before.place))
-    return goal
-
-
-def _already_sought(before: Goal, goal: Goal) -> bool:
-    """Look for the tallest cup, then name it: telling finds it."""
-    if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
-        told_of = goal.object or goal.person
-        return told_of is not None and told_of.at == before.place
-    if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
-        return False
-    if goal.person is not None:
-        return isinstance(before, Find) and goal.person == before.person
-    return goal.property == "name" and goal.object is not None and goal.object == before.object
+def _names_hand(said: str, goals: tuple[Goal, ...]) -> bool:
+    """Whether a thing is to be handled with one hand and not the other."""
+    handles = any(isinstance(goal, (Pick, Place, Bring, Give)) for goal in each(goals))
+    return handles and _NAMED_HAND.search(said.lower()) is not None
 
 
 def _if(holds: Condition, goals: list[Goal], *, unless: bool) -> If:

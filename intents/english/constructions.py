@@ -19,7 +19,7 @@ from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_person, to_place
 from intents.english.sentences import Clauses
-from intents.english.trouble import ReadingError
+from intents.english.trouble import ReadingError, Unclear
 from intents.english.verbs import SENSES, participle_base, verbs_at
 from intents.goals import OPERATOR, Close, Goal, GoTo, Guide, LookAt, Open, Repeat, Switch, Wait
 
@@ -69,6 +69,12 @@ _FINDS_WAY = lexicon.phrases(
 _CAUSES = lexicon.words("have let make ask get tell")
 _LIFTS = lexicon.words("raise lift lower")
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
+_TO_AND_FRO = lexicon.phrases(
+    "patrol between,commute between,pace between,pace back and forth between,"
+    "go back and forth between,walk back and forth between,move back and forth between,"
+    "run back and forth between,go to and fro between,walk to and fro between"
+)
+_TIDIES = lexicon.phrases("tidy by,tidy up by,clean up by,clear up by")
 _GIVE_IT = lexicon.phrases("give it,take,give me")
 _IN_A_WHILE = lexicon.words("in after")
 
@@ -85,6 +91,8 @@ class Constructions(Clauses):
             or self._followed(at)
             or self._wanted_there(at)
             or self._later(at)
+            or self._to_and_fro(at)
+            or self._tidied(at)
             or self._whether(at)
             or self._remark(at)
             or self._verbless(at)
@@ -162,7 +170,7 @@ class Constructions(Clauses):
         text = self.text
         ensured = text.phrase_end(_ENSURES, at)
         if ensured:
-            return self._brought_about(ensured)
+            return self._brought_about(ensured) or self._placed_so(at, ensured)
         wish = text.phrase_end(_WISHES, at)
         if wish is None and text.word(at) not in _RESULT_VERBS:
             return None
@@ -176,6 +184,19 @@ class Constructions(Clauses):
         if phrase is None or result is None or not ends_clause(self.text, phrase.end + 1):
             return None
         return self._made_so(phrase, result), phrase.end + 1
+
+    def _placed_so(self, at: int, start: int) -> Reading | None:
+        """Make sure that the bottle is on the table."""
+        phrase = noun_phrase(self.text, start)
+        if phrase is None or not phrase.name("object", "category") or phrase.is_person:
+            return None
+        if self.text.word(phrase.end) not in ("is", "are", "gets", "get", "stays", "ends"):
+            return None
+        complements, end = read_complements(self.text, phrase.end + 1)
+        if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
+            return None
+        thing = Complement(phrases=[phrase])
+        return self._framed("put", at, phrase.end, [thing, *complements], end)
 
     def _made_so(
         self, phrase: NounPhrase, result: tuple[type[Open | Close | Switch], bool]
@@ -293,6 +314,25 @@ class Constructions(Clauses):
             return None
         end = amount.end + (goes_on and text.word(amount.end) == COMMA)
         return [Wait(duration_s=amount.value)], end
+
+    def _to_and_fro(self, at: int) -> Reading | None:
+        """Patrol between the table and the shelf three times."""
+        text = self.text
+        start = text.phrase_end(_TO_AND_FRO, at)
+        one = noun_phrase(text, start) if start else None
+        other = noun_phrase(text, one.end + 1) if one and text.word(one.end) == "and" else None
+        if one is None or other is None:
+            return None
+        there = tuple(GoTo(place=to_place(phrase, self.scope)) for phrase in (one, other))
+        often = measure(text.words, other.end)
+        if often is None or often.kind != "times":
+            raise Unclear("How many times shall I go to and fro?")
+        return [Repeat(times=int(often.value), goals=there)], often.end
+
+    def _tidied(self, at: int) -> Reading | None:
+        """Tidy up by putting everything on the shelf."""
+        start = self.text.phrase_end(_TIDIES, at)
+        return self.verb(start) if start else None
 
     def _whether(self, at: int) -> Reading | None:
         """Look whether the ball is behind the box."""

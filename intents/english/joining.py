@@ -5,17 +5,20 @@ from msgspec.structs import replace
 from intents.goals import (
     Balance,
     Bring,
+    Count,
     Find,
     ForEach,
     Give,
     Goal,
     GoTo,
+    LookAt,
     Meet,
     ObjectQuery,
     Person,
     Pick,
     Place,
     Say,
+    Tell,
     Wait,
 )
 
@@ -25,6 +28,10 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
 
     ``first`` is the first word of its clause.
     """
+    if before:
+        goal = _told_there(before[-1], goal)
+        if _already_sought(before[-1], goal):
+            before.pop()
     last = before[-1] if before else goal
     if isinstance(last, Balance) and isinstance(goal, Wait) and first in _HOLDS:
         before.pop()
@@ -35,6 +42,23 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
             if join is not _found_there:
                 before.pop()
             return made
+    return goal
+
+
+def same_object(wanted: Goal, found: list[Goal]) -> bool:
+    """I want the chips, can you bring them: one wish, said twice."""
+    if not found or not isinstance(found[0], Bring | Pick | Find | Give):
+        return False
+    one, other = wanted.object if isinstance(wanted, Bring) else None, found[0].object
+    return one is not None and other is not None and one.name == other.name
+
+
+def as_wished(goal: Goal, wish: Goal) -> Goal:
+    """The goal with where the wish said that the thing is; to fetch it is to bring it."""
+    if isinstance(goal, Pick):
+        return wish
+    if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
+        return replace(goal, object=replace(goal.object, at=wish.object.at))
     return goal
 
 
@@ -79,3 +103,28 @@ def _found_there(last: Goal, goal: Goal) -> Goal | None:
 
 def _bare(query: ObjectQuery) -> ObjectQuery:
     return replace(query, at=None)
+
+
+def _told_there(before: Goal, goal: Goal) -> Goal:
+    """Look at the table and count the cups: those on the table."""
+    if not isinstance(before, GoTo | LookAt) or not isinstance(goal, Tell | Count):
+        return goal
+    if before.place is None:
+        return goal
+    if goal.object and not (goal.object.at or goal.object.relation or goal.object.held):
+        return replace(goal, object=replace(goal.object, at=before.place))
+    if goal.person and goal.person.at is None and goal.person.who is None:
+        return replace(goal, person=replace(goal.person, at=before.place))
+    return goal
+
+
+def _already_sought(before: Goal, goal: Goal) -> bool:
+    """Look for the tallest cup, then name it: telling finds it."""
+    if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
+        told_of = goal.object or goal.person
+        return told_of is not None and told_of.at == before.place
+    if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
+        return False
+    if goal.person is not None:
+        return isinstance(before, Find) and goal.person == before.person
+    return goal.property == "name" and goal.object is not None and goal.object == before.object

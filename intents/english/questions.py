@@ -164,7 +164,10 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
     start = _skip(text, at + 1) if asked else at
     start += text.words[start : start + 2] == ["one", "of"]
     start += asked and text.word(start) == "of"
-    if asked and text.lookup(lexicon.LOCATIVES, start):
+    color = lexicon.COLORS.get(text.word(start)) if text.word(start - 1) in _BE else None
+    if color and start + 1 == len(text):
+        phrase, end = NounPhrase(start, start, noun="object", said="object", color=color), start + 1
+    elif asked and text.lookup(lexicon.LOCATIVES, start):
         phrase = NounPhrase(start, start, noun="object", said="object")
         read_postmodifiers(text, phrase)
         end = phrase.end
@@ -174,6 +177,8 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
             return None
         phrase, end = found, _read_on(text, found)
         end = _predicate_superlative(text, phrase, end)
+        if phrase.color is None and text.word(end) in lexicon.COLORS:
+            phrase.color, end = lexicon.COLORS[text.word(end)], end + 1
     if is_person(phrase, scope):
         return [Tell(person=to_person(phrase, scope), property="name", to=to)], end
     if text.word(end - 1) == "there" and scope.place and not phrase.places:

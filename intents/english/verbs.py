@@ -41,6 +41,7 @@ SPELLINGS: dict[str, str] = {
         "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
         "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump"
     ),
+    "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
         "throw away,dispose of,discard,throw out,get rid of,dump,trash,bin,recycle,"

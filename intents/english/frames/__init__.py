@@ -24,6 +24,7 @@ FRAMES: dict[str, Frame] = {
     "take": handling.take,
     "put": handling.put,
     "drop": handling.put,
+    "clear": handling.clear,
     "bring": handling.bring,
     "give": handling.give,
     "want": handling.want,

@@ -178,6 +178,26 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     return [_each(o, lambda q: _place(q, spot)) for o in objects]
 
 
+def clear(clause: Clause, scope: Scope) -> list[Goal]:
+    """Clear the table; empty the shelf onto the counter; clear everything off the table."""
+    slots = Slots(clause, scope)
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    if bare is None or len(bare.phrases) > 1:
+        raise Misfit("clear what?")
+    spot = _destination(slots)
+    if is_spot(bare.phrase):
+        slots.rest.remove(bare)
+        objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
+    else:
+        objects = slots.objects()
+    if any(query.at is None for query in objects):
+        raise Misfit("clear what?")
+    slots.done()
+    if spot is None:
+        raise Unclear("Where shall I put what is there?")
+    return [_each(o, lambda q: _place(q, spot)) for o in objects]
+
+
 def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:
     """The clause with one of its coordinated noun phrases."""
     one = dataclasses.replace(bare, phrases=[phrase])

@@ -63,9 +63,10 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("I need to know where to go to")
     slots.done()
     said = clause.text.words[clause.first : target.phrase.start]
-    way = next((w for w in ("around", "along", "past") if w in said), None)
+    way = next((w for w in ("around", "along", "past", "between") if w in said), None)
     if way:
-        raise NotUnderstood(f"I can walk to a place, not {way} one")
+        places = "two" if way == "between" else "one"
+        raise NotUnderstood(f"I can walk to a place, not {way} {places}")
     return [_towards(clause, scope, target.phrase)]
 
 

@@ -5,7 +5,7 @@ import pytest
 from intents.context import Context
 from intents.goals import to_builtins
 from intents.grounding import Entity
-from intents.outcomes import Goals, Question
+from intents.outcomes import Goals, Question, Refusal
 from intents.parser import hear, parse
 from intents.vocabulary import Thing, Vocabulary
 
@@ -30,8 +30,19 @@ THERE = Context(
         ("take the bottle to the table for me please", "take the bottle to the table"),
         ("grab me that red cup", "grab me the red cup"),
         ("is the bottle still on the table?", "is the bottle on the table?"),
-        ("use your left hand to pick up the bottle", "pick up the bottle"),
-        ("with your right hand take the bottle", "take the bottle"),
+        ("use both hands to pick up the bottle", "pick up the bottle"),
+        ("tidy up by putting the bottle on the shelf", "put the bottle on the shelf"),
+        ("make sure that the bottle is on the shelf", "put the bottle on the shelf"),
+        (
+            "clear everything off the table onto the shelf",
+            "put everything from the table on the shelf",
+        ),
+        ("empty the table onto the shelf", "put everything from the table on the shelf"),
+        (
+            "go back and forth between the table and the shelf twice",
+            "patrol between the table and the shelf two times",
+        ),
+        ("which things are red?", "what is red?"),
         ("bring the bottle over to where Anna is", "bring the bottle to Anna"),
         ("take three big steps forward", "take three steps forward"),
         ("face the other way", "turn around"),
@@ -47,6 +58,41 @@ def test_they_change_nothing(said: str, plainly: str) -> None:
     assert isinstance(one, Goals), one
     assert isinstance(other, Goals), other
     assert one.goals == other.goals
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "pick up the bottle with your left hand",
+        "use your left hand to pick up the bottle",
+        "with your right hand take the bottle",
+    ],
+)
+def test_a_hand_that_is_named_is_asked_about_and_not_passed_over(said: str) -> None:
+    outcome = parse(said, HOME)
+    assert isinstance(outcome, Question), outcome
+    assert "I choose the hand myself" in outcome.question
+    assert [goal["goal"] for goal in to_builtins(outcome.goals)] == ["pick"]
+    assert isinstance(parse("bring me the bottle and raise your left hand", HOME), Goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "answer", "goals"),
+    [
+        ("clear the table", "on the shelf", ["for_each"]),
+        ("patrol between the table and the shelf", "three times", ["repeat"]),
+    ],
+)
+def test_what_is_missing_is_asked_for(said: str, answer: str, goals: list[str]) -> None:
+    outcome, context = hear(said, HOME)
+    assert isinstance(outcome, Question), outcome
+    outcome, _ = hear(answer, HOME, context=context)
+    assert isinstance(outcome, Goals), outcome
+    assert [goal["goal"] for goal in to_builtins(outcome.goals)] == goals
+
+
+def test_between_two_places_is_no_place() -> None:
+    assert isinstance(parse("go between the table and the shelf", HOME), Refusal)
 
 
 @pytest.mark.parametrize(("said", "still"), [("get the bottle for me", "bring")])
