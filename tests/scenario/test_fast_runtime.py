@@ -9,6 +9,7 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.messages import Look, WalkTo
 from robot.se3 import SE3
+from sim.sensors import developed
 
 
 def run(seed: int, duration_s: float) -> bytes:
@@ -23,7 +24,7 @@ def run(seed: int, duration_s: float) -> bytes:
                 )
                 runtime.link.send(command)
             runtime.advance(0.05)
-            said += [reader.take() for reader in readers]
+            said += [developed(message) for reader in readers for message in reader.take()]
     return msgspec.msgpack.encode(said)
 
 
