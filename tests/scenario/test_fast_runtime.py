@@ -54,6 +54,6 @@ def test_perception_believes_what_is_so_while_walking():
         assert math.dist(tracks["red_cup"].X_WO.p, cup.p) < 0.025
         assert tracks["red_cup"].seen_s > 1.0
         assert not any(track.missing for track in tracks.values())
-        assert worst_m < 0.06  # the newest state is up to 0.1 s old at 0.3 m/s
+        assert worst_m < 0.07  # the newest state is up to 0.12 s old at 0.4 m/s, and the hips sway
         assert link.world().jumps == 0
         assert link.world().unmapped == ()
