@@ -24,7 +24,7 @@ from intents.speech.frontend import prepared
 from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce
 from intents.speech.recogniser import Heard
-from intents.speech.rejection import Fit, doubt, mean_score
+from intents.speech.rejection import Fit, doubt, features, mean_score
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
 
@@ -48,8 +48,10 @@ FEW_WORDS = 2
 FOR_A_CRY = {True: 3.0, False: 0.5}
 """How much worse than a command (of few words or not) a cry may fit a short utterance, to be heeded
 [nat/frame]: a cry is misheard as one or two words, hardly as five that happen to fit."""
-WORST_CRY = -6.5
-"""How badly a cry may fit where no command does [nat/frame]."""
+WORST_CRY = -8.5
+"""How badly the words of a cry may fit [nat/frame]."""
+CRY_ALONE = 0.05
+"""Share of the power of an utterance that may fall on no word of a cry."""
 _SHORT_BYTES = round(2 * RATE_HZ * SHORT_S)
 ENDS = 5.0
 """How much likelier a sentence ends than that it goes on with some word."""
@@ -75,9 +77,8 @@ class Sphinx:
         fits = self._decoded(data, REPLY if replying else SPOKEN)
         if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
             cry = self._decoded(data, CRY)
-            needed = mean_score(fits) if fits else WORST_CRY
             few = len(fits) <= FEW_WORDS and not replying  # a "yes" is short, too
-            if cry and mean_score(cry) > needed - FOR_A_CRY[few]:
+            if cry and _is_cry(cry, than=mean_score(fits) - FOR_A_CRY[few] if fits else WORST_CRY):
                 fits = cry
         return Heard(
             text=_text(fits),
@@ -128,6 +129,12 @@ def _power(data: bytes) -> NDArray[np.float64]:
     """The mean square of each frame of an utterance for the decoder."""
     samples = np.frombuffer(data, "<i2").astype(np.float64)
     return np.mean(samples[: len(samples) // FRAME * FRAME].reshape(-1, FRAME) ** 2, axis=1)
+
+
+def _is_cry(cry: list[Fit], *, than: float) -> bool:
+    """Whether a cry was found that fits better than something, and all of the sound."""
+    seen = features(cry)
+    return seen.mean > than and seen.worst > WORST_CRY and seen.unsaid < CRY_ALONE
 
 
 def _text(fits: list[Fit]) -> str:
