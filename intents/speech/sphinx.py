@@ -45,9 +45,10 @@ _UNSCALED = 1024.0
 SHORT_S = 1.7
 """What is no longer may be a cry to stop, whatever else it is like."""
 FEW_WORDS = 2
-FOR_A_CRY = {True: 3.0, False: 0.5}
-"""How much worse than a command (of few words or not) a cry may fit a short utterance, to be heeded
-[nat/frame]: a cry is misheard as one or two words, hardly as five that happen to fit."""
+FOR_A_CRY, FOR_ONE_WORD, FOR_MANY = 1.2, 3.0, 0.5
+"""How much worse than a command a cry may fit a short utterance, to be heeded; a bare one; where
+the command has more than a few words [nat/frame]: a cry is misheard as one or two words, hardly as
+five that happen to fit."""
 WORST_CRY = -8.5
 """How badly the words of a cry may fit [nat/frame]."""
 CRY_ALONE = 0.05
@@ -77,8 +78,7 @@ class Sphinx:
         fits = self._decoded(data, REPLY if replying else SPOKEN)
         if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
             cry = self._decoded(data, CRY)
-            few = len(fits) <= FEW_WORDS and not replying  # a "yes" is short, too
-            if cry and _is_cry(cry, than=mean_score(fits) - FOR_A_CRY[few] if fits else WORST_CRY):
+            if cry and _is_cry(cry, fits, replying=replying):
                 fits = cry
         return Heard(
             text=_text(fits),
@@ -131,10 +131,16 @@ def _power(data: bytes) -> NDArray[np.float64]:
     return np.mean(samples[: len(samples) // FRAME * FRAME].reshape(-1, FRAME) ** 2, axis=1)
 
 
-def _is_cry(cry: list[Fit], *, than: float) -> bool:
-    """Whether a cry was found that fits better than something, and all of the sound."""
+def _is_cry(cry: list[Fit], fits: list[Fit], *, replying: bool) -> bool:
+    """Whether the words of a cry fit all of the sound, and about as well as a command."""
     seen = features(cry)
-    return seen.mean > than and seen.worst > WORST_CRY and seen.unsaid < CRY_ALONE
+    if seen.worst < WORST_CRY or seen.unsaid > CRY_ALONE:
+        return False
+    if replying or len(fits) > FEW_WORDS:  # a "yes" is short, too
+        margin = FOR_MANY
+    else:
+        margin = FOR_ONE_WORD if len(cry) == 1 else FOR_A_CRY
+    return not fits or seen.mean > mean_score(fits) - margin
 
 
 def _text(fits: list[Fit]) -> str:
