@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -15,6 +16,7 @@ from rich.markdown import Markdown
 
 from benchmarks.intents import attacks, fuzz, own, sets
 from benchmarks.markdown import table
+from benchmarks.speech import hearing
 from intents.outcomes import Refusal
 from intents.parser import is_stop, parse
 
@@ -54,8 +56,11 @@ def main(
     ] = None,
     strings: Annotated[int, typer.Option(help="how many made-up strings")] = 100_000,
     misses: Annotated[int, typer.Option(help="own sentences not understood, to show")] = 0,
+    speech: Annotated[int, typer.Option(help="hear one take in so many; 0 hears none")] = 0,
 ) -> None:
     """Measure on the project's own sentences and, where a folder has them, on other sets."""
+    if speech and not shutil.which("espeak-ng"):
+        sys.exit("espeak-ng is not installed: sudo apt install espeak-ng")
     console = Console(width=120)
     rows = [row for name in ("own", "second") for row in _own_rows(console, name, misses)]
     rows += _stop_rows()
@@ -63,6 +68,7 @@ def main(
     if folder is not None and not why_not:
         rows += _set_rows(folder.resolve())
     rows += _attack_rows(console) + _fuzz_rows(console, strings) + _memory_rows()
+    rows += _speech_rows(speech) if speech else []
     head = ("what", "found", "asked", "reached", "published, elsewhere")
     console.print(Markdown(table(head, [row.cells() for row in rows])))
     if why_not:
@@ -164,6 +170,23 @@ def _fuzz_rows(console: Console, strings: int) -> list[Row]:
         Row(f"errors in {strings} made-up strings", str(count), "0", count == 0),
         Row("made-up strings: longest", worst, f"<= {WORST_MS:g} ms", found.worst_ms <= WORST_MS),
     ]
+
+
+def _speech_rows(each: int) -> list[Row]:
+    """How well speech is heard: the lines of `python -m benchmarks.speech`."""
+    heard = list(hearing.measured(each))
+    rows = [
+        Row(
+            f"speech: {row.what} ({len(row.results)})",
+            percent(hearing.share(row.results)),
+            f">= {100 * row.asked:g} %" if row.asked else "",
+            row.reached,
+        )
+        for row in heard
+    ]
+    factor, asked = hearing.factor(heard), hearing.ASKED_FACTOR
+    good = factor < asked
+    return [*rows, Row("speech: real-time factor", f"{factor:.3f}", f"< {asked:g}", good)]
 
 
 _PEAK = """
