@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 import pytest
 
+from benchmarks.intents.endpoint import Reply, serving
 from executive import commands, request, runtimes
 from executive.loop import Interrupts
 from robot.errors import failure
@@ -300,3 +301,12 @@ def test_view_without_a_display_says_so(humanoid, monkeypatch):
     status, text = humanoid("view")
     assert status == 2
     assert "--snapshot" in text
+
+
+def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
+    with serving(Reply(status=500)) as server:
+        file = tmp_path / "model.toml"
+        file.write_text(f'base_url = "{server.url}"\nmodel = "local"\n')
+        status, text = humanoid("do", "brighten up the evening", "--fast", "--model", str(file))
+    assert status == commands.INVALID, text
+    assert "The language model was of no help: " in text
