@@ -30,7 +30,7 @@ def test_in_mid_step_the_next_one_holds_the_robot_up(x_m, y_m, when_s):
         assert (after.mode, after.failure) == ("stand", None)
         assert after.since_s == pytest.approx(before.stamp_s, abs=0.05)
         assert runtime.failure() is None
-        walking(runtime, 0.3, 0.0, 2.0)
+        walking(runtime, 1.0, 0.0, 2.0)
         assert runtime.link.body().mode == "walk"
 
 
