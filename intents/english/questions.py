@@ -5,7 +5,7 @@ from intents.english.lexer import COMMA
 from intents.english.measures import number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import read_postmodifiers, weight_at
+from intents.english.postmodifiers import is_spot, read_postmodifiers, weight_at
 from intents.english.properties import OF_ADJECTIVES, property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.self_talk import about_robot
@@ -284,7 +284,7 @@ _EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gend
 
 
 def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
-    """Is there a cup on the table? Do you see the bottle?"""
+    """Is there a cup on the table? Do you see the bottle? Is the shelf empty?"""
     start = at + (text.word(at) in ("if", "whether"))
     if start > at:
         sought = noun_phrase(text, start)
@@ -300,6 +300,10 @@ def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
     phrase = noun_phrase(text, end)
     if phrase is None or text.word(end) == COMMA:
         return None
+    if text.word(phrase.end) == "empty" and is_spot(phrase):
+        thing = NounPhrase(start, start, noun="object", said="thing", count=1)
+        thing.places.append(Locative(None, phrase))
+        return [Find(object=to_object(thing, scope))], phrase.end + 1
     if phrase.is_person and text.word(phrase.end) in _EITHER and text.word(phrase.end + 1) == "or":
         told = _EITHER[text.word(phrase.end)]
         return [Tell(person=to_person(phrase, scope), property=told)], phrase.end + 3

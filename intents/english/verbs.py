@@ -6,6 +6,7 @@ from intents.english.lexicon import Phrase
 SPELLINGS: dict[str, str] = {
     "go": (
         "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,"
+        "come closer,come nearer,"
         "come over,enter,head,head over,proceed,travel,get to,get over,return,visit,"
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"

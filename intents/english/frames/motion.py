@@ -120,7 +120,8 @@ def turn(clause: Clause, scope: Scope) -> list[Goal]:
     if clause.particles() & {"on", "off", "out"}:
         raise Misfit("that is to switch something")
     plain = slots.measure("plain")
-    angle = slots.measure("angle") if plain is None else plain * pi / 180
+    unit = _FULL_TURN if plain is not None and plain < 1.0 else pi / 180  # a quarter; ninety
+    angle = slots.measure("angle") if plain is None else plain * unit
     direction = slots.direction("left", "right", "around", "backward", "cw", "ccw")
     second = slots.direction("left", "right", "cw", "ccw")
     target = slots.take("to", "at") or slots.take("")
