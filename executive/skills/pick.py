@@ -57,6 +57,7 @@ class Pick(ScriptedSkill):
         self._X_WG_pre: SE3 | None = None
         self._X_WG_closed: SE3 | None = None
         self._closing: Side | None = None
+        self._stance: PickPlan | None = None  # the plan at whose stance it stands
 
     def script(self) -> Script[None]:
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""
@@ -72,11 +73,12 @@ class Pick(ScriptedSkill):
         plan = yield from self._plan(info)
         body.progress = 0.1
         yield from approach(body, plan, what=info.name)
+        self._stance = plan
         try:
             body.progress = 0.4
             plan = yield from self._grasp(info, plan)
         except GaveUp as end:
-            yield from self._back_off(plan, info)
+            yield from self._back_off(info)
             raise end
         body.progress = 0.85
         yield from withdraw(body, plan, plan.carry_rad, what=info.name)
@@ -194,8 +196,9 @@ class Pick(ScriptedSkill):
         """Plan again, with a stance near this one if there is one, and go there, the arms in."""
         plan = yield from self._plan(info, attempt=attempt)
         yield from stow_arms(self.body)
+        self._X_WG_pre = self._stance = None
         yield from approach(self.body, plan, what=info.name)
-        self._X_WG_pre = None
+        self._stance = plan
         return plan
 
     def _draw_back(self, plan: PickPlan) -> Script[None]:
@@ -235,9 +238,12 @@ class Pick(ScriptedSkill):
                 expected_n=round(GRAVITY_M_S2 * info.mass_kg, 2),
             )
 
-    def _back_off(self, plan: PickPlan, info: ObjectInfo) -> Script[None]:
+    def _back_off(self, info: ObjectInfo) -> Script[None]:
         """After a failure: let go, draw the hand back the way it came, step back, arm home."""
-        body, side = self.body, plan.side
+        body, plan = self.body, self._stance
+        if plan is None:
+            return  # on its way to another stance, the arms in
+        side = plan.side
         try:
             if self._X_WG_pre is not None:
                 yield from self._draw_back(plan)

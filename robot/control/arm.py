@@ -94,20 +94,28 @@ class Arm:
         self._begin(command.id)
         self._line = Line(command, X_NG, load_n)
 
-    def hold(self, command: HoldArm) -> None:
-        """Brake, and hold the joints where they come to rest."""
+    def hold(self, command: HoldArm, measured: Array) -> None:
+        """Brake, and hold the joints where they come to rest; `measured` shape (joints,)."""
         self._begin(command.id)
-        self._come_to_rest()
+        self._come_to_rest(measured)
 
     def _begin(self, command_id: int) -> None:
         self._spline = self._line = self._brake = None
         self._time_s = 0.0
         self.activity = Activity(id=command_id, status="running")
 
-    def _come_to_rest(self) -> None:
+    def _come_to_rest(self, measured: Array) -> None:
+        """Brake; a joint that something holds back from its reference rests, and stops pressing."""
         self._spline = self._line = None
         self._time_s = 0.0
-        self._brake = Brake(self.q, self.qd, self.qdd, acceleration=BRAKE_RAD_S2, jerk=BRAKE_RAD_S3)
+        free = np.abs(self.q - measured) < JOINT_DONE_RAD
+        self._brake = Brake(
+            np.where(free, self.q, measured),
+            np.where(free, self.qd, 0.0),
+            np.where(free, self.qdd, 0.0),
+            acceleration=BRAKE_RAD_S2,
+            jerk=BRAKE_RAD_S3,
+        )
 
     def update(
         self, dt_s: float, dynamics: Dynamics, measured: Array, *, load_n: float, standing: bool
@@ -120,7 +128,7 @@ class Arm:
             self._slow_down(self._brake)
         elif self._line is not None:
             if self.activity.status != "running" and not standing:
-                self._come_to_rest()
+                self._come_to_rest(measured)
             else:
                 self._track(dt_s, dynamics, measured, load_n)
 

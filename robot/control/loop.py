@@ -194,7 +194,8 @@ class ControlLoop:
         elif isinstance(command, MoveArm):
             self.arms[command.side].follow(command)
         elif isinstance(command, HoldArm):
-            self.arms[command.side].hold(command)
+            arm = self.arms[command.side]
+            arm.hold(command, self._state.q[arm.motors])
         elif isinstance(command, MoveHand):
             X_NG = self.body.site_pose(self.dynamics.data, self.body.grasp_site[command.side])
             self.arms[command.side].reach(command, X_NG, self.hands[command.side].load_n)

@@ -138,7 +138,7 @@ def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: 
     while live.link.body().mode == "stand" and time.monotonic() < until_s:
         live.advance(0.05)
     body = live.link.body()
-    assert body.mode == "damping"
+    assert body.mode in ("damping", "fallen")
     assert "stood still for 0." in body.failure.cause
     walk(live, 0.5)
     assert live.link.body().mode in ("damping", "fallen")  # it goes down meanwhile

@@ -247,6 +247,31 @@ def test_out_of_reach_moves_the_base_twice_then_fails(stage):
     assert len({request.seed for request in picks}) == 3
 
 
+def test_after_moving_over_it_steps_back_from_where_it_stands(stage):
+    pick, arm, plans = stage.planner._pick, stage.planner._arm, []
+
+    def elsewhere(request):
+        plan = pick(request)
+        (x, y, yaw), (sx, sy, _) = plan.standoff, plan.stance
+        left_m, turn_rad = 0.4 * len(plans), 0.5 * len(plans)
+        plans.append(
+            msgspec.structs.replace(
+                plan,
+                standoff=(x, y + left_m, yaw + turn_rad),
+                stance=(sx, sy + left_m, yaw + turn_rad),
+            )
+        )
+        return plans[-1]
+
+    stage.planner._pick = elsewhere
+    far = failure("out_of_reach", "3 cm short")
+    stage.planner._arm = lambda r: far if isinstance(r.goal, SE3) else arm(r)
+    assert stage.run(CUP).failure.code == "out_of_reach"
+    assert len(plans) == 3
+    back = stage.puppet.X_WS
+    assert (*back.p[:2], back.yaw_rad) == pytest.approx(plans[-1].standoff, abs=0.07)
+
+
 def test_out_of_reach_once_is_cured_by_another_stance(stage):
     arm, told = stage.planner._arm, []
 

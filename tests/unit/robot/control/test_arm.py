@@ -271,6 +271,21 @@ def test_times_that_are_not_finite_are_refused(bench):
 # --- braking ------------------------------------------------------------------------------------
 
 
+def hold(bench):
+    measured = bench.q[bench.arm.motors]
+    bench.arm.hold(HoldArm(id=2, stamp_s=0.0, side=bench.side), measured)
+
+
+def test_an_arm_that_is_held_back_does_not_go_on_pressing(bench):
+    line_to(bench, dz=-0.2, speed_m_s=0.3)
+    bench.run(2.0, stuck=True)
+    measured = bench.q[bench.arm.motors]
+    assert np.abs(bench.arm.q - measured).max() > 0.2
+    hold(bench)
+    bench.run(1.0, stuck=True)
+    assert np.abs(bench.arm.q - measured).max() < 0.1
+
+
 @pytest.mark.parametrize("before_s", [0.0, 0.1, 0.3, 0.5])
 @pytest.mark.parametrize("kind", ["trajectory", "line"])
 def test_an_arm_that_is_told_to_hold_comes_to_rest_without_a_jerk(bench, kind, before_s):
@@ -283,7 +298,7 @@ def test_an_arm_that_is_told_to_hold_comes_to_rest_without_a_jerk(bench, kind, b
                                  positions_rad=(tuple(goal),)))  # fmt: skip
     bench.run(before_s)
     q, qd, qdd = bench.arm.q, bench.arm.qd.copy(), bench.arm.qdd.copy()
-    bench.arm.hold(HoldArm(id=2, stamp_s=0.0, side=bench.side))
+    hold(bench)
     for _ in range(200):
         bench.run(DT_S)
         arm = bench.arm
