@@ -36,6 +36,7 @@ def jobs(*, quick: bool) -> list[Job]:
         *_postures(),
         *_pushes_standing(every=4 if quick else 1),
         *_pushes_walking(every=4 if quick else 1, phases=2 if quick else PHASES),
+        *_falls(4 if quick else 40),
         *_reaches(5 if quick else 25),
         *_costs(5.0 if quick else 20.0),
     ]
@@ -101,6 +102,10 @@ def _pushes_walking(*, every: int, phases: int) -> list[Job]:
         for k in range(0, DIRECTIONS, every)
         for phase in range(phases)
     ]
+
+
+def _falls(count: int) -> list[Job]:
+    return [_job(f"fall/{seed}", "get_up", seed=seed) for seed in range(count)]
 
 
 def _reaches(poses: int) -> list[Job]:

@@ -60,6 +60,12 @@ class Rig:
                 return False
         return True
 
+    def pass_by(self, duration_s: float) -> None:
+        """Let time pass, whatever becomes of the robot."""
+        end_s = self.time_s + duration_s
+        while self.time_s < end_s:
+            self.run(BUS_PERIOD_S)
+
     def wait(self, channel: Channel, timeout_s: float) -> str:
         """Run until the channel's activity ends: `done`, `failed`, `fell` or `timeout`."""
         end_s = self.time_s + timeout_s

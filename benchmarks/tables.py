@@ -23,8 +23,8 @@ LEARNED_WALKING = {
 
 def render(outcomes: Outcomes) -> str:
     """Every table."""
-    parts = (_walking, _goals, _pushes, _postures, _reach, _cost)
-    return "\n\n".join(part(outcomes) for part in parts)
+    parts = (_walking, _goals, _pushes, _falls, _postures, _reach, _cost)
+    return "\n\n".join(filter(None, (part(outcomes) for part in parts)))
 
 
 def under(outcomes: Outcomes, prefix: str) -> Outcomes:
@@ -136,6 +136,27 @@ def _weak(outcomes: Outcomes) -> str:
     return "Falls by direction (0° pushes ahead, 90° to the left):\n\n" + "\n".join(
         lines or ["- none"]
     )
+
+
+def _falls(outcomes: Outcomes) -> str:
+    falls = under(outcomes, "fall")
+    if not falls:
+        return ""
+    text = (
+        "Pushes of 20 to 30 N s from anywhere, standing and walking; it lies for three seconds, "
+        "gets up by itself, and steps to a mark half a metre ahead."
+    )
+    down = {name: one for name, one in falls.items() if not one["caught"]}
+    rows: list[list[str]] = []
+    for side in sorted({one["lies"] for one in down.values()}):
+        some = [one for one in down.values() if one["lies"] == side]
+        up = [one for one in some if one["ok"]]
+        took_s = sorted(one["took_s"] for one in up)
+        median = f"{took_s[len(took_s) // 2]:.0f} s, at most {took_s[-1]:.0f} s" if up else ""
+        rows.append([side or "?", f"{len(up)} of {len(some)}", median])
+    caught = f"{len(falls) - len(down)} of the {len(falls)} pushes were caught."
+    head = ["fell", "up again, and walked", "on its feet after"]
+    return "\n\n".join(["### Getting up", text, table(head, rows), caught])
 
 
 def _postures(outcomes: Outcomes) -> str:

@@ -16,7 +16,7 @@ from benchmarks import machine
 from benchmarks.rig import Rig, planar_error
 from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
-from robot.messages import BodyCommand, Stand, Walk, WalkTo
+from robot.messages import BodyCommand, GetUp, Stand, Walk, WalkTo
 from robot.se3 import SE3, wrap_angle
 from sim.world import empty
 
@@ -27,6 +27,8 @@ START_S = 3.0
 REPEAT_S = 0.25
 WATCH_S = 5.0
 GAIT_PERIOD_S = 1.1
+LIE_S = 3.0
+RISE_S = 90.0
 
 
 def walk(
@@ -204,6 +206,38 @@ def posture(*, command: str, fields: dict[str, Any], seed: int) -> Outcome:
     height_m = rig.X_WB.p[2]
     up = status == "done" and rig.run(1.0) and rig.upright
     return {"ok": up, "status": status, "height_m": round(height_m, 4), **_why(rig)}
+
+
+def get_up(*, seed: int) -> Outcome:
+    """Knocked down by 20 to 30 N s, standing or walking; get up, and step half a metre on.
+
+    `caught` says that the push did not knock it down.
+    """
+    rng = np.random.default_rng([seed, 43])
+    rig = Rig(seed=seed)
+    rig.run(REST_S)
+    if seed % 2:
+        rig.send(Walk, forward_m_s=0.3, hold_s=20.0)
+        rig.run(2.0 + GAIT_PERIOD_S * float(rng.uniform()))
+    rig.plant.push(float(rng.uniform(20.0, 30.0)), float(rng.uniform(-math.pi, math.pi)))
+    caught = rig.run(WATCH_S)
+    lies = ""
+    up_s = rig.time_s
+    if not caught:
+        rig.pass_by(LIE_S)
+        reason = rig.loop.state().failure
+        lies = str(reason.evidence.get("side", "")) if reason else ""
+        up_s = rig.time_s
+        rig.send(GetUp)
+        while rig.loop.mode != "stand" and rig.time_s < up_s + RISE_S:
+            rig.pass_by(0.1)
+    took_s, up = rig.time_s - up_s, rig.loop.mode != "fallen" and rig.upright
+    X_NM = rig.X_NS @ SE3((0.5, 0.0, 0.0))
+    rig.send(WalkTo, x_m=X_NM.p[0], y_m=X_NM.p[1], yaw_rad=X_NM.yaw_rad)
+    walked = up and rig.wait("legs", 30.0) == "done" and rig.upright
+    return {
+        "ok": walked, "caught": caught, "lies": lies, "took_s": round(took_s, 1), **_why(rig)
+    }  # fmt: skip
 
 
 def tick_time(*, duration_s: float, seed: int = 0) -> Outcome:
