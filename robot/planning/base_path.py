@@ -16,7 +16,7 @@ from robot.model.description import RobotDescription
 from robot.planning import numerics, sampling
 from robot.planning.base_block import explain_no_path
 from robot.planning.body import Body
-from robot.planning.floor import Floor
+from robot.planning.floor import Floor, with_room
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.planning.solids import Solid, solids_of
 from robot.se3 import Array, wrap_angle
@@ -38,7 +38,10 @@ TURN_ON_THE_SPOT_RAD = 0.35
 def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
     """Waypoints from the start to the goal, or why there are none."""
     solids = solids_of(request.around)
-    floor = Floor(solids, request.around.map.bounds_m)
+    robot = body.description
+    radius = robot.body_radius_m
+    bounds_m = with_room(request.around.map.bounds_m, *request.start[:2], radius_m=radius)
+    floor = Floor(solids, bounds_m)
     for stance, code, overlap in (
         (request.start, "start_in_collision", START_OVERLAP_M),
         (request.goal, "goal_in_collision", 0.0),
@@ -46,8 +49,6 @@ def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
         problem = _standing_problem(body, solids, floor, stance, code=code, overlap_m=overlap)
         if problem is not None:
             return problem
-    robot = body.description
-    radius = robot.body_radius_m
     for level in (radius + request.clearance_m, radius + 0.3 * request.clearance_m, 0.9 * radius):
         path = _plan_at(robot, floor, request, level)
         if path is not None:

@@ -110,6 +110,22 @@ class Floor:
         return min(x_m - x0, x1 - x_m, y_m - y0, y1 - y_m)
 
 
+def with_room(
+    bounds_m: tuple[float, float, float, float], x_m: float, y_m: float, *, radius_m: float
+) -> tuple[float, float, float, float]:
+    """The bounds, wider where one of this radius stands at their edge or beyond.
+
+    A robot that rolled over there on the floor must have a way back in.
+    """
+    x0, y0, x1, y1 = bounds_m
+    if min(x_m - x0, x1 - x_m, y_m - y0, y1 - y_m) >= radius_m:
+        return bounds_m
+    room_m = 2.0 * radius_m
+    return (
+        min(x0, x_m - room_m), min(y0, y_m - room_m), max(x1, x_m + room_m), max(y1, y_m + room_m),
+    )  # fmt: skip
+
+
 def _in_the_way(solid: Solid) -> bool:
     low, high = solid.z_range_m()
     return low < HIGHEST_M and high > LOWEST_M

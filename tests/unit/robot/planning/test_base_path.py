@@ -93,6 +93,21 @@ def test_a_start_inside_furniture_is_refused_by_name(solver: Solver) -> None:
     assert (found.code, found.evidence["blocked_by"]) == ("start_in_collision", "chair")
 
 
+@pytest.mark.parametrize("beyond_m", [-0.1, 0.0, 0.5])
+def test_one_who_got_up_beyond_the_edge_of_the_map_comes_back(
+    solver: Solver, beyond_m: float
+) -> None:
+    inside = surroundings()
+    furniture = tuple(one for one in inside.map.obstacles if "wall" not in one.name)
+    open_map = msgspec.structs.replace(inside.map, obstacles=furniture)
+    around = msgspec.structs.replace(inside, map=open_map)
+    x0, y0, x1, _ = open_map.bounds_m
+    for start in ((x0 - beyond_m, 0.0, 0.0), (0.5, y0 - beyond_m, 2.5), (x1 + 0.1, y0 - 0.1, 3.0)):
+        found = solver.solve(BasePathRequest(start=start, goal=BEFORE_TABLE, around=around))
+        assert isinstance(found, BasePath), found
+        assert found.waypoints[-1] == pytest.approx(BEFORE_TABLE)
+
+
 def test_a_wall_across_the_room_is_named(solver: Solver) -> None:
     found = path(solver, START, BEFORE_SHELF, more=(block("bar", 2.3, 0.0, (0.1, 6.0, 1.0)),))
     assert isinstance(found, Failure)
