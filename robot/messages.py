@@ -212,8 +212,8 @@ class LoopTiming(Message, frozen=True, kw_only=True):
 
     `late` of `count` periods began later than half a period after their time; percentiles of the
     lateness in seconds. `real_time_factor` is simulated time over wall time, 1 on hardware.
-    `late_share` is of the periods since the last report; `pressed` asks whatever is not real-time to
-    make room (`robot.bus.timing`).
+    `late_share` is of the periods since the last report; `pressed` asks whatever is not real-time
+    to make room (`robot.bus.timing`).
     """
 
     process: str
