@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 
-import mujoco
 import numpy as np
 
 from robot.control import screening
@@ -18,6 +17,7 @@ from robot.control.hand import HandControl
 from robot.control.head import Head
 from robot.control.legs import Legs
 from robot.control.limits import Limits
+from robot.control.payload import Payloads
 from robot.control.walking.footsteps import Sole, stance_of
 from robot.control.walking.gait import Reference
 from robot.control.whole_body import WholeBody
@@ -84,10 +84,7 @@ class ControlLoop:
         self._since_s = 0.0
         self._failure: Failure | None = None
         self._getting_up: GettingUp | None = None
-        self._nominal_mass: Array = np.array(self.body.model.body_mass)
-        self._nominal_ipos: Array = np.array(self.body.model.body_ipos)
-        self._payload: dict[Side, float] = {}
-        self._damp_activity = Activity(id=0, status="done")
+        self._payloads = Payloads(self.body)
 
     # --- start ---------------------------------------------------------------------------------
 
@@ -182,11 +179,10 @@ class ControlLoop:
             self._refuse(command, refusal)
         elif isinstance(command, Damp):
             self.mode = "damping"
-            self._damp_activity = Activity(id=command.id, status="done")
         elif isinstance(command, GetUp):
             self._get_up(command)
         elif isinstance(command, Payload):
-            self._carry(command.side, command.mass_kg)
+            self._payloads.carry(command.side, command.mass_kg)
         elif isinstance(command, Grip):
             self.hands[command.side].grip(command)
         elif isinstance(command, Look):
@@ -229,8 +225,7 @@ class ControlLoop:
             return
         self.limits.reset()
         self._failure = None
-        for side in tuple(self._payload):
-            self._carry(side, 0.0)
+        self._payloads.drop()
         self._getting_up = GettingUp(self.body)
         self.legs.activity = Activity(id=command.id, status="running")
         self.mode = "rising"
@@ -265,24 +260,6 @@ class ControlLoop:
         if self.mode == "stand":
             self._failure = None
         return self.mode == "stand"
-
-    def _carry(self, side: Side, mass_kg: float) -> None:
-        """Put a payload at the grasp point of a hand into the model."""
-        self._payload[side] = mass_kg
-        model = self.body.model
-        model.body_mass[:] = self._nominal_mass
-        model.body_ipos[:] = self._nominal_ipos
-        for one, mass in self._payload.items():
-            site = self.body.grasp_site[one]
-            hand = int(model.site_bodyid[site])
-            own = float(self._nominal_mass[hand])
-            total = own + mass
-            grasp = model.site_pos[site]
-            model.body_ipos[hand] = (own * self._nominal_ipos[hand] + mass * grasp) / total
-            model.body_mass[hand] = total
-        scratch = self.body.data()
-        mujoco.mj_setConst(model, scratch)
-        self.body.mass_kg = float(model.body_subtreemass[self.body.base_body])
 
     # --- every tick ----------------------------------------------------------------------------
 
