@@ -8,24 +8,21 @@ several senses; the first one whose frame accepts the complements is the one tha
 import re
 
 from intents.english import lexicon
+from intents.english.afterthoughts import OVER, Afterthoughts
 from intents.english.clauses import connector_end
-from intents.english.conditions import condition
-from intents.english.constructions import Constructions
-from intents.english.corrections import correction_end, substitute
+from intents.english.conditions import IF, condition
+from intents.english.corrections import substitute
 from intents.english.joining import as_wished, joined, same_object
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
-from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
-from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
+from intents.english.referents import ME, Scope, to_object
 from intents.english.self_talk import about_robot
-from intents.english.sentences import asks_end
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError, Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (
-    Answer,
     Bring,
     Condition,
     Find,
@@ -44,19 +41,15 @@ from intents.goals import (
 )
 from intents.risks import each
 
-_IF = lexicon.phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
 )
-
-
 _NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")
-_OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 _DEEPEST = 4
 
 
-class Grammar(Constructions):
+class Grammar(Afterthoughts):
     """Reads one sentence.
 
     Attributes:
@@ -79,14 +72,14 @@ class Grammar(Constructions):
         """
         if self.text.phrase_end(_HELLO, 0) == len(self.text):
             return [Greet(person=ME)]
-        goals, end = self._sequence(0, nested=False)
+        goals, end = self.sequence(0, nested=False)
         if end < len(self.text):
             raise self.not_understood(end)
         if self._one_hand:
             raise Partly("I choose the hand myself", tuple(goals))
         return goals
 
-    def _sequence(self, at: int, *, nested: bool) -> tuple[list[Goal], int]:
+    def sequence(self, at: int, *, nested: bool) -> tuple[list[Goal], int]:
         """Clauses one after the other; if nested only up to a full stop or "otherwise"."""
         self._depth += nested
         try:
@@ -105,7 +98,7 @@ class Grammar(Constructions):
             begun, at = at, self.skip(at)
             if at >= len(self.text) or (nested and self.text.phrase_end(lexicon.ELSE, at)):
                 return goals, at
-            changed = self._change_of_last(at, goals[last:]) if goals else None
+            changed = self.change_of_last(at, goals[last:]) if goals else None
             if changed:
                 goals[last:], at = changed
                 continue
@@ -133,7 +126,7 @@ class Grammar(Constructions):
         """
         known = tuple(before)
         try:
-            return self._clause(at, before)
+            return self.clause(at, before)
         except (NotUnderstood, Misfit) as error:
             if not known or self._depth:
                 raise
@@ -144,7 +137,7 @@ class Grammar(Constructions):
             return True
         return bool(self.text.phrase_end(lexicon.ELSE, at + (self.text.word(at) == COMMA)))
 
-    def _clause(self, at: int, before: list[Goal]) -> Reading:
+    def clause(self, at: int, before: list[Goal]) -> Reading:
         """One clause, by the first kind of reading that succeeds.
 
         Raises:
@@ -192,7 +185,7 @@ class Grammar(Constructions):
             after = connector_end(self.text, first)
             if after is None or not verbs_at(self.text.words, after):
                 raise
-            for goal in self._clause(after, [])[0]:
+            for goal in self.clause(after, [])[0]:
                 self.scope.mention_goal(goal)
             return self.verb(at)
 
@@ -208,7 +201,7 @@ class Grammar(Constructions):
         at = amount.end if amount and amount.kind == "times" else at
         after = at + (text.word(at) == COMMA)
         if not before and after < len(text) and verbs_at(text.words, after):
-            goals, end = self._sequence(after, nested=True)
+            goals, end = self.sequence(after, nested=True)
             return [Repeat(times=times, goals=tuple(goals))], end
         if text.words[verb - 2 : verb] in (["do", "it"], ["do", "that"]) and amount is None:
             return None
@@ -226,8 +219,8 @@ class Grammar(Constructions):
         amount = measure(self.text.words, at)
         if amount is None or amount.kind != "times":
             return None
-        start = self.text.phrase_end(_OVER, amount.end) or amount.end
-        goals, end = self._sequence(start, nested=True)
+        start = self.text.phrase_end(OVER, amount.end) or amount.end
+        goals, end = self.sequence(start, nested=True)
         return ([Repeat(times=int(amount.value), goals=tuple(goals))], end) if goals else None
 
     def _for_each(self, at: int) -> Reading | None:
@@ -238,7 +231,7 @@ class Grammar(Constructions):
             return None
         query = to_object(phrase, self.scope)
         kept, self.scope.object = self.scope.object, None
-        goals, end = self._sequence(phrase.end, nested=True)
+        goals, end = self.sequence(phrase.end, nested=True)
         self.scope.object = kept
         if not goals:
             raise Unclear("What shall I do with each of them?")
@@ -246,7 +239,7 @@ class Grammar(Constructions):
 
     def _conditional(self, at: int) -> Reading | None:
         """If the cup is not there, bring the mug, otherwise wait."""
-        start = self.text.phrase_end(_IF, at)
+        start = self.text.phrase_end(IF, at)
         if start is None and self.text.word(at) == "should" and self.text.word(at + 1) != "you":
             start = at + 1
         if start is None:
@@ -262,7 +255,7 @@ class Grammar(Constructions):
             self.scope.mention(holds.object)
         end += self.text.word(end) == COMMA
         end += self.text.word(end) == "then"
-        then, end = self._sequence(end, nested=True)
+        then, end = self.sequence(end, nested=True)
         if not then:
             raise Unclear("What shall I do then?")
         skipped = end
@@ -271,7 +264,7 @@ class Grammar(Constructions):
         otherwise = self.text.phrase_end(lexicon.ELSE, skipped)
         other: list[Goal] = []
         if otherwise:
-            other, end = self._sequence(otherwise, nested=True)
+            other, end = self.sequence(otherwise, nested=True)
         if self.text.word(at) == "unless":
             then, other = other, then
         return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
@@ -286,74 +279,13 @@ class Grammar(Constructions):
     def _before(self, at: int) -> Reading | None:
         """Before you go to the shelf, pick up the cup: the other way round."""
         word = self.text.word(at)
-        if word not in ("before", "after", "once") or not self._is_clause(at + 1):
+        if word not in ("before", "after", "once") or not self.begins_clause(at + 1):
             return None
-        one, end = self._clause(self.skip(at + 1), [])
+        one, end = self.clause(self.skip(at + 1), [])
         for goal in one:
             self.scope.mention_goal(goal)
-        other, end = self._clause(self.skip(end), [])
+        other, end = self.clause(self.skip(end), [])
         return ([*other, *one] if word == "before" else [*one, *other]), end
-
-    def _is_clause(self, at: int) -> bool:
-        """Whether "you go" or "going" begins at a word."""
-        word = self.text.word(at)
-        return word in ("you", "that") or (word.endswith("ing") and bool(self.skip(at) >= at))
-
-    def _change_of_last(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """What is said after a clause to change it: a correction, a condition, an order."""
-        return (
-            self._correction(at, last)
-            or self._trailing(at, last)
-            or self._after(at, last)
-            or self._so_often(at, last)
-            or self._who_asks(at, last)
-        )
-
-    def _who_asks(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Find someone *who has got a question*."""
-        relative = self.text.word(at) in ("who", "that", "whose", "with")
-        end = asks_end(self.text, at) if relative else None
-        found = last[-1] if last else None
-        if end is None or not isinstance(found, Find) or found.person is None:
-            return None
-        return [*last[:-1], Answer(what="question", person=found.person)], end
-
-    def _so_often(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Stand on one leg for three seconds, *four times*."""
-        amount = measure(self.text.words, at)
-        if amount is None or amount.kind != "times" or not last:
-            return None
-        end = self.text.phrase_end(_OVER, amount.end) or amount.end
-        if end < len(self.text) and self.text.word(end) != FULL_STOP:
-            return None
-        return [Repeat(times=int(amount.value), goals=tuple(last))], end
-
-    def _after(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Go to the shelf *after picking up the cup*; follow her *before coming back*."""
-        word = self.text.word(at)
-        if word not in ("after", "before") or not self._is_clause(at + 1):
-            return None
-        other, end = self._clause(self.skip(at + 1), [])
-        return ([*other, *last] if word == "after" else [*last, *other]), end
-
-    def _trailing(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """Bring the mug *if the cup is not there*."""
-        start = self.text.phrase_end(_IF, at)
-        if start is None or self.text.word(at - 1) == FULL_STOP:
-            return None
-        try:
-            holds, end = condition(self.text, start, self.scope)
-        except ReadingError:
-            return None
-        unless = self.text.word(at) == "unless"
-        comma = self.text.word(end) == COMMA and end < len(self.text)
-        otherwise = self.text.phrase_end(lexicon.ELSE, end + comma)
-        if otherwise and not unless:
-            other, end = self._sequence(otherwise, nested=True)
-            return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
-        if end < len(self.text) and self.text.word(end) != FULL_STOP:
-            return None
-        return [_if(holds, last, unless=unless)], end
 
     def _statement(self, at: int, before: list[Goal]) -> Reading | None:
         """She is in the kitchen: what was said of her is true of her there."""
@@ -368,49 +300,8 @@ class Grammar(Constructions):
                 before[:] = [substitute(g, was, now) for g in before]
         return [], end
 
-    def _correction(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
-        """No wait, the blue one; I mean go to the kitchen."""
-        end = correction_end(self.text, at) or self._told_apart(at)
-        if end is None:
-            return None
-        if verbs_at(self.text.words, end):
-            return self._clause(end, [])
-        phrase = noun_phrase(self.text, end)
-        if phrase is None:
-            return None
-        scope = self.scope
-        old = scope.person if is_person(phrase, scope) else scope.object
-        if is_spot(phrase):
-            old, new = scope.place, to_place(phrase, scope)
-        elif is_person(phrase, scope):
-            new = to_person(phrase, scope)
-        else:
-            new = to_object(phrase, scope)
-        if old is None:
-            raise Misfit("I do not know what to correct")
-        scope.mention(new)
-        return [substitute(g, old, new) for g in last], phrase.end
-
-    def _told_apart(self, at: int) -> int | None:
-        """Where *the blue one* begins that tells which cup was meant a sentence before."""
-        text, old = self.text, self.scope.object
-        if old is None or text.word(at - 1) not in (COMMA, FULL_STOP) or old.count not in (None, 1):
-            return None
-        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
-        if phrase is None or phrase.noun != "one":
-            return None
-        closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
-        told = (phrase.color and not old.color) or (phrase.size and not old.size)
-        return at if closed and (told or (phrase.superlative and not old.superlative)) else None
-
 
 def _names_hand(said: str, goals: tuple[Goal, ...]) -> bool:
     """Whether a thing is to be handled with one hand and not the other."""
     handles = any(isinstance(goal, (Pick, Place, Bring, Give)) for goal in each(goals))
     return handles and _NAMED_HAND.search(said.lower()) is not None
-
-
-def _if(holds: Condition, goals: list[Goal], *, unless: bool) -> If:
-    if unless:
-        return If(condition=holds, else_=tuple(goals))
-    return If(condition=holds, then=tuple(goals))

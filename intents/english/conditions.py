@@ -10,6 +10,8 @@ from intents.english.text import Text
 from intents.english.trouble import NotUnderstood
 from intents.goals import Condition, Holding, ObjectQuery, Present, State
 
+IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
+"""How a condition begins."""
 _EMPTY_HANDED = phrases(
     "your hands are empty,your hand is empty,your gripper is empty,you hold nothing,"
     "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"

@@ -1,0 +1,138 @@
+"""What is said after a clause and changes it: a correction, a condition, how often, in which order.
+
+"The red cup, no wait, the blue one"; "... if it is there"; "..., four times"; "... after that".
+"""
+
+from abc import ABC, abstractmethod
+
+from intents.english import lexicon
+from intents.english.conditions import IF, condition
+from intents.english.constructions import Constructions
+from intents.english.corrections import correction_end, substitute
+from intents.english.lexer import COMMA, FULL_STOP
+from intents.english.measures import measure
+from intents.english.noun_phrases import noun_phrase
+from intents.english.postmodifiers import is_spot
+from intents.english.questions import Reading
+from intents.english.referents import is_person, to_object, to_person, to_place
+from intents.english.sentences import asks_end
+from intents.english.trouble import Misfit, ReadingError
+from intents.english.verbs import verbs_at
+from intents.goals import Answer, Condition, Find, Goal, If, Repeat
+
+OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
+"""What may follow "three times" and adds nothing."""
+
+
+class Afterthoughts(Constructions, ABC):
+    """Reads what changes the goals of the clause before it."""
+
+    @abstractmethod
+    def clause(self, at: int, before: list[Goal]) -> Reading:
+        """One clause, by the first kind of reading that succeeds."""
+
+    @abstractmethod
+    def sequence(self, at: int, *, nested: bool) -> Reading:
+        """Clauses one after the other; if nested only up to a full stop or "otherwise"."""
+
+    def change_of_last(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """What is said after a clause to change it: a correction, a condition, an order."""
+        return (
+            self._correction(at, last)
+            or self._trailing(at, last)
+            or self._after(at, last)
+            or self._so_often(at, last)
+            or self._who_asks(at, last)
+        )
+
+    def _who_asks(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Find someone *who has got a question*."""
+        relative = self.text.word(at) in ("who", "that", "whose", "with")
+        end = asks_end(self.text, at) if relative else None
+        found = last[-1] if last else None
+        if end is None or not isinstance(found, Find) or found.person is None:
+            return None
+        return [*last[:-1], Answer(what="question", person=found.person)], end
+
+    def _so_often(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Stand on one leg for three seconds, *four times*."""
+        amount = measure(self.text.words, at)
+        if amount is None or amount.kind != "times" or not last:
+            return None
+        end = self.text.phrase_end(OVER, amount.end) or amount.end
+        if end < len(self.text) and self.text.word(end) != FULL_STOP:
+            return None
+        return [Repeat(times=int(amount.value), goals=tuple(last))], end
+
+    def _after(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Go to the shelf *after picking up the cup*; follow her *before coming back*."""
+        word = self.text.word(at)
+        if word not in ("after", "before") or not self.begins_clause(at + 1):
+            return None
+        other, end = self.clause(self.skip(at + 1), [])
+        return ([*other, *last] if word == "after" else [*last, *other]), end
+
+    def _trailing(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """Bring the mug *if the cup is not there*."""
+        start = self.text.phrase_end(IF, at)
+        if start is None or self.text.word(at - 1) == FULL_STOP:
+            return None
+        try:
+            holds, end = condition(self.text, start, self.scope)
+        except ReadingError:
+            return None
+        unless = self.text.word(at) == "unless"
+        comma = self.text.word(end) == COMMA and end < len(self.text)
+        otherwise = self.text.phrase_end(lexicon.ELSE, end + comma)
+        if otherwise and not unless:
+            other, end = self.sequence(otherwise, nested=True)
+            return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
+        if end < len(self.text) and self.text.word(end) != FULL_STOP:
+            return None
+        return [_if(holds, last, unless=unless)], end
+
+    def _correction(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """No wait, the blue one; I mean go to the kitchen."""
+        end = correction_end(self.text, at) or self._told_apart(at)
+        if end is None:
+            return None
+        if verbs_at(self.text.words, end):
+            return self.clause(end, [])
+        phrase = noun_phrase(self.text, end)
+        if phrase is None:
+            return None
+        scope = self.scope
+        old = scope.person if is_person(phrase, scope) else scope.object
+        if is_spot(phrase):
+            old, new = scope.place, to_place(phrase, scope)
+        elif is_person(phrase, scope):
+            new = to_person(phrase, scope)
+        else:
+            new = to_object(phrase, scope)
+        if old is None:
+            raise Misfit("I do not know what to correct")
+        scope.mention(new)
+        return [substitute(g, old, new) for g in last], phrase.end
+
+    def _told_apart(self, at: int) -> int | None:
+        """Where *the blue one* begins that tells which cup was meant a sentence before."""
+        text, old = self.text, self.scope.object
+        if old is None or text.word(at - 1) not in (COMMA, FULL_STOP) or old.count not in (None, 1):
+            return None
+        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+        if phrase is None or phrase.noun != "one":
+            return None
+        closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
+        told = (phrase.color and not old.color) or (phrase.size and not old.size)
+        return at if closed and (told or (phrase.superlative and not old.superlative)) else None
+
+    def begins_clause(self, at: int) -> bool:
+        """Whether "you go" or "going" begins at a word."""
+        word = self.text.word(at)
+        return word in ("you", "that") or (word.endswith("ing") and bool(self.skip(at) >= at))
+
+
+def _if(holds: Condition, goals: list[Goal], *, unless: bool) -> If:
+    if unless:
+        return If(condition=holds, else_=tuple(goals))
+    return If(condition=holds, then=tuple(goals))
