@@ -18,7 +18,18 @@ from executive.evaluation.cli import evaluate
 from executive.history import cli as history
 from executive.listening.cli import listen
 from executive.missions import cli as missions
-from executive.options import AsJson, Fast, Model, Robot, RunDir, Seed, Vary, World
+from executive.options import (
+    Aloud,
+    AsJson,
+    Fast,
+    Model,
+    Robot,
+    RunDir,
+    Seed,
+    Vary,
+    VoiceModel,
+    World,
+)
 from robot.errors import ConfigError
 
 app = typer.Typer(
@@ -73,6 +84,8 @@ def do(
     dump: dumps.Dump = None,
     dump_on: dumps.DumpOn = "end",
     dump_format: dumps.DumpFormat = "html",
+    voice: Aloud = False,
+    voice_model: VoiceModel = None,
 ) -> None:
     """Do what a sentence says.
 
@@ -101,6 +114,8 @@ def do(
         dump=dump,
         dump_on=dump_on,
         dump_format=dump_format,
+        voice=voice or voice_model is not None,
+        voice_model=voice_model,
     )
     raise typer.Exit(commands.do(options))
 
@@ -115,6 +130,8 @@ def repl(
     vary: Vary = False,
     run_dir: RunDir = None,
     model: Model = None,
+    voice: Aloud = False,
+    voice_model: VoiceModel = None,
 ) -> None:
     r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
 
@@ -131,8 +148,9 @@ def repl(
     from executive.repl import cli
 
     options = cli.Options(
-        world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir, model=model
-    )
+        world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir, model=model,
+        voice=voice or voice_model is not None, voice_model=voice_model,
+    )  # fmt: skip
     raise typer.Exit(cli.repl(options))
 
 

@@ -9,11 +9,12 @@ from typing import Any
 
 import msgspec
 import typer
+from msgspec.structs import replace
 from rich.console import Console
 from rich.markup import escape
 
 from executive import doctor as examination
-from executive import doing, request, runs, runtimes, walking
+from executive import doing, request, runs, runtimes, speaking, walking
 from executive.app import Executive
 from executive.dumps.writer import along
 from executive.endpoint import language_model
@@ -21,6 +22,7 @@ from executive.history import going_on
 from executive.loop import Interrupts
 from executive.overseeing import oversee
 from executive.progress import Lines, LiveTree, Progress, Silent
+from executive.speaking import Speech
 from intents.goals import from_builtins, to_builtins
 from intents.outcomes import Question
 from robot.bringup.overseen import Handle
@@ -46,6 +48,8 @@ class Do(msgspec.Struct, frozen=True, kw_only=True):
     dump_on: str = "end"
     dump_format: str = "html"
     model: Path | None = None
+    voice: bool = False
+    voice_model: Path | None = None
 
 
 class Walk(msgspec.Struct, frozen=True, kw_only=True):
@@ -66,17 +70,14 @@ def do(options: Do) -> int:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = _setting(options)
-    asking = at_terminal() and not options.as_json
-    model = language_model(options.model)
-    understood = request.request(options.text, where, ask=ask if asking else None, fallback=model)
+    options = replace(options, voice=speaking.able(wanted=options.voice, model=options.voice_model))
+    understood = _understood(options, where)
     if isinstance(understood, request.Refused):
-        if model is not None and model.trouble:
-            typer.echo(f"The language model was of no help: {model.trouble}.", err=True)
         return refuse(understood, as_json=options.as_json)
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for(options.text, stamp=stamp)
     runs.check_free(folder)
-    options = msgspec.structs.replace(options, folder=folder)
+    options = replace(options, folder=folder)
     if options.fast:
         return carry_out(options, understood, where)
     task = {
@@ -85,6 +86,28 @@ def do(options: Do) -> int:
         "goals": to_builtins(understood.goals),
     }
     return oversee("executive.commands:do_overseen", task, as_json=options.as_json)
+
+
+def _understood(options: Do, where: request.Setting) -> request.Understood | request.Refused:
+    """What the sentence means here; who is at the terminal is asked back, aloud where wanted."""
+    asking = at_terminal() and not options.as_json
+    model = language_model(options.model)
+    with speaking.opened(wanted=options.voice, model=options.voice_model) as speech:
+
+        def aloud(question: Question) -> str | None:
+            speech.say(question.question)
+            answer = ask(question)
+            speech.hush()
+            return answer
+
+        meant = request.request(options.text, where, ask=aloud if asking else None, fallback=model)
+        if isinstance(meant, request.Refused):
+            if model is not None and model.trouble:
+                typer.echo(f"The language model was of no help: {model.trouble}.", err=True)
+            if not asking or meant.outcome != "question":
+                speech.say(meant.reason)
+                speech.finish()
+    return meant
 
 
 def do_overseen(handle: Handle, task: dict[str, Any]) -> int:
@@ -131,6 +154,18 @@ def carry_out(
 
 def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> int:
     """Open the runtime, do a job (or go on with it), say how it ended; the exit status."""
+    with speaking.opened(wanted=options.voice, model=options.voice_model) as speech:
+        summary = _worked_off(job, options, speech, handle)
+        if options.as_json:
+            echo_json(summary)
+        else:
+            typer.echo("\n".join(doing.closing(summary)))
+        speech.finish()
+    return summary.exit_status
+
+
+def _worked_off(job: doing.Job, options: Do, speech: Speech, handle: Handle | None) -> runs.Summary:
+    """The same, but for the last words."""
     kind: runtimes.Kind = "fast" if options.fast else "live"
     show = along(
         silent if options.as_json else on_screen,
@@ -138,6 +173,11 @@ def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> in
         on=options.dump_on,
         formats=options.dump_format,
     )
+
+    def shown(executive: Executive) -> Progress:
+        executive.journal.listen(speech.note)
+        return show(executive)
+
     where = job.where
     interrupts = Interrupts()
     with (
@@ -148,20 +188,15 @@ def work_off(job: doing.Job, options: Do, *, handle: Handle | None = None) -> in
         ),
     ):
         work = going_on.do if handle is not None and handle.deaths else doing.do
-        summary = work(
+        return work(
             job,
             runtime,
             planner,
-            show=show,
+            show=shown,
             wall=WallClock(),
             time_of_day=lambda: datetime.now().astimezone().timestamp(),
             interrupts=interrupts,
         )
-    if options.as_json:
-        echo_json(summary)
-    else:
-        typer.echo("\n".join(doing.closing(summary)))
-    return summary.exit_status
 
 
 def silent(_executive: Executive) -> Progress:

@@ -35,4 +35,11 @@ Model = Annotated[
         help="Language model (an endpoint's TOML file) to ask what the grammar cannot read.",
     ),
 ]
+Aloud = Annotated[
+    bool, typer.Option("--voice", help="Say aloud what is answered and asked, and how it ended.")
+]
+VoiceModel = Annotated[
+    Path | None,
+    typer.Option("--voice-model", help="The same with piper, in this voice (ONNX)."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]

@@ -16,15 +16,15 @@ from executive.listening.hearing import INVALID, Options, audio_errors, ear, sou
 from executive.overseeing import oversee
 from executive.repl import cli
 from executive.repl.shell import Shell
+from executive.speaking import Speech
 from intents import goals as g
 from intents.goals import Goal
 from intents.risks import each, risk
 from intents.speech.ear import Ear, Spoken
-from intents.speech.voice import Voice, voice
+from intents.speech.voice import voice
 from intents.stopping import is_stop
 from robot.bringup.overseen import Handle
 
-LAST_WORDS_S = 10.0
 _SENTENCE = re.compile(r"(?<=[.!?;])\s+")
 HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)
 """Goals that move nothing, and those that only end or hold what is under way."""
@@ -62,18 +62,14 @@ def converse(options: Options, *, handle: Handle | None = None) -> int:
         world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
         vary=False, folder=options.folder, model=options.model,
     )  # fmt: skip
-    with cli.conversation(prompt, handle=handle) as shell:
-        vocabulary = shell.robot.where.knowledge.vocabulary()
-        shell.dialogue.risk = risk if options.yes else heard_risk
-        listener = ear(options, vocabulary)
-        speech = voice(options.voice, model=options.voice_model)
-        try:
+    with Speech(voice(options.voice, model=options.voice_model)) as speech:
+        with cli.conversation(prompt, handle=handle, speech=speech) as shell:
+            listener = ear(options, shell.robot.where.knowledge.vocabulary())
+            shell.dialogue.risk = risk if options.yes else heard_risk
             recorded = options.file is not None
-            status = Conversation(shell, listener, speech, recorded=recorded).run(options)
-            speech.wait(LAST_WORDS_S)
-            return status
-        finally:
-            speech.close()
+            status = Conversation(shell, listener, recorded=recorded).run(options)
+        speech.finish()
+    return status
 
 
 def heard_risk(goals: tuple[Goal, ...]) -> str:
@@ -86,21 +82,19 @@ def heard_risk(goals: tuple[Goal, ...]) -> str:
 class Conversation:
     """A person and a robot, both of whom speak."""
 
-    def __init__(self, shell: Shell, listener: Ear, speech: Voice, *, recorded: bool) -> None:
+    def __init__(self, shell: Shell, listener: Ear, *, recorded: bool) -> None:
         """Begin.
 
         Args:
-            shell: does what a sentence says.
+            shell: does what a sentence says, and answers.
             listener: hears it.
-            speech: answers.
             recorded: whether a recording is listened to, which hears nothing of the robot: each
                 job is done before it goes on.
         """
         self._shell = shell
         self._ear = listener
-        self._voice = speech
         self._recorded = recorded
-        shell.out = self.tell
+        shell.speech.screen = self._said
         shell.robot.session.journal.listen(self._note)
 
     def run(self, options: Options) -> int:
@@ -108,7 +102,7 @@ class Conversation:
         shell = self._shell
         with sound(options) as blocks:
             for block in blocks:
-                speaking = self._voice.speaking and not self._recorded
+                speaking = shell.speech.speaking and not self._recorded
                 for one in self._ear.push(block.sound, speaking=speaking, heeded=block.heeded):
                     self.take(one)
                 for one in self._ear.finish() if block.ends else ():
@@ -129,7 +123,6 @@ class Conversation:
             return
         cli.say(f"> {one.text}")
         if one.kind == "stop":
-            self._voice.hush()
             shell.stop("a cry to stop was heard")
         elif shell.robot.executive.question and one.text in ANSWERS:
             shell.robot.executive.answer(one.text)
@@ -140,28 +133,17 @@ class Conversation:
         asked = shell.dialogue.question is not None or bool(shell.robot.executive.question)
         self._ear.replying = asked
 
-    def tell(self, text: str) -> None:
-        """Say a line, on the screen and aloud."""
-        cli.say(text)
-        self._say(text)
-
-    def _say(self, text: str) -> None:
-        """Say it aloud, but for cries to stop: it would heed them."""
+    def _said(self, text: str) -> str:
+        """What is said of a text: all but cries to stop, for it would heed them."""
         text = " ".join(one for one in _SENTENCE.split(text) if not is_stop(one))
         if not self._recorded:
             self._ear.said(text)
-        self._voice.say(text)
+        return text
 
     def _note(self, event: Event) -> None:
-        """Say aloud what is for ears: what was to be said, what is asked, and how it ended."""
-        if event.event == "said":
-            self._say(str(event.data["text"]))
-        elif event.event == "help":
+        """What is asked may be answered in a word."""
+        if event.event == "help":
             self._ear.replying = True
-            self._say(str(event.data["question"]))
-        elif event.event == "job" and event.data["state"] in ("done", "failed"):
-            cause = event.data.get("cause")
-            self._say(f"I could not do that: {cause}." if cause else "Done.")
 
     def _status(self) -> int:
         if self._shell.dialogue.question is not None:

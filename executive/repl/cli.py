@@ -13,7 +13,7 @@ import msgspec
 from msgspec.structs import replace
 from rich.console import Console
 
-from executive import request, runs, runtimes
+from executive import request, runs, runtimes, speaking
 from executive.endpoint import language_model
 from executive.history.recording import Recording
 from executive.journal import Event
@@ -22,6 +22,7 @@ from executive.progress import sentence
 from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
+from executive.speaking import Speech
 from robot.bringup.overseen import Handle
 from robot.clock import WallClock
 
@@ -46,6 +47,8 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     folder: Path | None
     model: Path | None = None
     left_by: Path | None = None
+    voice: bool = False
+    voice_model: Path | None = None
 
 
 def again(left_by: Recording, model: Path | None) -> int:
@@ -76,7 +79,8 @@ def repl(options: Options) -> int:
     stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
     folder = options.folder or runs.folder_for("prompt", stamp=stamp)
     runs.check_free(folder)
-    options = replace(options, folder=folder)
+    voice = speaking.able(wanted=options.voice, model=options.voice_model)
+    options = replace(options, folder=folder, voice=voice)
     if options.fast:
         return prompt(options)
     plain = msgspec.to_builtins(options, enc_hook=str)
@@ -96,24 +100,41 @@ def _setting(options: Options) -> request.Setting:
 
 def prompt(options: Options, *, handle: Handle | None = None) -> int:
     """The prompt itself; `handle` is that of a live robot."""
-    with conversation(options, handle=handle) as shell:
-        if sys.stdin.isatty() and sys.stdout.isatty():
-            from executive.repl.terminal import Terminal
+    with speaking.opened(wanted=options.voice, model=options.voice_model) as speech:
+        with conversation(options, handle=handle, speech=speech) as shell:
+            if sys.stdin.isatty() and sys.stdout.isatty():
+                return _at_terminal(shell, options, handle)
+            work_off(shell, sys.stdin)
+            status = status_of(shell)
+        speech.finish()
+        return status
 
-            if handle is not None and handle.deaths > 0:
-                say("The prompt is back; the robot goes on with what was open.")
-            kind = "fast" if handle is None else "live"
-            say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
-            Terminal(shell, history=HISTORY.expanduser()).run()
-            say("The robot comes to a stand." if shell.robot.busy else "The robot stands.")
-            return BROKEN if shell.robot.lost else DONE
-        work_off(shell, sys.stdin)
-        return status_of(shell)
+
+def _at_terminal(shell: Shell, options: Options, handle: Handle | None) -> int:
+    """Prompt on a terminal until the person leaves; returns the exit status."""
+    from executive.repl.terminal import Terminal
+
+    if handle is not None and handle.deaths > 0:
+        say("The prompt is back; the robot goes on with what was open.")
+    kind = "fast" if handle is None else "live"
+    say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
+    Terminal(shell, history=HISTORY.expanduser()).run()
+    shell.speech.hush()
+    say("The robot comes to a stand." if shell.robot.busy else "The robot stands.")
+    return BROKEN if shell.robot.lost else DONE
 
 
 @contextmanager
-def conversation(options: Options, *, handle: Handle | None = None) -> Generator[Shell]:
-    """A robot to talk to, and what comes of what is said; `handle` is that of a live robot."""
+def conversation(
+    options: Options, *, handle: Handle | None = None, speech: Speech
+) -> Generator[Shell]:
+    """A robot to talk to, and what comes of what is said.
+
+    Args:
+        options: of the prompt.
+        handle: of a live robot.
+        speech: says aloud what is for ears.
+    """
     where, folder = _setting(options), options.folder
     assert folder is not None
     kind: runtimes.Kind = "fast" if handle is None else "live"
@@ -132,11 +153,13 @@ def conversation(options: Options, *, handle: Handle | None = None) -> Generator
         with Console(stderr=True).status("starting the robot"):
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
-        shell = Shell(robot, say, folder=folder, model=language_model(options.model))
+        model = language_model(options.model)
+        shell = Shell(robot, say, folder=folder, model=model, speech=speech)
         for event in robot.session.journal.recent:
             if event.event == "resumed":  # before anybody listened
                 _tell(event)
         robot.session.journal.listen(_tell)
+        robot.session.journal.listen(speech.note)
         yield shell
 
 

@@ -288,7 +288,7 @@ class _Steering:
 
     def pause(self, _rest: str) -> None:
         self._shell.robot.executive.pause()
-        self._shell.out("Pausing; `resume` goes on with the step.")
+        self._shell.answer("Pausing; `resume` goes on with the step.")
 
     def resume(self, _rest: str) -> None:
         self._shell.robot.executive.resume()
@@ -305,6 +305,7 @@ class _Steering:
             latch.reset()
             self._shell.out("The robot may move again.")
         else:
+            self._shell.speech.hush()
             latch.press("the operator pressed the emergency stop")
             self._shell.out("Emergency stop. `estop release`, then `estop reset`, undo it.")
 
@@ -315,7 +316,7 @@ class _Steering:
         elif under_way:
             self._shell.robot.executive.cancel(under_way[0].number)
         else:
-            self._shell.out("Nothing is under way.")
+            self._shell.answer("Nothing is under way.")
 
     def carry_on(self, _rest: str) -> None:
         executive = self._shell.robot.executive

@@ -19,6 +19,7 @@ from executive.repl.robot import Robot
 from executive.repl.state import robot_state
 from executive.repl.table import Command
 from executive.request import Refused, Understood, meant
+from executive.speaking import Speech
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.outcomes import Goals, Question, Refusal, Reply
@@ -39,19 +40,27 @@ class Shell:
     Attributes:
         robot: what is spoken to.
         out: says a line to people.
+        speech: says aloud what it answers.
         folder: of this run.
         leaving: whether the person wants to go.
         refused: how many lines led to nothing, because they could not be meant.
     """
 
     def __init__(
-        self, robot: Robot, out: Out, *, folder: Path, model: LanguageModel | None = None
+        self,
+        robot: Robot,
+        out: Out,
+        *,
+        folder: Path,
+        model: LanguageModel | None = None,
+        speech: Speech | None = None,
     ) -> None:
         """Begin a conversation; `model` is asked what the grammar does not understand."""
         from executive.repl.commands import table
 
         self.robot = robot
         self.out = out
+        self.speech = speech or Speech()
         self.folder = folder
         self.leaving = False
         self.refused = 0
@@ -70,8 +79,14 @@ class Shell:
         self.stop("the operator said stop")
         return True
 
+    def answer(self, text: str) -> None:
+        """Say a line to people, and aloud."""
+        self.out(text)
+        self.speech.say(text)
+
     def stop(self, why: str) -> None:
-        """Bring the robot to a stand and end all jobs."""
+        """Be silent, bring the robot to a stand and end all jobs."""
+        self.speech.hush()
         busy = self.robot.busy
         self.robot.executive.stop(why)
         self.dialogue.forget()
@@ -101,9 +116,9 @@ class Shell:
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
         if isinstance(turn, Reply):
-            self.out(turn.text)
+            self.answer(turn.text)
         elif isinstance(turn, Question):
-            self.out(turn.question)
+            self.answer(turn.question)
         elif isinstance(turn, Refusal):
             self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
             if self._model is not None and self._model.trouble:
@@ -121,7 +136,7 @@ class Shell:
         mine = live.pop(number, None)
         before = [job for job in live.values() if mine and job.resources & mine.resources]
         if before and not urgent:
-            self.out(f"Queued as {number}, with {len(before)} before it.")
+            self.answer(f"Queued as {number}, with {len(before)} before it.")
 
     def under_way(self) -> list[Job]:
         """The jobs that have begun and are not over."""
@@ -153,7 +168,7 @@ class Shell:
 
     def _refuse(self, why: str, cure: str = "") -> None:
         self.refused += 1
-        self.out(why)
+        self.answer(why)
         if cure:
             self.out(f"  {cure}")
 

@@ -16,6 +16,8 @@ from robot.messages import Damp, Stand
 from robot.model import description
 from robot.planning.requests import BasePathRequest, PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
+from tests.fakes.synthesiser import Synthesiser
+from tests.fakes.waiting import eventually
 from tests.fakes.worlds import puppet, world_map
 
 
@@ -208,6 +210,52 @@ def test_the_same_run_twice_writes_the_same_journal(runtime, monkeypatch, humano
         assert status == 0
         journals.append((tmp_path / f"run-{name}" / "journal.jsonl").read_bytes())
     assert journals[0] == journals[1]
+
+
+# --- aloud ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def synthesiser(tmp_path, monkeypatch):
+    """Something to speak with that takes a moment to say anything."""
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    return Synthesiser(tmp_path / "bin", first="/bin/sleep 0.05")
+
+
+@pytest.mark.parametrize(
+    ("sentence", "said"),
+    [
+        ("say welcome home", ["welcome home", "Done."]),
+        ("put the cup on the table", ["Which cup, the red one or the blue one?"]),
+    ],
+)
+def test_what_is_for_ears_is_said_to_its_end(runtime, humanoid, synthesiser, sentence, said):
+    humanoid("do", sentence, "--fast", "--voice")
+    assert synthesiser.said == said
+
+
+def test_a_question_at_the_terminal_is_asked_aloud_and_ends_with_the_answer(
+    runtime, humanoid, synthesiser, monkeypatch
+):
+    def ask(question):
+        assert eventually(lambda: synthesiser.said == [question.question])
+        return "blue"
+
+    monkeypatch.setattr(commands, "at_terminal", lambda: True)
+    monkeypatch.setattr(commands, "ask", ask)
+    assert humanoid("do", "pick up the cup", "--fast", "--voice")[0] == 0
+    assert synthesiser.said == ["Which cup, the red one or the blue one?", "Done."]
+
+
+def test_a_failure_is_said_with_its_cause(runtime, humanoid, synthesiser):
+    runtime.at = [(1.0, lambda: setattr(runtime.puppet, "mode", "fallen"))]
+    assert humanoid("do", "walk two metres forward", "--fast", "--voice")[0] == 1
+    assert synthesiser.said[-1].startswith("I could not do that: ")
+
+
+def test_nothing_is_said_unless_asked_for(runtime, humanoid, synthesiser):
+    assert humanoid("do", "say welcome home", "--fast")[0] == 0
+    assert synthesiser.said == []
 
 
 # --- files and options, with the real worlds ---------------------------------------------------

@@ -15,6 +15,7 @@ from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear
 from intents.speech.recogniser import Heard
 from robot.errors import ConfigError
+from tests.fakes.voices import Loudspeaker
 
 SOUNDS = Path(__file__).parents[1] / "unit" / "intents" / "speech" / "sounds"
 
@@ -163,26 +164,6 @@ def test_stop_stops_and_closes_the_question(humanoid, told, tmp_path):
     assert "> stop" in text
     assert not [e for e in journal(tmp_path / "run") if e["event"] == "job"]
     assert status == 2  # "yes" answered nothing any more
-
-
-class Loudspeaker:
-    """A voice that keeps what it says."""
-
-    def __init__(self):
-        self.told = []
-        self.speaking = False
-
-    def say(self, text):
-        self.told.append(text)
-
-    def hush(self):
-        self.told.append("(hush)")
-
-    def wait(self, timeout_s):
-        return True
-
-    def close(self):
-        pass
 
 
 @pytest.fixture

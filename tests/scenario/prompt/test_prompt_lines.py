@@ -11,8 +11,10 @@ from executive import request, runtimes
 from executive.journal import read
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
+from executive.speaking import Speech
 from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
+from tests.fakes.voices import Loudspeaker
 from tests.fakes.waiting import eventually
 
 
@@ -256,3 +258,19 @@ def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Pat
             assert shell.robot.executive.jobs[-1].state == "done"
             shell.line("brighten up the evening")
             assert "language model was of no help" in shell.out[-1]
+
+
+def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
+    voice = Loudspeaker()
+    shell.speech = Speech(voice)
+    try:
+        for line in ("what are you holding?", "status", "help", "blah blah", "pick up the cup"):
+            shell.line(line)
+        holding, refused, asked = voice.told
+        assert holding == "I am not holding anything."
+        assert refused.startswith("Not understood:")
+        assert asked.startswith("Which cup")
+        shell.line("stop")
+        assert voice.told[-1] == "(hush)"
+    finally:
+        shell.speech = Speech()
