@@ -12,6 +12,7 @@ from executive.scene import CannotMean, Scene
 from executive.trees.parts import Part
 from executive.trees.tasks import understand
 from executive.validation import check
+from executive.whereabouts import Whereabouts, needed
 from intents import dialogue, parser
 from intents.context import verdict_of
 from intents.goals import Goal
@@ -61,13 +62,17 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Understood(msgspec.Struct, frozen=True, kw_only=True):
-    """A sentence, its goals, the task they make; what is in the hands before and after it (ids)."""
+    """A sentence, its goals, the task they make; what is in the hands before and after it (ids).
+
+    `whereabouts` is what they were understood by, where their meaning depends on it.
+    """
 
     text: str
     goals: tuple[Goal, ...]
     task: Part
     held: tuple[str, ...] = ()
     holds: tuple[str, ...] = ()
+    whereabouts: Whereabouts | None = None
 
 
 def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
@@ -135,7 +140,10 @@ def meant(
     refusal = check(task, where.knowledge, where.description)
     if refusal is not None:
         return refused(refusal)
-    return Understood(text=text, goals=goals, task=task, held=held, holds=tuple(scene.held))
+    return Understood(
+        text=text, goals=goals, task=task, held=held, holds=tuple(scene.held),
+        whereabouts=needed(goals, state),
+    )  # fmt: skip
 
 
 def refused(reason: Failure) -> Refused:

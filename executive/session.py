@@ -18,6 +18,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+import msgspec
+
 from executive import loop
 from executive.app import Executive
 from executive.dumps.record import Recorder
@@ -99,10 +101,11 @@ class Session:
             origin: what the task is made from, for the journal (default: the goals).
             done: paths of steps that are done already.
         """
-        task = understood.task
+        task, whereabouts = understood.task, msgspec.to_builtins(understood.whereabouts)
         made_from: dict[str, Any] = {
             "goals": to_builtins(understood.goals),
             **({"held": understood.held} if understood.held else {}),
+            **({"whereabouts": whereabouts} if whereabouts is not None else {}),
         }
         return self.executive.submit(
             lambda stage: build(task, stage, done=done),

@@ -13,6 +13,7 @@ from executive.faults import FaultPlan
 from executive.journal import FILE, Event
 from executive.request import Refused, Setting, Understood
 from executive.runs import Header
+from executive.whereabouts import Whereabouts, recalled
 from intents import goals
 from robot.bringup import entry
 from robot.errors import ConfigError, Problem
@@ -118,9 +119,12 @@ def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
         return again(made_from, folder, where)
     try:
         asked = goals.from_builtins(made_from["goals"])
+        then = msgspec.convert(made_from.get("whereabouts"), Whereabouts | None)
     except (msgspec.ValidationError, ValueError) as error:
         raise ConfigError(f"{folder}: the goals of {text!r} cannot be read: {error}") from None
-    meant = request.meant(text, asked, where, held=tuple(made_from.get("held", ())))
+    state = recalled(then, where.knowledge) if then is not None else None
+    held = tuple(made_from.get("held", ()))
+    meant = request.meant(text, asked, where, held=held, state=state)
     if isinstance(meant, Refused):
         raise ConfigError([Problem(f"{text!r}: {meant.reason}", suggestion=meant.suggestion)])
     return meant

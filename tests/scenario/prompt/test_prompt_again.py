@@ -45,6 +45,20 @@ def test_resume_gives_the_prompt_back_with_what_was_open(
     assert done == ["bow", "go to the table"]
 
 
+def test_the_leftmost_is_the_one_that_it_was_when_it_was_said(
+    runtime, humanoid, anew, monkeypatch  # noqa: F811
+):  # fmt: skip
+    at_the_prompt(monkeypatch, "say hello", "squat for 2 seconds, then look at the leftmost cup")
+    assert humanoid("repl", "--fast", "--run-dir", "runs/a")[0] == 0
+    cut_after("done", "squat for 2 s")
+    anew()
+    at_the_prompt(monkeypatch, "status")
+    status, text = humanoid("resume", "runs/b")
+    assert status == 0, text
+    done = [event.data["step"] for event in newest() if event.event == "done"]
+    assert done == ["look at the red cup"]
+
+
 def test_a_mission_goes_on_from_the_copy_of_its_file(
     runtime, humanoid, anew, monkeypatch, tmp_path  # noqa: F811
 ):  # fmt: skip
