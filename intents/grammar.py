@@ -150,6 +150,7 @@ class Grammar(Afterthoughts):
             lambda: self._times(at),
             lambda: self._repeat(at, before),
             lambda: self._before(at),
+            lambda: self.remark(at),
             lambda: self.construction(at),
             lambda: self.question(at),
             lambda: self.pose(at),

@@ -15,7 +15,7 @@ from intents.english.noun_phrases import noun_phrase
 from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_object, to_person, to_place
-from intents.english.sentences import asks_end
+from intents.english.remarks import asks_end
 from intents.english.trouble import Misfit, ReadingError
 from intents.english.verbs import verbs_at
 from intents.goals import Answer, Condition, Find, Goal, If, Repeat

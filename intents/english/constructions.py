@@ -1,7 +1,7 @@
 """Clauses whose verb is not the act.
 
-"Give Ada a wave", "pull the drawer open", "the cup goes in the box", "help Ada find the door",
-"the cup should be brought to me".
+"Give Ada a wave", "lights off", "help Ada find the door", "I need you in the cellar", "in ten
+seconds, ...", "patrol between the table and the shelf".
 """
 
 from math import pi
@@ -9,36 +9,29 @@ from math import pi
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import Clause, Complement, ends_clause, read_complements
+from intents.english.clauses import Clause, Complement, read_complements
 from intents.english.frames import FRAMES
-from intents.english.frames.devices import device_names
-from intents.english.lexer import COMMA, FULL_STOP, singular
+from intents.english.lexer import COMMA, singular
 from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_person, to_place
-from intents.english.sentences import Clauses
-from intents.english.trouble import ReadingError, Unclear
-from intents.english.verbs import SENSES, participle_base, verbs_at
-from intents.goals import OPERATOR, Close, Goal, GoTo, Guide, LookAt, Open, Repeat, Switch, Wait
-
-_RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
-                              "need switch shut")  # fmt: skip
-_RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {
-    "open": (Open, True), "closed": (Close, True), "shut": (Close, True), "on": (Switch, True),
-    "going": (Switch, True), "running": (Switch, True), "started": (Switch, True),
-    "off": (Switch, False), "out": (Switch, False), "stopped": (Switch, False),
-}  # fmt: skip
-_ENSURES = lexicon.phrases(
-    "make sure,make sure that,ensure,ensure that,see to it that,take care that,check that"
+from intents.english.results import WISHES, Results
+from intents.english.sentences import without_favours
+from intents.english.trouble import Unclear
+from intents.english.verbs import verbs_at
+from intents.goals import (
+    OPERATOR,
+    Close,
+    GoTo,
+    Guide,
+    LookAt,
+    Repeat,
+    Switch,
+    Wait,
 )
-_WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
 
-_LIGHT = lexicon.phrases(
-    "give,do,make,take,have,perform,show,go into,go down into,get into,get down into,hold,stay in,"
-    "go for,do me,give it,execute,have yourself,lower yourself into,drop into,sink into"
-)
 _ACTS: dict[str, tuple[str, str]] = {
     "wave": ("gesture", "wave"), "nod": ("gesture", "nod"), "bow": ("gesture", "bow"),
     "clap": ("gesture", "clap"), "applause": ("gesture", "clap"), "dance": ("gesture", "dance"),
@@ -46,21 +39,17 @@ _ACTS: dict[str, tuple[str, str]] = {
     "crouch": ("squat", "squat"), "turn": ("turn", "turn"), "rotation": ("turn", "turn"),
     "spin": ("turn", "spin"),
     "look": ("look", "look at"), "glance": ("look", "look at"), "peek": ("look", "look at"),
-    "thumbs-up": ("gesture", "thumbs up"),
+    "thumbs-up": ("gesture", "thumbs up"), "greeting": ("greet", "greet"),
+    "welcome": ("greet", "greet"), "hello": ("greet", "greet"), "search": ("find", "search"),
 }  # fmt: skip
-_ABOUT_FACE = lexicon.phrases("u turn,you turn,about face,about turn,180,one eighty")
+_ABOUT_FACE = dict.fromkeys(
+    lexicon.phrases("u turn,you turn,about face,about turn,180,one eighty"), pi
+) | dict.fromkeys(lexicon.phrases("360,three sixty,full 360"), 2 * pi)
 _TURNS = {"full": 2 * pi, "whole": 2 * pi, "complete": 2 * pi, "half": pi, "quarter": pi / 2}
 _ADJECTIVES = lexicon.words("quick good little big small long short nice friendly proper close "
-                            "sharp deep polite careful gentle single slow hard")  # fmt: skip
+                            "sharp deep polite careful gentle single slow hard warm "
+                            "hearty big fast tiny")  # fmt: skip
 
-_PASSIVE = lexicon.phrases(
-    "needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,are to be,"
-    "can be,could be,needs,wants to be,shall be,will be,may be,would need to be"
-)
-_BELONGS = lexicon.phrases(
-    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
-    "should be,has to be,must be,needs to be,ought to go,is supposed to go"
-)
 _HELPS = lexicon.words("help assist let")
 _FINDS_WAY = lexicon.phrases(
     "get,go,find,reach,navigate,find his way,find her way,find their way,find the way,walk,move,"
@@ -79,14 +68,14 @@ _GIVE_IT = lexicon.phrases("give it,take,give me")
 _IN_A_WHILE = lexicon.words("in after")
 
 
-class Constructions(Clauses):
+class Constructions(Results):
     """Reads clauses whose meaning is not that of their verb."""
 
     def construction(self, at: int) -> Reading | None:
         """The first construction that a clause is, if it is one."""
         return (
             self._light_verb(at)
-            or self._resultative(at)
+            or self.resultative(at)
             or self._helped(at)
             or self._followed(at)
             or self._wanted_there(at)
@@ -94,32 +83,13 @@ class Constructions(Clauses):
             or self._to_and_fro(at)
             or self._tidied(at)
             or self._whether(at)
-            or self._remark(at)
             or self._verbless(at)
         )
-
-    def about_thing(self, at: int) -> Reading | None:
-        """A clause that begins with the thing that something is to be done with."""
-        if verbs_at(self.text.words, at) and not self.text.name_at(at):
-            return None
-        phrase = noun_phrase(self.text, at)
-        if phrase is None or phrase.noun in ("operator", "here", "there"):
-            return None
-        if phrase.noun == "unknown":
-            return self._state(phrase)
-        return self._belongs(at, phrase) or self._passive(phrase) or self._state(phrase)
-
-    def _framed(
-        self, sense: str, at: int, first: int, complements: list[Complement], end: int
-    ) -> Reading:
-        verb = " ".join(self.text.words[at:first])
-        clause = Clause(self.text, sense, verb, first, end, complements)
-        return FRAMES[sense](clause, self.scope), end
 
     def _light_verb(self, at: int) -> Reading | None:
         """Give Ada a friendly wave; do two squats; make a left turn; have a look at the sink."""
         text = self.text
-        start = text.phrase_end(_LIGHT, at)
+        start = text.phrase_end(lexicon.LIGHT_VERBS, at)
         if start is None:
             return None
         receiver = noun_phrase(text, start)
@@ -127,15 +97,18 @@ class Constructions(Clauses):
         if receiver and is_person(receiver, self.scope) and receiver.noun != "unknown":
             complements.append(Complement(role="to", phrases=[receiver]))
             start = receiver.end
-        about = text.phrase_end(_ABOUT_FACE, start + (text.word(start) in ("a", "an")))
+        about = text.lookup(_ABOUT_FACE, start + (text.word(start) in ("a", "an")))
         if about:
-            around = [Complement(direction="around", particle="around")]
-            return self._framed("turn", at, at + 1, around, about)
+            angle, end = about
+            around = [Complement(measure=Measure("angle", angle, end))]
+            more, end = read_complements(text, end)
+            return self.framed("turn", at, at + 1, around + more, end)
         found = self._act(start, complements)
         if found is None:
             return None
         (sense, verb), times, end = found
         more, end = read_complements(text, end)
+        more = without_favours(sense, more)
         clause = Clause(text, sense, verb, end, end, complements + more)
         goals = FRAMES[sense](clause, self.scope)
         times = int(clause.measure("times") or times)
@@ -165,49 +138,6 @@ class Constructions(Clauses):
                 return None
             at += 1
 
-    def _resultative(self, at: int) -> Reading | None:
-        """Pull the drawer open; get the washing machine going; I want the lamp on."""
-        text = self.text
-        ensured = text.phrase_end(_ENSURES, at)
-        if ensured:
-            return self._brought_about(ensured) or self._placed_so(at, ensured)
-        wish = text.phrase_end(_WISHES, at)
-        if wish is None and text.word(at) not in _RESULT_VERBS:
-            return None
-        return self._brought_about(wish or at + 1)
-
-    def _brought_about(self, at: int) -> Reading | None:
-        phrase = noun_phrase(self.text, at)
-        if phrase is not None:
-            phrase.end += self.text.word(phrase.end) in ("is", "are", "being")
-        result = _RESULTS.get(self.text.word(phrase.end)) if phrase else None
-        if phrase is None or result is None or not ends_clause(self.text, phrase.end + 1):
-            return None
-        return self._made_so(phrase, result), phrase.end + 1
-
-    def _placed_so(self, at: int, start: int) -> Reading | None:
-        """Make sure that the bottle is on the table."""
-        phrase = noun_phrase(self.text, start)
-        if phrase is None or not phrase.name("object", "category") or phrase.is_person:
-            return None
-        if self.text.word(phrase.end) not in ("is", "are", "gets", "get", "stays", "ends"):
-            return None
-        complements, end = read_complements(self.text, phrase.end + 1)
-        if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
-            return None
-        thing = Complement(phrases=[phrase])
-        return self._framed("put", at, phrase.end, [thing, *complements], end)
-
-    def _made_so(
-        self, phrase: NounPhrase, result: tuple[type[Open | Close | Switch], bool]
-    ) -> list[Goal]:
-        kind, on = result
-        act = "switch" if kind is Switch else "open"
-        names = device_names(Complement(phrases=[phrase]), self.scope, act)
-        if kind is Switch:
-            return [Switch(what=name, on=on) for name in names]
-        return [Open(what=name) if kind is Open else Close(what=name) for name in names]
-
     def _verbless(self, at: int) -> Reading | None:
         """Lights off; three steps forward; into the kitchen."""
         text = self.text
@@ -223,10 +153,10 @@ class Constructions(Clauses):
             complements, end = read_complements(text, at)
             moves = all(c.direction or c.measure for c in complements) and len(complements) > 1
             sense = "go" if amount.kind == "length" else "turn"
-            return self._framed(sense, at, at, complements, end) if moves else None
+            return self.framed(sense, at, at, complements, end) if moves else None
         if verbs_at(text.words, at) and not text.name_at(at):
             return None
-        on_or_off = self._brought_about(at)
+        on_or_off = self.brought_about(at)
         if on_or_off and isinstance(on_or_off[0][0], Switch):
             return on_or_off
         return None
@@ -288,7 +218,7 @@ class Constructions(Clauses):
     def _wanted_there(self, at: int) -> Reading | None:
         """I need you in the cellar."""
         text = self.text
-        start = text.phrase_end(_WISHES, at)
+        start = text.phrase_end(WISHES, at)
         if start is None or text.word(start) != "you":
             return None
         start += 3 if text.words[start + 1 : start + 3] == ["to", "be"] else 1
@@ -340,47 +270,3 @@ class Constructions(Clauses):
         return (
             self.question(start) if start and self.text.word(start) in ("if", "whether") else None
         )
-
-    def _remark(self, at: int) -> Reading | None:
-        """I am thirsty, ...: it is passed over, if a command follows."""
-        text = self.text
-        alone = text.words[at : at + 2] == ["i", "am"] and text.word(at + 3) in (COMMA, FULL_STOP)
-        return ([], at + 4) if alone and at + 4 < len(text) else None
-
-    def _belongs(self, at: int, phrase: NounPhrase) -> Reading | None:
-        """The vase goes on the sill; all toys belong in the box."""
-        start = self.text.phrase_end(_BELONGS, phrase.end)
-        if start is None or not phrase.name("object", "category") or phrase.is_person:
-            return None
-        complements, end = read_complements(self.text, start)
-        if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
-            return None
-        thing = Complement(phrases=[phrase])
-        return self._framed("put", at, phrase.end, [thing, *complements], end)
-
-    def _passive(self, phrase: NounPhrase) -> Reading | None:
-        """The cup should be brought to me; the plates need to be put on the shelf."""
-        text = self.text
-        first = text.phrase_end(_PASSIVE, phrase.end)
-        base = participle_base(text.word(first)) if first else None
-        if first is None or base is None:
-            return None
-        complements, end = read_complements(text, first + 1)
-        thing = Complement(phrases=[phrase])
-        for sense in SENSES.get((base,), ()):
-            if sense not in FRAMES:
-                continue
-            clause = Clause(text, sense, base, first + 1, end, [thing, *complements])
-            try:
-                return FRAMES[sense](clause, self.scope), end
-            except ReadingError:
-                continue
-        return None
-
-    def _state(self, phrase: NounPhrase) -> Reading | None:
-        """The lamp should be on."""
-        start = self.text.phrase_end(_PASSIVE, phrase.end)
-        result = _RESULTS.get(self.text.word(start)) if start else None
-        if start is None or result is None or not ends_clause(self.text, start + 1):
-            return None
-        return self._made_so(phrase, result), start + 1

@@ -11,6 +11,7 @@ from intents.goals import (
     Give,
     Goal,
     GoTo,
+    Guide,
     LookAt,
     Meet,
     ObjectQuery,
@@ -46,16 +47,23 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
 
 
 def same_object(wanted: Goal, found: list[Goal]) -> bool:
-    """I want the chips, can you bring them: one wish, said twice."""
-    if not found or not isinstance(found[0], Bring | Pick | Find | Give):
+    """I want the chips, can you bring them; Ada wants out, guide her: one wish, said twice."""
+    goal = found[0] if found else None
+    if isinstance(wanted, Guide):
+        return isinstance(goal, Guide) and wanted.person.name == goal.person.name
+    if not isinstance(goal, Bring | Pick | Find | Give) or not isinstance(wanted, Bring | Find):
         return False
-    one, other = wanted.object if isinstance(wanted, Bring) else None, found[0].object
-    return one is not None and other is not None and one.name == other.name
+    one, other = wanted.object, goal.object
+    if one is None or other is None:
+        return wanted == goal
+    return one.name == other.name
 
 
 def as_wished(goal: Goal, wish: Goal) -> Goal:
     """The goal with where the wish said that the thing is; to fetch it is to bring it."""
-    if isinstance(goal, Pick):
+    if isinstance(goal, Guide) and isinstance(wish, Guide):
+        return replace(goal, to=goal.to or wish.to, person=wish.person)
+    if isinstance(goal, Pick) and isinstance(wish, Bring):
         return wish
     if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
         return replace(goal, object=replace(goal.object, at=wish.object.at))

@@ -57,7 +57,7 @@ _WHOLE = {
     "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),
     "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),
     "youre": ("you", "are"), "whens": ("when", "is"), "tho": ("to",), "fo": ("of",),
-    "uturn": ("u-turn",),
+    "uturn": ("u-turn",), "plase": ("please",), "pleas": ("please",), "pleese": ("please",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
             ("'m", "am"))  # fmt: skip

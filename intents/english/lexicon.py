@@ -93,7 +93,8 @@ GENDERS: dict[str, Literal["male", "female"]] = {
 PERSON_NOUNS = words(
     "person people persons someone somebody anyone anybody everyone everybody individual "
     "individuals human humans guest guests visitor visitors child children kid kids elder elders "
-    "adult adults customer customers friend friends"
+    "adult adults customer customers friend friends folk folks colleague colleagues stranger "
+    "strangers passenger passengers patient patients resident residents"
 )
 EVERYONE = words("everyone everybody")
 OPERATOR_WORDS = words("me us myself operator i ourselves")
@@ -188,12 +189,17 @@ FILLERS = phrases(
     "as soon as possible,asap,if you can,if possible,if you please,if you could,"
     "if you do not mind,if you would,possibly,perhaps,dear robot,mister robot,mr robot,robot,"
     "hey robot,robot listen,listen robot,kind sir,would you be so kind,would you kindly,"
+    "would you be so kind as to,"
     "for a moment please,safely,my friend,when you can,whenever you can,when you get a chance,"
     "when you have time,my dear,basically,actually,kinda,sort of,now,for now,"
     "one after the other,one after another,one by one,one at a time,in turn,by name,"
     "do it slowly,do it quickly,do it carefully,do so slowly,do so quickly,do so carefully,"
-    "one more thing,real quick,for real,if it is no trouble,if it is not too much trouble"
-)
+    "one more thing,real quick,for real,if it is no trouble,if it is not too much trouble,maybe,"
+    "fast,mate,buddy,pal,bro,pretty,with sugar on top,with a cherry on top,i was thinking,"
+    "i was wondering,i think,i guess,if you understand,if you understand me,if you hear me,"
+    "if you can hear me,if you are ready,if you have time,if you have a minute,"
+    "when you have a minute,see if you can,see whether you can,go see if you can,check if you can"
+) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 OPENERS = phrases(
     "can you,could you,would you,will you,can you please,would you mind,do you mind,"
@@ -218,9 +224,19 @@ OPENERS = phrases(
     "proceed to,directly,there,"
     "with your left hand,with your right hand,using your left hand,using your right hand,"
     "use your left hand to,use your right hand to,use your left arm to,use your right arm to,"
-    "use your hand to,use your hands to,use both hands to"
-)
+    "use your hand to,use your hands to,use both hands to,yo,listen,nice to meet you,"
+    "pleased to meet you,nice to see you,i want that you,i would like that you,fancy,how about,"
+    "what about,try and,i wonder if you could,"
+    "i wonder if you can,if you could,what i want is for you to,what i need is for you to,"
+    "i want to see you,i would like to see you,i would love to see you,mind"
+) | {("look", ",")}
 """Words that can be dropped at the beginning of a clause."""
+
+LIGHT_VERBS = phrases(
+    "give,do,make,take,have,perform,show,go into,go down into,get into,get down into,hold,stay in,"
+    "go for,do me,give it,execute,have yourself,lower yourself into,drop into,sink into,extend"
+)
+"""Verbs that say nothing but that an act is done: "do a squat", "give a wave"."""
 
 AUXILIARIES = words(
     "is are was were be been am do does did has have had can could will would should shall may "

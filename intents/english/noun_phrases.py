@@ -17,6 +17,8 @@ from intents.english.properties import property_of
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
 
+_PARTS = lexicon.words("door doors lid flap")
+"""Parts of furniture that stand for the whole: the cabinet door."""
 _HOLDERS = (lexicon.OBJECT_NOUNS - SOMETHING) | lexicon.CONTAINERS
 
 
@@ -247,6 +249,8 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
         return end + 1
     if match.of("person") or text.word(end) == QUOTE:
         return end
+    if match.of("place") and text.word(end) in _PARTS and text.word(end + 1) != "of":
+        return end + 1
     follower = text.name_at(end)
     if follower and not follower.of("person"):
         outer = NounPhrase(at, end, noun="name", said=phrase.said, names=match.names)

@@ -80,7 +80,8 @@ _NO_NOUN = (
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "twice thrice closed opened need "
-                    "needs belong belongs only")
+                    "needs belong belongs only ends lands winds gets wants asked ordered requested "
+                    "requires fancies asks gone called")
 )  # fmt: skip
 
 

@@ -73,9 +73,11 @@ def _read_on(text: Text, phrase: NounPhrase) -> int:
 def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """How many guests wear hats?"""
     start = at + 2 if text.words[at : at + 2] in (["what", "is"], ["what", "are"]) else at
-    start += text.word(start) == "the"
+    start += text.word(start) in ("the", "a", "what")
+    start += text.word(start) in ("total", "exact", "overall")
     if text.words[start : start + 2] == ["how", "many"] or (
-        text.word(start) in ("number", "amount", "quantity") and text.word(start + 1) == "of"
+        text.word(start) in ("number", "amount", "quantity", "count")
+        and text.word(start + 1) == "of"
     ):
         start += 2
     else:

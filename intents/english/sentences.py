@@ -1,15 +1,11 @@
 """Single clauses: a verb in one of its senses, a question, a statement, a fronted phrase."""
 
-from msgspec.structs import replace
-
 from intents.english import lexicon
 from intents.english.clauses import Clause, Complement, connector_end, ends_clause, read_complements
 from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import number
 from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.questions import Reading, question
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot
@@ -17,31 +13,19 @@ from intents.english.speech import answer, describe, inform, say, tell
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
-from intents.goals import Answer, Count, GoTo, Pose2, Repeat
+from intents.goals import Count, GoTo, Pose2, Repeat
 
 _SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
 
 
-_ASKING = lexicon.words(
-    "who that whose wants want would like likes to ask asks asking is has have got a an any some "
-    "one question questions for you me with which needs need answer answered answering be "
-    "something your will should can must"
-)
+_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
+_HANDED = ("bring", "take", "give", "pick", "collect", "want")
 
 
-def asks_end(text: Text, at: int) -> int | None:
-    """Where words end that say that somebody has a question to be answered."""
-    end, asks = at, False
-    while text.word(end) in _ASKING and (end == at or text.word(end) not in ("who", "whose")):
-        asks = asks or text.word(end) in ("ask", "asks", "asking", "question", "questions")
-        end += 1
-    return end if asks else None
-
-
-def _without_favours(sense: str, complements: list[Complement]) -> list[Complement]:
+def without_favours(sense: str, complements: list[Complement]) -> list[Complement]:
     """Put the cup on the table *for me*: it goes there, and not to whom it is done a favour."""
-    if sense != "put" and not any(c.role in ("to", "into") for c in complements):
+    if sense in _HANDED and not any(c.role in ("to", "into") for c in complements):
         return complements
     return [c for c in complements if c.role != "for" or c.phrase.noun != "operator"]
 
@@ -72,7 +56,7 @@ class Clauses:
             end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
             if not end or about_robot(text, at) or (verb and verb[0][1] > end):
                 return at
-            opens_verb = verbs_at(text.words, end) or text.phrase_end(lexicon.OPENERS, end)
+            opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
             opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP)
             open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
             if open_ended and not connector_end(text, at) and not opens_verb:
@@ -86,8 +70,9 @@ class Clauses:
     def _sets_out(self, at: int) -> bool:
         """Go *get the cup*: the walk goes without saying."""
         text = self.text
-        if text.word(at) in ("start", "begin") and text.word(at + 1).endswith("ing"):
-            return bool(verbs_at(text.words, at + 1)) and verbs_at(text.words, at)[0][1] == at + 1
+        if text.word(at) in ("start", "begin", "keep") and text.word(at + 1).endswith("ing"):
+            longest = max((end for _, end in verbs_at(text.words, at)), default=at + 1)
+            return bool(verbs_at(text.words, at + 1)) and longest == at + 1
         if text.word(at) not in ("go", "come", "run", "hurry"):
             return False
         whole = verbs_at(text.words, at)[0][1] > at + 1
@@ -153,7 +138,7 @@ class Clauses:
         if sense == "count":
             return self._count(first)
         complements, end = read_complements(text, first if resumed is None else resumed)
-        complements = _without_favours(sense, complements)
+        complements = without_favours(sense, complements)
         if sense == "stop":
             while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
                 end += 1
@@ -226,85 +211,6 @@ class Clauses:
         if len(values) < 2 or not ends_clause(self.text, end):
             return None
         return [GoTo(pose=Pose2(x_m=values[0], y_m=values[1]))], end
-
-    def fronted(self, at: int) -> Reading | None:
-        """At the desk, find the cup; the red cup, bring it to me."""
-        complements, end = read_complements(self.text, at)
-        after = self.skip(end)
-        usable = bool(complements) and all(
-            c.phrases and c.role in ("", "at", "from", "into", "to") for c in complements
-        )
-        if not usable:
-            return None
-        if complements[0].role == "at" and self._is_where(after):
-            where = to_place(complements[0].phrase, self.scope)
-            found = self.statement(after + (self.text.word(after) in ("is", "are")), where)
-            return ([], found[1]) if found else None
-        asked = question(self.text, after, self.scope)
-        if asked and complements[0].role == "at":
-            at_place = to_place(complements[0].phrase, self.scope)
-            return [GoTo(place=at_place), *asked[0]], asked[1]
-        if not verbs_at(self.text.words, after):
-            return None
-        for complement in complements:
-            if complement.role == "":
-                for phrase in complement.phrases:
-                    self._mention_phrase(phrase)
-        return self.verb(after, [c for c in complements if c.role])
-
-    def _is_where(self, at: int) -> bool:
-        """On the table *is a cup*; ... *there is a cup*; ... *a person is standing*."""
-        text = self.text
-        if text.word(at) in ("is", "are"):
-            return True
-        if text.word(at) == "there":
-            return text.word(at + 1) in ("is", "are")
-        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
-        return phrase is not None and text.word(phrase.end) in ("is", "are")
-
-    def _mention_phrase(self, phrase: NounPhrase, where: str | None = None) -> None:
-        if is_spot(phrase):
-            self.scope.mention(to_place(phrase, self.scope))
-            return
-        what = (to_person if is_person(phrase, self.scope) else to_object)(phrase, self.scope)
-        what = replace(what, at=what.at or where)
-        self.scope.mention(what.at)
-        self.scope.mention(what)
-
-    def statement(self, at: int, where: str | None = None) -> tuple[NounPhrase, int] | None:
-        """There is a cup on the table; she is in the kitchen: pronouns refer to it from now."""
-        text = self.text
-        if text.word(at) == "there" and text.word(at + 1) in ("is", "are"):
-            phrase = noun_phrase(text, at + 2)
-            if phrase is None:
-                return None
-            self._mention_phrase(phrase, where)
-            return phrase, phrase.end
-        phrase = noun_phrase(text, at)
-        if phrase is not None and where and text.word(at - 1) in ("is", "are"):
-            self._mention_phrase(phrase, where)
-            return phrase, phrase.end
-        if phrase is None or text.word(phrase.end) not in ("is", "are", "should"):
-            return None
-        phrase.end += 1 + (text.word(phrase.end + 1) == "be")
-        start = phrase.end
-        read_postmodifiers(text, phrase)
-        if phrase.end == start:
-            return None
-        self._mention_phrase(phrase, where)
-        return phrase, phrase.end
-
-    def asker(self, at: int) -> Reading | None:
-        """Ada has a question."""
-        phrase = None if verbs_at(self.text.words, at) else noun_phrase(self.text, at)
-        if phrase is None or not is_person(phrase, self.scope):
-            return None
-        end = None if self.text.word(phrase.end) == "to" else asks_end(self.text, phrase.end)
-        if end is None:
-            return None
-        phrase.end = end
-        read_postmodifiers(self.text, phrase)
-        return [Answer(what="question", person=to_person(phrase, self.scope))], phrase.end
 
     def alone(self, at: int) -> None:
         """A thing is named and nothing is said of it.

@@ -81,6 +81,8 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
     asked = question(text, at, scope, told=True)
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
+    if to is not None and text.word(at) == COMMA and verbs_at(text.words, at + 1):
+        return [Find(person=to)], at
     at += text.word(at) == "that"
     end = _before_times(text, at, content_end(text, at))
     stop = end
@@ -131,7 +133,9 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
     first = _listener(text, at, scope)
     if first and text.word(first.end) != "'s":
         to, at = to_person(first, scope), first.end
-        at += text.word(at) == COMMA
+    if to not in (None, ME) and text.word(at) == COMMA and verbs_at(text.words, at + 1):
+        return [Find(person=to)], at
+    at += first is not None and text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
     found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)

@@ -17,12 +17,15 @@ SPELLINGS: dict[str, str] = {
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
-        "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around,"
+        "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around,yaw,"
         "turn to face,turn and face,swivel"
     ),
     "find": (
         "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,"
-        "hunt for,find out where,search out,seek out,look around for,go find,track down,"
+        "hunt for,hunt around for,find out where,have a look for,"
+        "have a look around for,take a look for,"
+        "look out for,keep an eye out for,keep a lookout for,scan,check,comb through,"
+        "search out,seek out,look around for,go find,track down,"
         "recognize,find me,try to find,hunt,scan for,check for,find for me,trace,look up,"
         "single out,look,look around,look in,show me,show us"
     ),
@@ -40,7 +43,8 @@ SPELLINGS: dict[str, str] = {
     "put": (
         "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"
         "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
-        "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump"
+        "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,"
+        "shove,clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",
     "drop": (
@@ -56,13 +60,14 @@ SPELLINGS: dict[str, str] = {
     "inform": "give me,give us,give,provide,provide me with,show me,share,get me",
     "give": (
         "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
-        "pass on,hand out,distribute,share,hand in,lend,feed"
+        "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
     ),
     "want": (
         "i want,i need,i would like,i would love,can i have,could i have,may i have,"
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
         "i want to have,i am looking for,we need,we want,we would like,i require,"
-        "can we have,could we have,i could use,i would appreciate,let me have,i feel like,"
+        "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
+        "i could murder,i would kill for,i would appreciate,let me have,i feel like,"
         "i am in need of,do you have,i like,i crave"
     ),
     "follow": (
@@ -97,7 +102,7 @@ SPELLINGS: dict[str, str] = {
         "relay to,share with,explain to,brief,identify,name,find out,check,determine,"
         "figure out,do you know,can i know,i want to know,i would like to know,"
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
-        "speak with,talk to,talk with,respond with,recount,communicate,communicate to,"
+        "speak with,talk to,talk with,wish,bid,respond with,recount,communicate,communicate to,"
         "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
         "reveal,detail,point out"
     ),

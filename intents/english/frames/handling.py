@@ -131,17 +131,27 @@ def _near_destination(slots: Slots) -> str | None:
 def give(clause: Clause, scope: Scope) -> list[Goal]:
     """Give it to Ada; give me a plum off the tree (which is to bring)."""
     slots = Slots(clause, scope)
+    _provided(slots)
     to = _receiver(slots) or ME
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
-    held = bare is None or bare.phrase.noun == "pronoun"
+    known = scope.object is not None and scope.object.at is not None and scope.last is None
+    held = bare is None or (bare.phrase.noun == "pronoun" and not known)
     objects = slots.objects() or [scope.object or ObjectQuery(held=True)]
     at = slots.loose_place()
     slots.done()
     if held:
         return [Give(object=replace(o, at=None), to=to) for o in objects]
     return [_each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to)) for o in objects]
+
+
+def _provided(slots: Slots) -> None:
+    """Provide Ada *with a pencil*: she is the receiver, the pencil is what is given."""
+    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    thing = next((c for c in slots.rest if c.phrases and c.role == "with"), None)
+    if bare and thing and is_person(bare.phrase, slots.scope) and not thing.phrase.is_person:
+        bare.role, thing.role = "to", ""
 
 
 def want(clause: Clause, scope: Scope) -> list[Goal]:

@@ -3,7 +3,7 @@
 from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots
 from intents.english.lexicon import words
-from intents.english.referents import Scope
+from intents.english.referents import ME, Scope
 from intents.english.trouble import Misfit
 from intents.goals import Cancel, Goal, Pause, Report, ReportTopic, Resume, Stop, Wait
 
@@ -55,7 +55,8 @@ def report(clause: Clause, scope: Scope) -> list[Goal]:
     said = " ".join([clause.verb, *(c.phrase.said for c in slots.rest if c.phrases)])
     about = ("status", "health", "position", "location", "state", "battery")
     slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said in about)]
-    slots.take_person("to", "")
+    if (slots.take_person("to", "") or ME) != ME:
+        raise Misfit("that is to tell somebody something")
     slots.done()
     topic: ReportTopic = "status"
     for word, named in reversed(_TOPICS):

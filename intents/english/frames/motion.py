@@ -23,6 +23,8 @@ from intents.goals import (
 )
 
 _FULL_TURN = 2 * pi
+_SEARCHED = ("scan", "check", "comb through", "scanning", "checking")
+"""Verbs with which it is the place that is named first: scan the shelf for the cup."""
 _BY = ("forward", "backward", "left", "right")
 
 
@@ -57,6 +59,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if target is None and clause.verb.startswith(("come", "return", "get back", "go back")):
         slots.done()
         return [GoTo(place=OPERATOR)]
+    if target and target.role == "" and clause.verb.startswith("move") and direction:
+        raise NotUnderstood("I can carry things, not move furniture")
     if target is None and clause.vague() is False and source is None:
         need(None, "Where shall I go?")
     if target is None or source is not None:
@@ -175,6 +179,8 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     need(sought, "What shall I look for?")
     if sought is None:
         return []
+    if searched is None and clause.verb in _SEARCHED:
+        raise Misfit("that is to look at something")
     area = searched or slots.take("at", "from", "into")
     at = to_place(area.phrase, scope) if area else None
     slots.take_person("for")
@@ -200,6 +206,8 @@ def wait(clause: Clause, scope: Scope) -> list[Goal]:
     """Wait five seconds; wait here; stay at the door for a minute."""
     slots = Slots(clause, scope)
     duration = slots.measure("time")
+    if clause.verb.endswith(" by") and slots.take(""):
+        raise Misfit("that is to stand beside something")
     place = slots.take("at", "")
     slots.done()
     pause: list[Goal] = [Wait(duration_s=duration)]

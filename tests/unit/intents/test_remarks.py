@@ -1,0 +1,65 @@
+"""Statements around a command: what they tell is used, and the wish behind them is read."""
+
+import pytest
+from workshop_words import WORKSHOP
+
+from intents.goals import from_json, to_json
+from intents.outcomes import Goals
+from intents.parser import parse
+
+
+def goals_of(said: str) -> str:
+    outcome = parse(said, WORKSHOP)
+    assert isinstance(outcome, Goals), outcome
+    return to_json(outcome.goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("I am worn out from sawing, bring me the thermos", "bring me the thermos"),
+        ("pleased to meet you. Go to the office!", "go to the office"),
+        ("I was wondering, maybe you could, like, go to the office", "go to the office"),
+        ("listen, wave, buddy", "wave"),
+        ("would you be so kind as to wave?", "wave"),
+        ("I would like that you wave", "wave"),
+        ("see if you can find Ada", "find Ada"),
+        ("how about bringing me the thermos?", "bring me the thermos"),
+        ("keep following Noor", "follow Noor"),
+        ("Noor could use the screwdriver", "bring Noor the screwdriver"),
+        ("Noor asked for the screwdriver, bring it to her", "bring Noor the screwdriver"),
+        ("Emil in the garage wants a thermos", "bring a thermos to Emil in the garage"),
+        ("Emil has to get to the office, take him there", "guide Emil to the office"),
+        ("I lost my orange", "find my orange"),
+        ("I cannot find my orange, could you look for it?", "find my orange"),
+        ("I put my orange on the sofa, go and get it for me", "bring me my orange from the sofa"),
+        (
+            "there might be an orange on the sofa, hand it to Emil",
+            "take an orange from the sofa to Emil",
+        ),
+    ],
+)
+def test_they_say_what_is_said_plainly(said: str, plainly: str) -> None:
+    assert goals_of(said) == goals_of(plainly)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I am tired",
+        "I left the thermos on the sofa",
+        "there should be an orange on the sofa",
+        "I dropped the thermos",
+        "nice to meet you",
+        "Ada is in the office",
+    ],
+)
+def test_alone_they_ask_for_nothing(said: str) -> None:
+    assert not isinstance(parse(said, WORKSHOP), Goals)
+
+
+def test_where_a_thing_was_left_is_where_it_is_fetched() -> None:
+    told = from_json(goals_of("I forgot the tape measure in the garage, bring it to me"))
+    assert to_json(told) == (
+        '[{"goal":"bring","object":{"name":"tape measure","at":"garage"},"to":{"who":"operator"}}]'
+    )
