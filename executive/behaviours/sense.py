@@ -6,6 +6,7 @@ import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.behaviours.reminding import Reminder
 from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.health import HealthMonitor
@@ -31,6 +32,7 @@ class Sense(Behaviour):
         self._link = link
         self._monitor = monitor
         self._holdings = holdings
+        self._reminder = Reminder(link, holdings)
         self._board = stage.board.claim("sense")
         self._health = Health()
         self._held: tuple[Held, ...] = ()
@@ -50,6 +52,7 @@ class Sense(Behaviour):
         if self._stage.board.read(HOME) is None and body is not None and world is not None:
             board.set(HOME, (world.X_WN @ body.X_NS).flat())
         self._feel()
+        self._reminder.look(body, self._stage.now_s)
         self._notice_pulls(body)
         stamps_s = {
             "body/state": _stamp(body),

@@ -72,12 +72,16 @@ class Body:
             raise self._fell(state)
         if state.mode == "damping" and state.failure is not None:
             raise GaveUp(state.failure)
-        before_s, self._since_s = self._since_s, state.since_s
-        if before_s not in (None, state.since_s):
+        if self.replaced(state):
             raise give_up(
                 "controller_lost", f"the controller died while {self.phase or 'standing'}"
             )
         return state
+
+    def replaced(self, state: BodyState) -> bool:
+        """Whether another controller has taken over since this was asked before."""
+        before_s, self._since_s = self._since_s, state.since_s
+        return before_s not in (None, state.since_s)
 
     @property
     def state_down(self) -> BodyState:

@@ -55,6 +55,8 @@ class Puppet:
     pull_n: float = 0.0
     """How hard somebody pulls at what a hand holds; they take it when the hand opens."""
     turned_rad: float = 0.0
+    since_s: float = 0.0
+    """When its controller began."""
 
     def __post_init__(self) -> None:
         self._id = 0
@@ -140,6 +142,7 @@ class Puppet:
             zmp_N=X_NB.p[:2],
             hands={side: self._hand(side) for side in ("left", "right")},
             activities=dict(self._activities),
+            since_s=self.since_s,
         )
 
     def send(self, command: m.BodyCommand) -> None:

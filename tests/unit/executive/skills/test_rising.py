@@ -58,3 +58,28 @@ def test_a_stop_on_the_way_up_tells_the_body_at_once(stage):
     assert stage.puppet.mode == "rising"
     stage.skill.stop(stage.puppet.time_s)
     assert len(sent(stage, Stand)) == 1  # any command to the legs ends the way up
+
+
+@pytest.mark.parametrize(("mode", "code"), [("fallen", "fallen"), ("stand", "controller_lost")])
+def test_a_controller_that_dies_on_the_way_up_is_noticed_at_the_next_tick(stage, mode, code):
+    """The next controller answers nothing, for it was told nothing."""
+    puppet = stage.puppet
+    puppet.mode = "fallen"
+    stage.run(BalanceParams(mode="get_up"), until_phase="getting up")
+    puppet.since_s, puppet.mode = puppet.time_s, mode
+    puppet._activities["legs"] = Activity(id=0, status="idle")
+    died_s, report = puppet.time_s, None
+    while report is None or report.status == "running":
+        puppet.tick()
+        report = stage.skill.step(puppet.time_s)
+        assert report.status == "failed" or report.phase == "coming to rest"
+    assert report.failure.code == code
+    assert "the controller died while the robot was getting up" in report.failure.cause
+    assert report.failure.suggestion
+    assert puppet.time_s - died_s < 1.0
+
+
+def test_a_takeover_before_it_was_told_to_get_up_changes_nothing(stage):
+    stage.puppet.mode = "fallen"
+    stage.puppet.since_s = 3.0
+    assert stage.run(BalanceParams(mode="get_up", duration_s=0.5)).status == "succeeded"
