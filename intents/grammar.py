@@ -24,6 +24,7 @@ from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError,
 from intents.english.verbs import verbs_at
 from intents.goals import (
     Bring,
+    Cancel,
     Condition,
     Find,
     ForEach,
@@ -33,11 +34,14 @@ from intents.goals import (
     Holding,
     If,
     ObjectQuery,
+    Pause,
     Person,
     Pick,
     Place,
     Present,
     Repeat,
+    Resume,
+    Stop,
 )
 from intents.risks import each
 
@@ -96,6 +100,10 @@ class Grammar(Afterthoughts):
             if nested and goals and self._ends_nested(at):
                 return goals, at
             begun, at = at, self.skip(at)
+            taken_back = self.taken_back(begun, goals[last:]) if goals else None
+            if taken_back:
+                goals[last:], at = taken_back
+                continue
             if at >= len(self.text) or (nested and self.text.phrase_end(lexicon.ELSE, at)):
                 return goals, at
             changed = self.change_of_last(at, goals[last:]) if goals else None
@@ -113,7 +121,7 @@ class Grammar(Afterthoughts):
             if goals and found:
                 found[0] = joined(goals, found[0], first=self.text.word(at))
             last = len(goals)
-            goals += found
+            goals += found if found != goals[-1:] or not _once(found) else []
             for goal in found:
                 self.scope.mention_goal(goal)
             at = max(end, at + 1)
@@ -300,6 +308,11 @@ class Grammar(Afterthoughts):
             if phrase.noun == "pronoun" and was is not None and now is not None:
                 before[:] = [substitute(g, was, now) for g in before]
         return [], end
+
+
+def _once(goals: list[Goal]) -> bool:
+    """Whether goals say no more when they are said twice: never mind, forget it."""
+    return all(isinstance(goal, Cancel | Stop | Pause | Resume) for goal in goals)
 
 
 def _names_hand(said: str, goals: tuple[Goal, ...]) -> bool:

@@ -22,6 +22,7 @@ from intents.goals import Answer, Condition, Find, Goal, If, Repeat
 
 OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 """What may follow "three times" and adds nothing."""
+_OPENINGS = ("sorry", "oh", "wait")
 
 
 class Afterthoughts(Constructions, ABC):
@@ -43,6 +44,18 @@ class Afterthoughts(Constructions, ABC):
             or self._after(at, last)
             or self._so_often(at, last)
             or self._who_asks(at, last)
+        )
+
+    def taken_back(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:
+        """The red cup, *no the blue one*: looked for before "no" is passed over as an opening."""
+        while self.text.word(at) in (COMMA, FULL_STOP) and at < len(self.text):
+            at += 1
+        end = correction_end(self.text, at)
+        if end is None or verbs_at(self.text.words, at):
+            return None
+        new_sentence = self.text.word(at - 1) == FULL_STOP and self.text.word(at) in _OPENINGS
+        return (
+            None if new_sentence and verbs_at(self.text.words, end) else self._correction(at, last)
         )
 
     def _who_asks(self, at: int, last: list[Goal]) -> tuple[list[Goal], int] | None:

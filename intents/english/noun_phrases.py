@@ -30,7 +30,8 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     if part:
         return noun_phrase(text, part)
     phrase = (
-        free_relative(text, start)
+        _whichever(text, start)
+        or free_relative(text, start)
         or _whereabouts(text, start)
         or pronoun(text, start)
         or _full(text, start)
@@ -38,6 +39,18 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     if phrase is None:
         return None
     read_postmodifiers(text, phrase)
+    return phrase
+
+
+def _whichever(text: Text, start: int) -> NounPhrase | None:
+    """*Whatever fruit is* on the table: any one."""
+    if text.word(start) not in ("whatever", "whichever") or not is_content(text, start + 1):
+        return None
+    phrase = _full(text, start + 1)
+    if phrase is None:
+        return None
+    phrase.start, phrase.determiner = start, "any"
+    phrase.end += text.word(phrase.end) in ("is", "are")
     return phrase
 
 

@@ -5,17 +5,13 @@ from intents.english.lexer import COMMA
 from intents.english.measures import number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot, read_postmodifiers, weight_at
+from intents.english.polar import BE, Reading, read_on, skip_being, yes_or_no
+from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.properties import OF_ADJECTIVES, property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.self_talk import about_robot
 from intents.english.text import Text
-from intents.goals import Count, Find, Goal, ObjectQuery, Person, Tell
-
-Reading = tuple[list[Goal], int]
-
-_BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
-                    "we got be being now it could seen counted available around")  # fmt: skip
+from intents.goals import Count, Find, ObjectQuery, Person, Tell
 
 
 def question(
@@ -35,39 +31,13 @@ def question(
         or _which(text, at, scope, to, told)
         or _who(text, at, scope, to)
         or _of_all(text, at, scope, to)
-        or _is_there(text, at, scope)
+        or yes_or_no(text, at, scope, to)
     )
 
 
 def property_question(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """A question after "give me", where a thing could stand as well: the number of, the pose."""
     return _how_many(text, at, scope, to) or _property(text, at, scope, to)
-
-
-def _skip(text: Text, at: int, words: frozenset[str] = _BE) -> int:
-    while text.word(at) in words:
-        at += 1
-    return at
-
-
-def _read_on(text: Text, phrase: NounPhrase) -> int:
-    """Read what stands after the verb of a question: how many cups are *on the table*."""
-    after = _skip(text, phrase.end)
-    end, phrase.end = phrase.end, after
-    read_postmodifiers(text, phrase)
-    if text.word(phrase.end) == "from" and not phrase.places:
-        source = noun_phrase(text, phrase.end + 1)
-        if source:
-            phrase.places.append(Locative(None, source))
-            phrase.end = source.end
-            read_postmodifiers(text, phrase)
-            return _skip(text, phrase.end)
-    if phrase.is_person and text.word(phrase.end) in lexicon.GENDERS:
-        phrase.gender = lexicon.GENDERS[text.word(phrase.end)]
-        phrase.end += 1
-    if phrase.end == after and after < len(text) and text.word(after)[0].isalnum():
-        phrase.end = end if text.words[end:after] == ["there"] else after
-    return phrase.end
 
 
 def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
@@ -85,7 +55,7 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     phrase = noun_phrase(text, start)
     if phrase is None:
         return None
-    end = _read_on(text, phrase)
+    end = read_on(text, phrase)
     if is_person(phrase, scope):
         return [Count(person=to_person(phrase, scope), to=to)], end
     return [Count(object=to_object(phrase, scope), to=to)], end
@@ -102,10 +72,10 @@ def _where(text: Text, at: int, scope: Scope) -> Reading | None:
     if text.word(at) != "where":
         return None
     left = text.phrase_end(_LEFT, at + 1)
-    phrase = noun_phrase(text, left or _skip(text, at + 1))
+    phrase = noun_phrase(text, left or skip_being(text, at + 1))
     if phrase is None:
         return None
-    end = _read_on(text, phrase)
+    end = read_on(text, phrase)
     if is_person(phrase, scope):
         return [Find(person=to_person(phrase, scope))], end
     return [Find(object=to_object(phrase, scope, spots=True))], end
@@ -114,25 +84,25 @@ def _where(text: Text, at: int, scope: Scope) -> Reading | None:
 def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """What is Ada's pose? What colour is the cup?"""
     asked = text.word(at) in ("what", "which")
-    start = _skip(text, at + asked)
+    start = skip_being(text, at + asked)
     start += text.word(start) in ("the", "its", "their", "his", "her")
     name = None if text.name_at(start) else property_of(text.word(start))
     if name:
         of = text.word(start + 1) in ("of", "for")
-        inner = start + 2 if of else _skip(text, start + 1)
+        inner = start + 2 if of else skip_being(text, start + 1)
         phrase = noun_phrase(text, inner)
         if phrase is None and text.word(start - 1) in ("its", "their", "his", "her"):
             return [_tell(None, name, scope, to)], start + 1
         if phrase is None or not (of or asked):
             return None
-        end = _read_on(text, phrase)
+        end = read_on(text, phrase)
         end += text.word(end) in ("in", "doing", "making")
         return [_tell(phrase, name, scope, to)], end
     phrase = noun_phrase(text, start)
     name = property_of(text.word(phrase.end + 1)) if phrase else None
     if phrase and name and text.word(phrase.end) == "'s":
         end, phrase.end = phrase.end + 2, phrase.end + 2
-        return [_tell(phrase, name, scope, to)], max(end, _read_on(text, phrase))
+        return [_tell(phrase, name, scope, to)], max(end, read_on(text, phrase))
     return None
 
 
@@ -157,16 +127,16 @@ def _how(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     known = phrase is not None and (phrase.name("object", "category") or phrase.is_person)
     if phrase is None or not known:
         return None
-    return [_tell(phrase, name, scope, to)], _read_on(text, phrase)
+    return [_tell(phrase, name, scope, to)], read_on(text, phrase)
 
 
 def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Reading | None:
     """Which cup is lightest? What are the two tallest things here?"""
     asked = text.word(at) in ("what", "which")
-    start = _skip(text, at + 1) if asked else at
+    start = skip_being(text, at + 1) if asked else at
     start += text.words[start : start + 2] == ["one", "of"]
     start += asked and text.word(start) == "of"
-    color = lexicon.COLORS.get(text.word(start)) if text.word(start - 1) in _BE else None
+    color = lexicon.COLORS.get(text.word(start)) if text.word(start - 1) in BE else None
     if color and start + 1 == len(text):
         phrase, end = NounPhrase(start, start, noun="object", said="object", color=color), start + 1
     elif asked and text.lookup(lexicon.LOCATIVES, start):
@@ -177,7 +147,7 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
         found = noun_phrase(text, start)
         if found is None or not (asked or (told and found.superlative)):
             return None
-        phrase, end = found, _read_on(text, found)
+        phrase, end = found, read_on(text, found)
         end = _predicate_superlative(text, phrase, end)
         if phrase.color is None and text.word(end) in lexicon.COLORS:
             phrase.color, end = lexicon.COLORS[text.word(end)], end + 1
@@ -229,7 +199,7 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     """Who is in the kitchen?"""
     if text.word(at) not in ("who", "whom"):
         return None
-    start = _skip(text, at + 1)
+    start = skip_being(text, at + 1)
     phrase = NounPhrase(start, start, noun="person", said="person")
     read_postmodifiers(text, phrase)
     if phrase.end == start:
@@ -237,17 +207,22 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
         if named is None or not is_person(named, scope):
             return None
         phrase = named
-        phrase.end = _read_on(text, phrase)
+        phrase.end = read_on(text, phrase)
     return [Tell(person=to_person(phrase, scope), property="name", to=to)], phrase.end
 
 
 def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
     """What is Ada doing? How is she standing?"""
-    if text.words[at : at + 2] not in (["what", "is"], ["how", "is"]):
+    if text.word(at) not in ("what", "how"):
         return None
-    phrase = noun_phrase(text, at + 2)
+    asked = text.word(at + 1) in ("is", "are")
+    phrase = noun_phrase(text, at + 1 + asked)
     if phrase is None or not phrase.is_person:
         return None
+    if not asked and text.word(phrase.end) in ("is", "are"):
+        phrase.end += 1
+    if text.word(phrase.end) in ("called", "named") and text.word(at) == "what":
+        return [Tell(person=to_person(phrase, scope), property="name", to=to)], phrase.end + 1
     posed = phrase.posture is not None and phrase.end >= len(text)
     if text.word(phrase.end) != "doing" and not posed:
         return None
@@ -267,7 +242,7 @@ def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | N
     after = phrase.end + (text.word(phrase.end) == COMMA)
     if text.words[after : after + 2] == ["how", "many"]:
         phrase.end = after + 2
-        end = _read_on(text, phrase)
+        end = read_on(text, phrase)
         if is_person(phrase, scope):
             return [Count(person=to_person(phrase, scope), to=to)], end
         return [Count(object=to_object(phrase, scope), to=to)], end
@@ -277,42 +252,7 @@ def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | N
         return None
     amount = number(text.words, after + 1)
     phrase.count = int(amount.value) if amount else None
-    end = _predicate_superlative(text, phrase, _skip(text, amount.end if amount else after + 1))
+    end = _predicate_superlative(
+        text, phrase, skip_being(text, amount.end if amount else after + 1)
+    )
     return [Tell(object=to_object(phrase, scope), property="name", to=to)], end
-
-
-_IS_THERE = lexicon.phrases("is there,are there,do you see,can you see,there is,there are,is,are")
-_EITHER: dict[str, str] = dict.fromkeys(("male", "female", "boy", "girl"), "gender")
-
-
-def _is_there(text: Text, at: int, scope: Scope) -> Reading | None:
-    """Is there a cup on the table? Do you see the bottle? Is the shelf empty?"""
-    start = at + (text.word(at) in ("if", "whether"))
-    if start > at:
-        sought = noun_phrase(text, start)
-        if sought and text.word(sought.end) in ("is", "are"):
-            stop = _read_on(text, sought)
-            if sought.places and is_person(sought, scope):
-                return [Find(person=to_person(sought, scope))], stop
-            if sought.places:
-                return [Find(object=to_object(sought, scope))], stop
-    end = text.phrase_end(_IS_THERE, start)
-    if end is None or (text.word(start) == "there" and start == at):
-        return None
-    phrase = noun_phrase(text, end)
-    if phrase is None or text.word(end) == COMMA:
-        return None
-    if text.word(phrase.end) == "empty" and is_spot(phrase):
-        thing = NounPhrase(start, start, noun="object", said="thing", count=1)
-        thing.places.append(Locative(None, phrase))
-        return [Find(object=to_object(thing, scope))], phrase.end + 1
-    if phrase.is_person and text.word(phrase.end) in _EITHER and text.word(phrase.end + 1) == "or":
-        told = _EITHER[text.word(phrase.end)]
-        return [Tell(person=to_person(phrase, scope), property=told)], phrase.end + 3
-    end = _read_on(text, phrase)
-    asked_there = text.word(start + 1) == "there" or text.word(start) not in ("is", "are")
-    if not (phrase.places or asked_there):
-        return None
-    if is_person(phrase, scope):
-        return [Find(person=to_person(phrase, scope))], end
-    return [Find(object=to_object(phrase, scope))], end

@@ -11,7 +11,7 @@ from intents.english.frames.devices import device_names
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
-from intents.english.referents import to_object, to_person
+from intents.english.referents import is_person, to_object, to_person
 from intents.english.remarks import Remarks
 from intents.english.trouble import ReadingError
 from intents.english.verbs import SENSES, participle_base, verbs_at
@@ -91,7 +91,7 @@ class Results(Remarks):
     def _placed_so(self, at: int, start: int) -> Reading | None:
         """Make sure that the bottle is on the table."""
         phrase = noun_phrase(self.text, start)
-        if phrase is not None and phrase.is_person:
+        if phrase is not None and is_person(phrase, self.scope):
             return self._served(phrase)
         if phrase is None or not phrase.name("object", "category"):
             return None

@@ -57,8 +57,9 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
     ("holding", r"(?:what|which|are|is|do|have|did|anything)\b.*"
                 r"in (?:your|the robot 's|the) (?:\w+ )?(?:hands?|grippers?|fingers?)"),
     ("holding", r"what (?:did you pick up|have you (?:picked up|got)|you (?:have|are) got)"),
-    ("status", r"(?:what|how|where)\b.*\b(?:are|were|have|is|you are) (?:you )?(?:currently "
-               r"|just )?"
+    ("status", r"(?:what|how) is (?:currently |just )?(?:going on|happening|up|new)"),
+    ("status", r"(?:what|how|where)\b.*\b(?:(?:are|were|have) you|you (?:are|were|have)) "
+               r"(?:currently |just )?"
                r"(?:doing|up to|busy with|working on|going|going on|heading|far|far along"
                r"|doing there)"),
     ("status", r"how far (?:along )?(?:are you|have you (?:got|come))"),

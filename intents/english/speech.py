@@ -232,7 +232,17 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
     if first:
         person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
     start = at
-    while text.word(at) in lexicon.DETERMINERS | {"any", "one", "to", "all", "of", "questions"}:
+    skipped = lexicon.DETERMINERS | {
+        "any",
+        "one",
+        "to",
+        "all",
+        "of",
+        "questions",
+        "whatever",
+        "which",
+    }
+    while text.word(at) in skipped:
         at += 1
     if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
         what = "quiz" if text.word(at).startswith("quiz") else "question"
