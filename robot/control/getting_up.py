@@ -37,14 +37,6 @@ EDGE_M = 0.02
 Outcome = Literal["running", "on its feet", "failed"]
 
 
-def towards(up_B: Array) -> str:
-    """Onto which side a trunk falls or lies; `up_B` is the world's up in the base's axes, (3,)."""
-    x, y, _ = (float(value) for value in up_B)
-    if abs(x) > abs(y):
-        return "on its back" if x > 0.0 else "on its front"
-    return "on its left side" if y < 0.0 else "on its right side"
-
-
 class GettingUp:
     """One attempt to get up, from `__init__` to an outcome.
 

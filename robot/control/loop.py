@@ -6,19 +6,19 @@ the last clamp on fresh measurements. Nothing here reads a clock: time comes wit
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from robot.control import screening
+from robot.control import screening, starting
 from robot.control.arm import Arm
-from robot.control.getting_up import GettingUp, towards
+from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
 from robot.control.head import Head
 from robot.control.legs import Legs
 from robot.control.limits import Limits
 from robot.control.payload import Payloads
-from robot.control.walking.footsteps import Sole, stance_of
+from robot.control.posture import Posture, steady
+from robot.control.starting import planar
+from robot.control.walking.footsteps import stance_of
 from robot.control.walking.gait import Reference
 from robot.control.whole_body import WholeBody
 from robot.drivers.motors import MotorCommand, MotorState
@@ -48,18 +48,10 @@ from robot.messages import (
 )
 from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
-from robot.se3 import SE3, Array, Quaternion
+from robot.se3 import SE3, Array
 
 BUS_PERIOD_S = 0.002
-FALLEN_TILT_RAD = 0.9
-FALLEN_HEIGHT_SHARE = 0.5
-UPRIGHT_TILT_RAD = 0.35
-STEADY_RAD_S = 1.0
 UNSOLVED_TO_DAMP = 20
-TAKE_OVER_S = 0.1
-"""A robot whose controller died is held up by the next one if that comes so soon, else it damps."""
-CARRYING_SHARE = 0.5
-"""Feet that bear this part of the weight stand on the floor, and flat."""
 
 
 class ControlLoop:
@@ -88,20 +80,12 @@ class ControlLoop:
 
     # --- start ---------------------------------------------------------------------------------
 
-    def _start(self, state: MotorState) -> None:
-        """Find the odometry frame: the stance is its origin, the floor its z = 0."""
+    def _start(self, state: MotorState, *, taking_over: bool = False) -> None:
+        """Find the robot, and begin as it is; `taking_over`: another controller moved it."""
         body, data = self.body, self.dynamics.data
-        X_AB = SE3((0.0, 0.0, 0.0), self._upright(state))
-        body.write_base(data, X_AB)
-        body.write_joints(data, state.q)
-        self.dynamics.kinematics()
-        X_AL, X_AR = (body.site_pose(data, body.sole_site[side]) for side in SIDES)
-        stance = stance_of(_planar(X_AL), _planar(X_AR))
-        lowest_m = min(X_AL.p[2], X_AR.p[2])
-        X_NA = SE3.from_xy_yaw(stance.x, stance.y, stance.yaw, z_m=lowest_m).inverse()
-        X_NB = X_NA @ X_AB
+        X_NB, left, right = starting.find(self.dynamics, state, taking_over=taking_over)
         self.estimator = BaseStateEstimator(body, X_NB)
-        left, right = _planar(X_NA @ X_AL), _planar(X_NA @ X_AR)
+        self.posture = Posture(self.estimator, self.dynamics)
         self.legs = Legs(body, self.whole, left, right, X_NB.p[2])
         self.arms: dict[Side, Arm] = {
             side: Arm(body, side, state.q) for side in self.description.hands
@@ -120,53 +104,17 @@ class ControlLoop:
         self._state = state
         self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
         self._started = True
-        tilt, height = self._tilt(), X_NB.p[2]
-        if tilt < UPRIGHT_TILT_RAD and height > FALLEN_HEIGHT_SHARE * self._height():
+        if self.posture.upright:
             self.mode = "stand"
-
-    def _takes_over(self, state: MotorState) -> bool:
-        """Whether another controller commanded these motors before this one began."""
-        return not self._started and math.isfinite(state.command_stamp_s)
 
     def _take_over(self, state: MotorState) -> None:
         """Hold the robot up where another controller died; let it damp if that is too late."""
-        silence_s = state.stamp_s - state.command_stamp_s
-        if self.mode != "stand":
-            self.mode = "fallen"
-            self._failure = failure("fallen", "the robot was down when its controller was replaced")
-        elif silence_s > TAKE_OVER_S:
-            self.mode = "damping"
-            text = f"nobody commanded the motors for {silence_s:.2f} s; they damp"
-            self._failure = failure("controller_lost", text, silence_s=round(silence_s, 3))
-        else:
-            for hand in self.hands.values():
-                hand.keep(state)
-
-    def _upright(self, state: MotorState) -> Quaternion:
-        """Orientation with heading zero: from gravity at rest, else from the soles lying flat.
-
-        A robot whose controller died may be in mid-step: the soles that bear it say what is up.
-        """
-        accel = state.accel_m_s2
-        norm = float(np.linalg.norm(accel))
-        bearing = state.ankle_wrench[:, 2].clip(min=0.0) / (9.81 * self.body.mass_kg)
-        moving = self._takes_over(state) and float(bearing.sum()) > CARRYING_SHARE
-        if abs(norm - 9.81) < 1.5 and not moving:
-            up_B = accel / norm
-        else:
-            body, data = self.body, self.dynamics.data
-            body.write_base(data, SE3())
-            body.write_joints(data, state.q)
-            self.dynamics.kinematics()
-            left, right = (data.site_xmat[body.sole_site[side]].reshape(3, 3) for side in SIDES)
-            share = bearing if moving else (1.0, 1.0)
-            up_B = share[0] * left[:, 2] + share[1] * right[:, 2]
-        x, y, z = (float(value) for value in up_B)
-        roll, pitch = math.atan2(y, z), math.atan2(-x, math.hypot(y, z))
-        return SE3.from_rpy(roll, pitch, 0.0, (0.0, 0.0, 0.0)).quat_wxyz
-
-    def _height(self) -> float:
-        return self.description.walking.base_height_m
+        self._failure = starting.left_by(state, self.mode)
+        if self._failure is not None:
+            self.mode = "fallen" if self._failure.code == "fallen" else "damping"
+            return
+        for hand in self.hands.values():
+            hand.keep(state)
 
     # --- commands ------------------------------------------------------------------------------
 
@@ -217,7 +165,7 @@ class ControlLoop:
 
     def _get_up(self, command: GetUp) -> None:
         """Begin to get up; refused on the feet, and by a robot that knows no way."""
-        down = self.mode == "fallen" or (self.mode == "damping" and self._lies())
+        down = self.mode == "fallen" or (self.mode == "damping" and self.posture.lies)
         able = self.description.getting_up is not None
         if not down or not able:
             detail = "this robot knows no way to get up" if down else "it does not lie on the floor"
@@ -249,12 +197,10 @@ class ControlLoop:
 
     def _may_rise(self, command: BodyCommand) -> bool:
         """Stand arms the motors again if the robot is upright on its feet."""
-        if not isinstance(command, Stand) or self._tilt() > UPRIGHT_TILT_RAD:
+        if not isinstance(command, Stand) or not self.posture.upright:
             return False
-        if self.estimator.p[2] < FALLEN_HEIGHT_SHARE * self._height():
+        if not steady(self._state.gyro_rad_s):
             return False
-        if float(np.abs(self._state.gyro_rad_s).max()) > STEADY_RAD_S:
-            return False  # on its way down, where gravity cannot be felt
         self.limits.reset()
         self._start(self._state)
         if self.mode == "stand":
@@ -266,10 +212,10 @@ class ControlLoop:
     def tick(self, state: MotorState) -> MotorCommand:
         """One bus period: read the state, return what to send."""
         if not self._started:
-            takes_over = self._takes_over(state)
-            self._start(state)
+            taking_over = starting.took_over(state)
+            self._start(state, taking_over=taking_over)
             self._since_s = state.stamp_s
-            if takes_over:
+            if taking_over:
                 self._take_over(state)
         self._state = state
         self._gyro += state.gyro_rad_s
@@ -328,7 +274,7 @@ class ControlLoop:
             self.mode = "rising"  # until it stands tall
             self.legs.stand(Stand(stamp_s=state.stamp_s, id=activity.id))
         elif rising.outcome == "failed":
-            self._fall(f"the robot lies {towards(self._up_B())} and did not get up")
+            self._fall(f"the robot lies {self.posture.side} and did not get up")
         if rising.resting or self.mode == "fallen":
             return MotorCommand.damping(body.count, state.stamp_s, body.kd)
         zero = np.zeros(body.count)
@@ -367,37 +313,17 @@ class ControlLoop:
             tau[hand.motor] = 0.0
         return MotorCommand(state.stamp_s, q_des, qd_des, tau, body.kp, body.kd)
 
-    def _tilt(self) -> float:
-        """Angle between the base's z axis and the vertical [rad]."""
-        _, x, y, _ = self.estimator.quat_wxyz
-        return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
-
-    def _up_B(self) -> Array:
-        """The world's up in the base's axes, shape (3,)."""
-        return self.estimator.X_NB().rotation()[2]
-
-    def _lies(self) -> bool:
-        """Whether damped legs have let the body down; by the joints, wherever it is."""
-        base = float(self.dynamics.data.xpos[self.body.base_body, 2])
-        lower = min(float(sole[2]) for sole in self.dynamics.sole_position)
-        low = base - lower < FALLEN_HEIGHT_SHARE * self._height()
-        return low or self._tilt() > UPRIGHT_TILT_RAD
-
     def _update_mode(self) -> None:
+        posture = self.posture
         if self.mode in ("damping", "fallen"):
             self._getting_up = None
-            if self.mode == "damping" and self._failure is not None and self._lies():
-                self._fall(f"the robot went down {towards(self._up_B())}: {self._failure.cause}")
+            if self.mode == "damping" and self._failure is not None and posture.lies:
+                self._fall(f"the robot went down {posture.side}: {self._failure.cause}")
         if self.mode in ("damping", "fallen") or self._getting_up is not None:
             return
-        tilt = self._tilt()
-        height = float(self.estimator.p[2])
-        low = self.mode != "rising" and height < FALLEN_HEIGHT_SHARE * self._height()
-        if tilt > FALLEN_TILT_RAD or low:
-            self._fall(
-                f"the robot falls {towards(self._up_B())}: the trunk leans "
-                f"{math.degrees(tilt):.0f} degrees, {height:.2f} m above the floor"
-            )
+        why = posture.falling(rising=self.mode == "rising")
+        if why:
+            self._fall(why)
         elif self.mode != "rising" or self.legs.activity.status == "done":
             self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
 
@@ -405,13 +331,7 @@ class ControlLoop:
         """Damp, and say so."""
         self.mode = "fallen"
         self._getting_up = None
-        self._failure = failure(
-            "fallen",
-            why,
-            tilt_rad=self._tilt(),
-            height_m=float(self.estimator.p[2]),
-            side=towards(self._up_B()),
-        )
+        self._failure = self.posture.fallen(why)
         if self.legs.activity.status == "running":
             self.legs.activity = Activity(id=self.legs.activity.id, status="failed", detail=why)
 
@@ -428,7 +348,7 @@ class ControlLoop:
             hands[side] = hand.state(state, body.site_pose(data, body.grasp_site[side]))
         command = (0.0, 0.0) if self._reference is None else self._reference.zmp_command
         X_NL, X_NR = (body.site_pose(data, body.sole_site[side]) for side in SIDES)
-        stance = stance_of(_planar(X_NL), _planar(X_NR))
+        stance = stance_of(planar(X_NL), planar(X_NR))
         return BodyState(
             stamp_s=state.stamp_s,
             mode=self.mode,
@@ -467,10 +387,6 @@ class ControlLoop:
             result["right_arm"] = self.arms["right"].activity
             result["right_hand"] = self.hands["right"].activity
         return result
-
-
-def _planar(X: SE3) -> Sole:
-    return Sole(X.p[0], X.p[1], X.yaw_rad)
 
 
 def _vector(values: Array) -> tuple[float, float, float]:

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from robot.control.getting_up import GettingUp, on_its_feet, towards
+from robot.control.getting_up import GettingUp, on_its_feet
+from robot.control.posture import towards
 from robot.se3 import SE3
 
 DT_S = 0.005
