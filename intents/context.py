@@ -59,6 +59,9 @@ def completed(text: str, question: Question) -> list[str]:
         return [said.sub(choice.label, question.text)]
     if question.choices or not question.text:
         return []
+    if question.said:
+        said = re.compile(rf"\b{re.escape(question.said)}\b", re.IGNORECASE)
+        return [said.sub(f"{link}{text}", question.text) for link in ("", "on ", "to ")]
     before = question.text.rstrip(" .!?")
     return [f"{before}{link}{text}" for link in (" ", " on ", " to ")]
 

@@ -122,6 +122,9 @@ class Grammar(Afterthoughts):
                 found[0] = joined(goals, found[0], first=self.text.word(at))
             last = len(goals)
             goals += found if found != goals[-1:] or not _once(found) else []
+            if self.scope.parted:
+                goals = [substitute(goal, *self.scope.parted) for goal in goals]
+                self.scope.parted = None
             for goal in found:
                 self.scope.mention_goal(goal)
             at = max(end, at + 1)

@@ -22,7 +22,8 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
     for direction, text in (
         ("forward", "forward,forwards,ahead,straight,straight ahead,straight on,straight forward,"
                     "to the front,onward,onwards,closer,further"),
-        ("backward", "backward,backwards,back,to the back,rearwards,in reverse"),
+        ("backward", "backward,backwards,back,to the back,rearwards,in reverse,"
+                     "behind you,over your shoulder,behind yourself,behind your back"),
         ("left", "left,to the left,to your left,leftwards,leftward,sideways left,to my left,"
                  "to the left side,left side,to left,sideways to the left,towards the left"),
         ("right", "right,to the right,to your right,rightwards,rightward,sideways right,"
@@ -39,6 +40,8 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
 _PARTICLES = lexicon.words("up down on off over back away out along together again in around too "
                            "also aside apart instead as well inside outside somewhere anywhere "
                            "indoors outdoors")  # fmt: skip
+_FIXED = 3
+"""So many words make a direction a set phrase: "over your shoulder"."""
 _A_WHILE = phrases(
     "for a while,for a moment,for a bit,for a little while,a moment,a while,a second,a minute,"
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
@@ -197,9 +200,11 @@ def _plain_number(text: Text, at: int) -> Measure | None:
 def _direction(text: Text, at: int) -> tuple[Complement, int] | None:
     """Left, to the right, ahead - where nothing follows that it could describe."""
     found = text.lookup(_DIRECTIONS, at)
-    if found is None or (text.lookup(LOCATIVES, at) and _prepositional(text, at)):
+    if found is None:
         return None
     direction, end = found
+    if end - at < _FIXED and text.lookup(LOCATIVES, at) and _prepositional(text, at):
+        return None
     if text.word(end) == "of":
         return None
     described = is_content(text, end) and not verbs_at(text.words, end)

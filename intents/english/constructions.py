@@ -9,16 +9,18 @@ from math import pi
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import Clause, Complement, read_complements
+from intents.english.clauses import Clause, Complement, ends_clause, read_complements
 from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, singular
 from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
+from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_person, to_place
 from intents.english.results import WISHES, Results
 from intents.english.sentences import without_favours
+from intents.english.speech import content_end
 from intents.english.trouble import Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (
@@ -64,6 +66,24 @@ _TO_AND_FRO = lexicon.phrases(
     "run back and forth between,go to and fro between,walk to and fro between"
 )
 _TIDIES = lexicon.phrases("tidy by,tidy up by,clean up by,clear up by")
+_ASIDE = lexicon.phrases(
+    "step aside,move aside,go aside,stand aside,get out of the way,get out of my way,"
+    "move out of the way,move out of my way,go out of the way,out of the way,out of my way,"
+    "make way,make room,clear the way,move over,step to the side,move to the side,go to the side,"
+    "take a step aside,take a step to the side,sidestep,side step,stay out of the way,"
+    "step out of the way,keep out of the way,let me pass,let me through,let us through"
+)
+_TOLD = lexicon.phrases(
+    "until i,until we,until further notice,until you are told,until told,until you hear,"
+    "until my signal,until my command,until my word,until someone tells you,"
+    "until somebody tells you"
+)
+_ARRIVED = lexicon.phrases(
+    "when you are,once you are,when you get to,once you get to,when you reach,once you reach,"
+    "as soon as you are,as soon as you reach,as soon as you get to,when you arrive,once you arrive,"
+    "when you have reached,once you have reached,when you come to,when you enter,once you enter,"
+    "after you get to,after you reach"
+)
 _GIVE_IT = lexicon.phrases("give it,take,give me")
 _IN_A_WHILE = lexicon.words("in after")
 
@@ -79,6 +99,9 @@ class Constructions(Results):
             or self._helped(at)
             or self._followed(at)
             or self._wanted_there(at)
+            or self._out_of_the_way(at)
+            or self._until_told(at)
+            or self._arrived(at)
             or self._later(at)
             or self._to_and_fro(at)
             or self._tidied(at)
@@ -226,6 +249,43 @@ class Constructions(Results):
         if len(complements) != 1 or complements[0].role not in ("at", "to"):
             return None
         return [GoTo(place=to_place(complements[0].phrase, self.scope))], end
+
+    def _out_of_the_way(self, at: int) -> None:
+        """Step aside.
+
+        Raises:
+            Unclear: That is what was said: to which side is to be asked.
+        """
+        end = self.text.phrase_end(_ASIDE, at)
+        if end is not None and ends_clause(self.text, end):
+            sides = ("step to the left", "step to the right")
+            raise Unclear("To the left or to the right?", sides, self.text.raw(at, end))
+
+    def _until_told(self, at: int) -> Reading | None:
+        """Wait at the door *until I call you*: without an end of its own."""
+        text = self.text
+        first = next((end for sense, end in verbs_at(text.words, at) if sense == "wait"), None)
+        until = first
+        while until is not None and not ends_clause(text, until) and text.word(until) != "until":
+            until += 1
+        if first is None or until is None or not text.phrase_end(_TOLD, until):
+            return None
+        complements, _ = read_complements(text, first)
+        complements = [c for c in complements if not c.phrases or c.phrase.start < until]
+        return self.framed("wait", at, first, complements, content_end(text, until))
+
+    def _arrived(self, at: int) -> Reading | None:
+        """*When you are in the lab*, look for the pencil: first go there."""
+        text = self.text
+        start = text.phrase_end(_ARRIVED, at)
+        if start is None:
+            return None
+        complements, end = read_complements(text, start)
+        there = complements[0] if len(complements) == 1 and complements[0].phrases else None
+        if there is None or there.role not in ("at", "to", "into", "") or not is_spot(there.phrase):
+            return None
+        place = to_place(there.phrase, self.scope)
+        return [GoTo(place=place)], end + (text.word(end) == COMMA)
 
     def _later(self, at: int) -> Reading | None:
         """In twenty seconds, ...; give it five seconds."""

@@ -71,6 +71,7 @@ class NameIndex:
         self._parts: dict[str, tuple[Name, ...]] = {}
         self._longest = 1
         self.words: frozenset[str] = frozenset()
+        self._variants = _variants(vocabulary)
         spellings = _spellings(vocabulary)
         taken = {_key(_split(s)) for _, s in spellings if _split(s)}
         aliases = [(n, s) for n, s in _aliases(vocabulary) if _key(_split(s)) not in taken]
@@ -107,6 +108,10 @@ class NameIndex:
             if names:
                 return Match(end, names)
         return None
+
+    def variants(self, name: str) -> tuple[str, ...]:
+        """What tells the things of a name apart, where each has a colour or size of its own."""
+        return self._variants.get(name, ())
 
     def exact(self, spelling: str) -> tuple[Name, ...]:
         """The names that a spelling stands for."""
@@ -158,6 +163,19 @@ def _spellings(vocabulary: Vocabulary) -> list[tuple[Name, str]]:
         if thing.category and thing.category not in listed:
             pairs.append((Name("category", thing.category), thing.category))
     return pairs
+
+
+def _variants(vocabulary: Vocabulary) -> dict[str, tuple[str, ...]]:
+    """By name, the colours or else the sizes of several things that have it."""
+    by_name: dict[str, list[Thing]] = {}
+    for thing in vocabulary.objects:
+        by_name.setdefault(thing.name, []).append(thing)
+    told: dict[str, tuple[str, ...]] = {}
+    for name, things in by_name.items():
+        for marks in ([t.color for t in things], [t.size for t in things]):
+            if len(things) > 1 and all(marks) and len(set(marks)) == len(marks):
+                told.setdefault(name, tuple(marks))
+    return told
 
 
 def _aliases(vocabulary: Vocabulary) -> list[tuple[Name, str]]:

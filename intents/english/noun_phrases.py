@@ -19,6 +19,11 @@ from intents.english.verbs import verbs_at
 
 _PARTS = lexicon.words("door doors lid flap")
 """Parts of furniture that stand for the whole: the cabinet door."""
+_STANDS = lexicon.words("is are am was were stands stood sits sat lies lay belongs goes")
+_SOURCES = lexicon.phrases(
+    "you found it,you got it,you got it from,you took it from,you picked it up,it came from,"
+    "you have it from,you had it from"
+)
 _HOLDERS = (lexicon.OBJECT_NOUNS - SOMETHING) | lexicon.CONTAINERS
 
 
@@ -55,12 +60,22 @@ def _whichever(text: Text, start: int) -> NounPhrase | None:
 
 
 def _whereabouts(text: Text, start: int) -> NounPhrase | None:
-    """*Where Ada is*: at Ada's."""
-    who = _full(text, start + 1) if text.word(start) == "where" else None
-    if who is None or not who.is_person or text.word(who.end) not in ("is", "are"):
+    """*Where Ada is*: at Ada's; *where the cup was*: a place without a name."""
+    if text.word(start) != "where":
         return None
-    who.start, who.end = start, who.end + 1
-    return who
+    source = text.phrase_end(_SOURCES, start + 1)
+    if source:
+        it = NounPhrase(start, source, noun="pronoun", said="it")
+    else:
+        found = pronoun(text, start + 1) or _full(text, start + 1)
+        if found is None or text.word(found.end) not in _STANDS:
+            return None
+        it = found
+        it.start, it.end = start, it.end + 1
+    person = it.is_person or it.said in ("he", "she")
+    named = it.name("place", "room") and not it.name("object", "category")
+    it.where = "" if person or named else text.raw(start, it.end)
+    return it
 
 
 def _full(text: Text, start: int) -> NounPhrase | None:
@@ -80,7 +95,7 @@ def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """A phrase without a noun: "the blue", "the largest", "all of them", "two"."""
     if text.word(at) == "of" and not phrase.superlative:
         return at if phrase.count else None
-    told_apart = phrase.color or phrase.size or phrase.superlative or phrase.level
+    told_apart = phrase.color or phrase.size or phrase.superlative or phrase.level or phrase.other
     if phrase.determiner and told_apart:
         phrase.noun, phrase.said = "one", "one"
         return at
@@ -179,6 +194,9 @@ def _read_common_adjective(text: Text, phrase: NounPhrase, at: int) -> int | Non
     end = _read_person_adjective(text, phrase, at)
     if end:
         return end
+    if word == "other" and phrase.determiner == "the":
+        phrase.other = True
+        return at + 1
     if word in lexicon.EMPTY_ADJECTIVES and followed:
         return at + 1
     return None
@@ -223,7 +241,7 @@ def _read_noun(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if word in lexicon.ONES:
         phrase.noun = "one"
         return at + 1
-    owned = phrase.determiner + phrase.side != "" or text.word(at - 1) in DETERMINERS
+    owned = phrase.determiner + phrase.side != "" or text.word(at - 1) in DETERMINERS | ALL
     if word in lexicon.BODY_NOUNS and owned:
         phrase.noun = "body"
         return at + 1

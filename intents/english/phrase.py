@@ -38,6 +38,8 @@ class NounPhrase:
         names: What the noun can stand for; several names of one kind mean that it is ambiguous.
         side: "left" or "right", of the body or of several things.
         places: Where it is, in the order said.
+        other: It is the one that was not spoken of.
+        where: What was said, if the phrase is a place by what is there: "where the cup is".
     """
 
     start: int
@@ -58,6 +60,8 @@ class NounPhrase:
     side: str = ""
     level: str = ""
     places: list[Locative] = field(default_factory=list[Locative])
+    other: bool = False
+    where: str = ""
 
     @property
     def is_person(self) -> bool:
@@ -81,7 +85,7 @@ _NO_NOUN = (
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "twice thrice closed opened need "
                     "needs belong belongs only ends lands winds gets wants asked ordered requested "
-                    "requires fancies asks gone called")
+                    "requires fancies asks gone called moved brought")
 )  # fmt: skip
 
 

@@ -61,6 +61,7 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     return [Count(object=to_object(phrase, scope), to=to)], end
 
 
+_GONE = lexicon.words("is are gone go went got to hidden hiding")
 _LEFT = lexicon.phrases(
     "did you put,did you leave,did you place,did i put,did i leave,have you put,have you left,"
     "did you see,did you last see,have i left,did we put,did we leave,you put,you left,i put,i left"
@@ -75,6 +76,7 @@ def _where(text: Text, at: int, scope: Scope) -> Reading | None:
     phrase = noun_phrase(text, left or skip_being(text, at + 1))
     if phrase is None:
         return None
+    phrase.end = skip_being(text, phrase.end, _GONE)
     end = read_on(text, phrase)
     if is_person(phrase, scope):
         return [Find(person=to_person(phrase, scope))], end

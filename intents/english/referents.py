@@ -5,6 +5,7 @@ from typing import cast
 
 from msgspec.structs import replace
 
+from intents.english.lexicon import COLORS
 from intents.english.names import NameIndex
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
@@ -42,6 +43,7 @@ class Scope:
         device: The door, drawer or device spoken of last.
         group: The objects picked up and not yet put down, for "them".
         last: The goal before, for "and tell me".
+        parted: What "one" was and which it is, once "the other" is spoken of.
     """
 
     index: NameIndex
@@ -52,6 +54,7 @@ class Scope:
     device: str | None = None
     group: tuple[ObjectQuery, ...] = ()
     last: Goal | None = None
+    parted: tuple[ObjectQuery, ObjectQuery] | None = None
 
     def mention(self, what: ObjectQuery | Person | str | None) -> None:
         """Remember what has just been spoken of."""
@@ -122,7 +125,7 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
             superlative = "leftmost" if place.how == "left" else "rightmost"
     if phrase.side and superlative is None:
         superlative = "leftmost" if phrase.side == "left" else "rightmost"
-    return ObjectQuery(
+    query = ObjectQuery(
         name=name or None,
         category=category or None,
         color=phrase.color,
@@ -132,6 +135,29 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         at=at,
         relation=relation,
     )
+    return _other(query, phrase.said, scope) if phrase.other else query
+
+
+def _other(query: ObjectQuery, said: str, scope: Scope) -> ObjectQuery:
+    """The one of two things that was not spoken of; of "one" it is settled which that is.
+
+    Raises:
+        Unclear: There are more than two, or none was spoken of.
+    """
+    last = scope.object
+    marks = scope.index.variants(query.name or "")
+    if last is None or last.name != query.name or len(marks) != 2 or query.color or query.size:
+        choices = tuple(f"{mark} {query.name}" for mark in marks)
+        which = f", {_the(list(choices))}" if choices else " do you mean"
+        raise Unclear(f"Which {query.name or 'one'}{which}?", choices, f"other {said}")
+    colored = marks[0] in COLORS
+    known = last.color if colored else last.size
+    first = known if known in marks else marks[0]
+    second = marks[1] if first == marks[0] else marks[0]
+    if known is None:
+        one = replace(last, count=None)
+        scope.parted = last, replace(one, color=first) if colored else replace(one, size=first)
+    return replace(query, color=second) if colored else replace(query, size=second)
 
 
 def _is_any(phrase: NounPhrase) -> bool:
@@ -208,6 +234,10 @@ def to_place(
     """
     if phrase.noun in ("here", "operator"):
         return OPERATOR
+    if phrase.where:
+        raise Unclear(
+            "I know that place only by what is there. What is it called?", (), phrase.where
+        )
     if phrase.noun in ("there", "pronoun"):
         found = scope.place or (scope.device if phrase.noun == "pronoun" else None)
         if found is None:
@@ -279,6 +309,8 @@ def _unknown(
     """Say what is not known, and ask whether one of the names that are like it is meant."""
     said = f"{phrase.level} {phrase.said}".strip()
     like = scope.index.like(phrase.said, kinds)
+    if len(like) == 1 and not phrase.color:
+        like = [f"{mark} {like[0]}" for mark in scope.index.variants(like[0])] or like
     if like and not phrase.name("object", "place", "room"):
         meant = listing(like) if kind == "person" else _the(like)
         told = f"I know no {kind} called “{said}”. Do you mean {meant}?"

@@ -32,6 +32,9 @@ _ENDS = lexicon.phrases(
     "is,are,gets,get,stays,stay,ends,end,ends up,end up,lands,winds up,finds its way,is put,"
     "are put,goes,go,is placed"
 )
+_WISHED = lexicon.phrases(
+    "to be,to go,to be put,to be moved,to be placed,to stand,to end up,put,moved,placed,back"
+)
 _GETS = lexicon.phrases("gets,get,has,have,receives,receive,is given,is brought,gets given")
 WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
 """How a wish begins."""
@@ -74,6 +77,9 @@ class Results(Remarks):
         if ensured:
             return self.brought_about(ensured) or self._placed_so(at, ensured)
         wish = text.phrase_end(WISHES, at)
+        placed = self._placed_so(at, wish, _WISHED) if wish else None
+        if placed:
+            return placed
         if wish is None and text.word(at) not in _RESULT_VERBS:
             return None
         return self.brought_about(wish or at + 1)
@@ -88,14 +94,16 @@ class Results(Remarks):
             return None
         return self._made_so(phrase, result), phrase.end + 1
 
-    def _placed_so(self, at: int, start: int) -> Reading | None:
+    def _placed_so(
+        self, at: int, start: int, how: frozenset[lexicon.Phrase] = _ENDS
+    ) -> Reading | None:
         """Make sure that the bottle is on the table."""
         phrase = noun_phrase(self.text, start)
         if phrase is not None and is_person(phrase, self.scope):
             return self._served(phrase)
         if phrase is None or not phrase.name("object", "category"):
             return None
-        ends = self.text.phrase_end(_ENDS, phrase.end)
+        ends = self.text.phrase_end(how, phrase.end)
         if ends is None:
             return None
         complements, end = read_complements(self.text, ends)

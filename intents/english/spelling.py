@@ -1,5 +1,6 @@
 """Misspelt words, corrected towards the vocabulary and the words of the grammar."""
 
+import re
 from functools import lru_cache
 from importlib.resources import files
 
@@ -48,6 +49,7 @@ _MORE_VERBS = lexicon.words(
     "drop release remove return enter visit fetch grasp lift lower raise hold throw"
 )
 _VERBS = sorted(w for w in FIRST_WORDS if len(w) > 3 and w in CORE | _MORE_VERBS)
+_SHORT_VERBS = ("put", "get", "lay", "set")
 COMMON_WORDS = frozenset(
     (files("intents.english") / "common_words.txt").read_text(encoding="utf-8").split()
 )
@@ -64,6 +66,18 @@ _SHORTEST, _LONG = 4, 9
 def _slack(word: str) -> int:
     """How many edits a word of its length may be away from what was meant."""
     return 0 if len(word) < 4 else 1 if len(word) < 7 else 2
+
+
+def _typing_slip(word: str) -> str | None:
+    """What a short word with letters swapped, doubled or missing is: "rde", "onn", "blu"."""
+    swaps = (word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(len(word) - 1))
+    if len(word) == _SHORTEST - 1:
+        meant = {w for w in swaps if w in CORE}
+        meant = meant or {c for c in lexicon.COLORS if c.startswith(word)}
+        if len(meant) == 1:
+            return meant.pop()
+    single = re.sub(r"(.)\1+$", r"\1", word)
+    return single if single != word and single in lexicon.FUNCTION_WORDS else None
 
 
 class Speller:
@@ -85,6 +99,9 @@ class Speller:
         past = word.removesuffix("d"), word.removesuffix("ed")
         if base_form(word) in FIRST_WORDS or any(w in FIRST_WORDS for w in past):
             return [word]
+        swapped = _typing_slip(word)
+        if swapped:
+            return [swapped]
         verb = self._verb(word) if begins else None
         if verb:
             return [verb]
@@ -97,6 +114,8 @@ class Speller:
     def _verb(self, word: str) -> str | None:
         """The verb that a word may be a misspelling of; begins and length tell."""
         slack = 0 if len(word) < _SHORTEST else 1 if len(word) < _LONG else 2
+        if slack and word[:-1] in _SHORT_VERBS:
+            return word[:-1]
         found = process.extractOne(word, _VERBS, scorer=OSA.distance, score_cutoff=slack)
         return found[0] if slack and found and found[0][0] == word[0] else None
 

@@ -14,6 +14,8 @@ _LONGEST_PHRASE = 7
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
+_CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
+"""After "if you can" these make a condition of it."""
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -130,7 +132,8 @@ def _adverb_end(words: list[str], at: int) -> int | None:
 def _filler_end(words: list[str], at: int) -> int | None:
     for end in range(min(len(words), at + _LONGEST_PHRASE), at, -1):
         if tuple(words[at:end]) in FILLERS:
-            return end
+            checked = words[at] in ("if", "when") and words[end : end + 1] in _CHECKED
+            return None if checked else end
     return None
 
 

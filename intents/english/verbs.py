@@ -46,6 +46,7 @@ SPELLINGS: dict[str, str] = {
         "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,"
         "shove,clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
+    "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
     "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
@@ -68,7 +69,7 @@ SPELLINGS: dict[str, str] = {
         "i want to have,i am looking for,we need,we want,we would like,i require,"
         "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
         "i could murder,i would kill for,i would appreciate,let me have,i feel like,"
-        "i am in need of,do you have,i like,i crave"
+        "i am in need of,do you have,i like,i crave,me want,me need"
     ),
     "follow": (
         "follow,go after,come after,go behind,come behind,go along with,go with,come with,"
@@ -160,7 +161,7 @@ SPELLINGS: dict[str, str] = {
         "wave your left hand,wave hello,wave goodbye,shake hands with,shake hands,high five,"
         "give me a high five,give a high five,cross your arms,shrug your shoulders,"
         "do a dance,do a bow,wave your arms,wave both hands,curtsy,show thumbs up,"
-        "point towards,make a bow,bow down,raise your hand,raise your arm,"
+        "point towards,point out,make a bow,bow down,raise your hand,raise your arm,"
         "raise your left hand,raise your right hand,raise your left arm,raise your right arm,"
         "raise both arms,raise both hands,raise your arms,raise your hands,shake my hand,"
         "put both your hands up,put both hands up,put your hands up,put your arms up,hands up,"

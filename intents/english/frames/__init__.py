@@ -25,6 +25,7 @@ FRAMES: dict[str, Frame] = {
     "put": handling.put,
     "drop": handling.put,
     "clear": handling.clear,
+    "swap": handling.swap,
     "bring": handling.bring,
     "give": handling.give,
     "want": handling.want,

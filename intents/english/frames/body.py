@@ -119,9 +119,12 @@ def gesture(clause: Clause, scope: Scope) -> list[Goal]:
     kind = next((kind for word, kind in _KINDS if word in clause.verb), clause.verb)
     _limb(slots, "", "with")
     slots.direction("up", "down", "left", "right", "forward")
-    target = slots.take("to", "at") or slots.take("") or slots.take("for")
-    listener = slots.take_person("to") if target and clause.verb.startswith("point") else None
-    del listener
+    points = clause.verb.startswith("point")
+    shown = slots.take("") if points else None
+    target = shown or slots.take("to", "at") or slots.take("") or slots.take("for")
+    if points and target:
+        slots.take_person("to")
+        slots.take_person("for")
     if target and target.role == "for" and target.phrase.noun == "operator":
         target = None
     slots.measure("time")

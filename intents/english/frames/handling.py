@@ -93,7 +93,7 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
 def _receiver(slots: Slots) -> Person | str | None:
     """Who or where to, without a preposition or with "to"."""
     scope = slots.scope
-    goal = slots.take("to", "into")
+    goal = slots.take("to", "into") or slots.take_where()
     if goal and goal.phrase.noun == "pronoun" and any(c.role == "to" for c in slots.rest):
         slots.rest.append(Complement(phrases=goal.phrases))
         goal = slots.take("to", "into")
@@ -169,7 +169,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     slots = Slots(clause, scope)
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     if bare and len(bare.phrases) > 1 and all(p.places for p in bare.phrases):
-        return [g for p in bare.phrases for g in put(_alone(clause, bare, p), scope)]
+        return _each_there(clause, bare, scope)
     to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)
@@ -186,6 +186,25 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: _place(q, spot)) for o in objects]
+
+
+def _each_there(clause: Clause, bare: Complement, scope: Scope) -> list[Goal]:
+    """One cup on the shelf and the other on the table: one after the other."""
+    goals: list[Goal] = []
+    for phrase in bare.phrases:
+        goals += put(_alone(clause, bare, phrase), scope)
+        scope.mention_goal(goals[-1])
+    return goals
+
+
+def swap(clause: Clause, scope: Scope) -> list[Goal]:
+    """Swap the cups: no goal says that.
+
+    Raises:
+        NotUnderstood: Always; it says what can be done instead.
+    """
+    del clause, scope
+    raise NotUnderstood("I cannot swap things in one go; tell me where to put each of them")
 
 
 def clear(clause: Clause, scope: Scope) -> list[Goal]:
@@ -236,13 +255,17 @@ def _place(query: ObjectQuery, spot: tuple[str, str] | None) -> Place:
 
 def _destination(slots: Slots) -> tuple[str, str] | None:
     """Whether on or in, and which place."""
-    goal = slots.take("to", "into")
+    goal = slots.take("to", "into") or slots.take_where()
     if goal:
         how = "in" if goal.role == "into" else "on"
         return _spot(Locative("in" if how == "in" else "on", goal.phrase), slots.scope)
     at = slots.take("at")
     if at:
         return _spot(Locative(at.how, at.phrase), slots.scope)
+    there = next((c for c in slots.rest if c.phrases and c.phrase.noun == "there"), None)
+    if there and slots.scope.place:
+        slots.rest.remove(there)
+        return "on", slots.scope.place
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     place = detach_place(bare.phrases[-1]) if bare else None
     source = next((c for c in slots.rest if c.phrases and c.role == "from"), None)

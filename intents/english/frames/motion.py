@@ -9,7 +9,7 @@ from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.goals import (
     OPERATOR,
     Displacement,
@@ -42,6 +42,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if carried:
         slots.rest.append(carried)
     bare = target is not None and target.role == "" and not is_spot(target.phrase)
+    bare = bare and not (target and target.phrase.where)
     if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
         raise Misfit("that is to move something")
     source = slots.take("from")
@@ -79,6 +80,8 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
         return GoTo(place=OPERATOR)
     if is_person(phrase, scope):
         return Find(person=to_person(phrase, scope))
+    if phrase.where:
+        return Find(object=to_object(phrase, scope))
     if phrase.name("object") and not phrase.name("place", "room"):
         query = to_object(phrase, scope)
         if query != ObjectQuery(name=query.name, at=query.at):
@@ -115,6 +118,10 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     if target and "exit" not in clause.verb and target.phrase.places:
         raise Misfit("that is to put something down")
     way_out = next((n for w in ("exit", "door", "entrance") for n in scope.index.exact(w)), None)
+    if target and target.phrase.said == "way":
+        raise Misfit("that is to step aside")
+    if way_out is None and target:
+        raise Unclear("Where shall I go?")
     return [GoTo(place=way_out.name if way_out else "exit")]
 
 
@@ -172,6 +179,9 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     """Find the cup; look for Julia in the kitchen; search the bedroom for my phone."""
     slots = Slots(clause, scope)
     slots.rest = [c for c in slots.rest if not _for_operator(c)]
+    where = slots.take_where() if len(slots.clause.with_role("")) > 1 else None
+    if where:
+        where.role, slots.rest = "for", [*slots.rest, where]
     sought = slots.take("for")
     searched = slots.take("") if sought else None
     if sought is None:

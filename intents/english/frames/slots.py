@@ -26,6 +26,13 @@ class Slots:
                 return complement
         return None
 
+    def take_where(self) -> Complement | None:
+        """A place by what is there: "where the cup is"."""
+        where = next((c for c in self.rest if c.phrases and c.phrase.where), None)
+        if where:
+            self.rest.remove(where)
+        return where
+
     def take_person(self, *roles: str) -> Person | None:
         """The first complement with one of these roles that is a person."""
         for complement in self.rest:

@@ -151,10 +151,16 @@ def test_and_one_by_a_singular(said: str) -> None:
     assert isinstance(outcome, Question)
 
 
-@pytest.mark.parametrize("said", ["bring me the mug", "bring me the blue coffee mug"])
-def test_what_is_akin_is_asked_about(said: str) -> None:
+@pytest.mark.parametrize(
+    ("said", "choices", "answer"),
+    [
+        ("bring me the mug", ["red cup", "blue cup"], "the red one"),
+        ("bring me the blue coffee mug", ["cup"], "yes"),
+    ],
+)
+def test_what_is_akin_is_asked_about(said: str, choices: list[str], answer: str) -> None:
     outcome, context = hear(said, HOME)
     assert isinstance(outcome, Question)
-    assert [choice.label for choice in outcome.choices] == ["cup"]
-    agreed, _ = hear("yes", HOME, context=context)
+    assert [choice.label for choice in outcome.choices] == choices
+    agreed, _ = hear(answer, HOME, context=context)
     assert isinstance(agreed, Goals)
