@@ -43,17 +43,11 @@ def walk(runtime: LiveRuntime, duration_s: float) -> None:
         runtime.advance(0.05)
 
 
-def killed(runtime: LiveRuntime, name: str):
-    """Kill -9 a process in mid-walk; the failure, which must come within a second."""
-    walk(runtime, 1.0)
-    assert runtime.failure() is None
-    assert runtime.link.body().mode == "walk"
-    os.kill(runtime.supervisor.pid(name), signal.SIGKILL)
-    killed_s = time.monotonic()
-    while runtime.failure() is None and time.monotonic() - killed_s < 2.0:
-        runtime.advance(0.05)
-    assert time.monotonic() - killed_s < 1.0
-    return runtime.failure()
+def kill(runtime: LiveRuntime, name: str) -> None:
+    """Kill -9 a process, and return when it is dead, before anybody has looked."""
+    pid = runtime.supervisor.pid(name)
+    os.kill(pid, signal.SIGKILL)
+    os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
 
 
 @pytest.fixture
@@ -89,17 +83,13 @@ def test_the_spare_holds_the_robot_up_when_the_controller_is_killed(live: LiveRu
     while live.link.now_s() < SPARE_AFTER_S + 4.0:
         live.advance(0.05)
     before = live.link.body()
-    os.kill(live.supervisor.pid("controller"), signal.SIGKILL)
-    killed_s = time.monotonic()
-    while not live.restarted and time.monotonic() - killed_s < 1.0:
-        live.advance(0.01)
-    assert time.monotonic() - killed_s < 0.2
-    assert live.restarted == ["the controller was killed by SIGKILL; started again"]
+    kill(live, "controller")
+    assert live.failure() is None
+    assert live.restarted == ["the controller was killed by SIGKILL; started again"]  # at one look
     live.advance(1.0)
     after = live.link.body()
     assert after.since_s > before.since_s
-    assert after.since_s - before.stamp_s < 0.1
-    assert after.mode == "stand"
+    assert after.mode == "stand"  # it would damp, and say so, had nobody commanded it for 0.1 s
     assert after.failure is None
     walk(live, 3.0)
     assert live.link.body().mode == "walk"
@@ -146,14 +136,17 @@ def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: 
     assert live.failure() is None
 
 
-def test_a_killed_plant_is_told(live: LiveRuntime):
-    failure = killed(live, "plant")
-    assert failure.code == "plant_lost"
+def test_a_killed_plant_is_told_at_the_next_look(live: LiveRuntime):
+    walk(live, 1.0)
+    assert live.failure() is None
+    assert live.link.body().mode == "walk"
+    kill(live, "plant")
+    assert live.failure().code == "plant_lost"
 
 
 def test_killed_perception_comes_again(live: LiveRuntime):
     before = live.link.world().stamp_s
-    os.kill(live.supervisor.pid("perception"), signal.SIGKILL)
+    kill(live, "perception")
     for _ in range(200):
         live.advance(0.05)
         if live.supervisor.restarted and live.link.world().stamp_s > before + 1.0:
