@@ -11,12 +11,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
-from robot.control.walking.adaptation import (
-    DCM_GAIN_1_S,
-    cheapest_time,
-    dcm_at_end,
-    error_at_end,
-)
+from robot.control.walking.adaptation import DCM_GAIN_1_S
+from robot.control.walking.catching import FREEZE_S, Catch
 from robot.control.walking.dcm import DcmPlan, Point, Segment
 from robot.control.walking.footsteps import (
     FootstepPlanner,
@@ -24,7 +20,6 @@ from robot.control.walking.footsteps import (
     Twist,
     Wish,
     other,
-    sign_of,
     stance_of,
 )
 from robot.control.walking.support import SupportPolygon
@@ -45,24 +40,14 @@ STAMP_S = 0.12
 MAX_UNUSED_S = 0.1
 ESCAPE_MARGIN_M = 0.0
 LATE_S = 0.25
-DEADBAND_M = 0.02
-FREEZE_S = 0.08
 TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
-SHORTEST_SHARE = 0.5
-LONGEST_SHARE = 1.35
-TIME_COST_M_S = 0.1  # 0.1 s off the planned time is as bad as landing 1 cm off the planned place
-MISS_WEIGHT = 10.0  # of a landing that the leg cannot reach, or not in time
-SWING_SPEED_M_S = 2.0  # mean, to the landing
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
 ZMP_MARGIN_M = 0.008
-REACH_FORWARD_M = 0.42
-CATCH_WIDTH_M = 0.12  # between the feet of a step that catches a push
 URGENT_DOUBLE_S = 0.05
 URGENT_M = 0.03
 HIP_M = 0.038  # the ZMP beyond the sole that turning the trunk is worth for a while
-REACH_SIDE_M = 0.50
 
 Phase = Literal["stand", "double", "single"]
 
@@ -351,48 +336,28 @@ class Gait:
         if self.duration_s - self.phase_s <= FREEZE_S:
             return
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
-        zmp = self._command(xi, xi_ref, zmp_ref)
-        left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
-        shift = (
-            error_at_end(xi[0] - xi_ref[0], zmp[0] - zmp_ref[0], left_s, self.omega_1_s),
-            error_at_end(xi[1] - xi_ref[1], zmp[1] - zmp_ref[1], left_s, self.omega_1_s),
+        catch = Catch(
+            plan=self._plan,
+            planned_s=self._nominal_s,
+            past_s=self.phase_s,
+            omega_1_s=self.omega_1_s,
+            xi=xi,
+            zmp=self._command(xi, xi_ref, zmp_ref),
+            planned=self._landings[0],
+            support=self.planted[self.support],
+            side=other(self.support),
+            planner=self.planner,
         )
+        left_s = self._nominal_s * max(0.0, 1.0 - self.phase_s / self.duration_s)
+        shift = catch.error(xi_ref, zmp_ref, left_s)
         if math.hypot(*shift) > TIMING_DEADBAND_M:
-            self._retime(dt_s, self._best_time(xi, zmp))
+            x, y, _ = self.swing.position
+            self._retime(dt_s, catch.best_time(x, y))
             self.swing.urgent = True
-            shift = self._shift(xi, zmp, self.duration_s)
+            shift = catch.shift(self.duration_s)
         else:
             self._retime(dt_s, self._nominal_s)
-        size = math.hypot(*shift)
-        scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
-        nominal = self._landings[0]
-        wanted = Sole(nominal.x + scale * shift[0], nominal.y + scale * shift[1], nominal.yaw)
-        self.swing.aim(self._reachable(wanted), dt_s)
-
-    def _shift(self, xi: Point, zmp: Point, duration_s: float) -> Point:
-        """What puts the landing of a step that lasts `duration_s` under the DCM as planned."""
-        there = dcm_at_end(xi, zmp, duration_s - self.phase_s, self.omega_1_s)
-        planned, _ = self._plan.at(self._nominal_s)
-        return there[0] - planned[0], there[1] - planned[1]
-
-    def _best_time(self, xi: Point, zmp: Point) -> float:
-        """The duration at which the step that catches the DCM is nearest to the planned one."""
-        assert self.swing is not None
-        x, y, _ = self.swing.position
-        nominal = self._landings[0]
-
-        def cost(duration_s: float) -> float:
-            dx, dy = self._shift(xi, zmp, duration_s)
-            wanted = Sole(nominal.x + dx, nominal.y + dy, nominal.yaw)
-            landing = self._reachable(wanted)
-            missed = math.hypot(landing.x - wanted.x, landing.y - wanted.y)
-            way = math.hypot(landing.x - x, landing.y - y)
-            short = max(0.0, way - SWING_SPEED_M_S * (duration_s - self.phase_s))
-            off = TIME_COST_M_S * (duration_s - self._nominal_s)
-            return MISS_WEIGHT * (missed**2 + short**2) + dx**2 + dy**2 + off**2
-
-        shortest_s = max(SHORTEST_SHARE * self._nominal_s, self.phase_s + FREEZE_S)
-        return cheapest_time(cost, shortest_s, LONGEST_SHARE * self._nominal_s)
+        self.swing.aim(catch.landing(shift), dt_s)
 
     def _retime(self, dt_s: float, wanted_s: float) -> None:
         """Move the end of the step towards `wanted_s` after its begin."""
@@ -407,17 +372,6 @@ class Gait:
         if self.phase != "single":
             return self.phase_s
         return min(1.0, self.phase_s / self.duration_s) * self._nominal_s
-
-    def _reachable(self, landing: Sole) -> Sole:
-        """Keep a landing where the swing leg can put it without crossing the other."""
-        support, side = self.planted[self.support], other(self.support)
-        s = sign_of(side)
-        forward, left, turn = support.relative(landing)
-        forward = max(-REACH_FORWARD_M, min(REACH_FORWARD_M, forward))
-        width = min(CATCH_WIDTH_M, self.description.walking.min_stance_width_m)
-        left = s * max(width, min(REACH_SIDE_M, s * left))
-        landing = support.offset(forward, left, turn_rad=turn)
-        return self.planner.apart(support, landing, side)
 
     def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
         """The ZMP that brings the DCM back, clipped to the support (walking: or just beyond)."""
