@@ -115,7 +115,7 @@ def _check(path: Path, options: Options, problems: Problems) -> Checked | None:
     names = Names(where.knowledge)
     compiler = Compiler(names, where.description, problems)
     given = {name: _typed(name, text) for name, text in options.params.items()}
-    values = compiler.bound(
+    values = compiler.calls.bound(
         mission, given, where=mission.node.key("parameters"), samples=options.samples
     )
     task = compiler.mission(mission, values)
@@ -128,7 +128,7 @@ def _check(path: Path, options: Options, problems: Problems) -> Checked | None:
         done=done,
         values=values,
         faults=plans,
-        files=(mission.path, *compiler.files),
+        files=(mission.path, *compiler.calls.files),
     )
 
 

@@ -6,20 +6,19 @@ no third thing is taken with two hands. A mistake ends one step, not the check.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import msgspec
 from msgspec.structs import replace
 
 from executive.missions import schema as s
+from executive.missions.calling import Calls
 from executive.missions.conditions import Conditions
-from executive.missions.load import Mission, load
+from executive.missions.load import Mission
 from executive.missions.names import Names
 from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.slots import Slots
-from executive.missions.values import Bound, Scope, bind
+from executive.missions.values import Bound, Scope
 from executive.resources import conflicts, needed_by
 from executive.scene import CannotMean, Scene
 from executive.trees import parts as p
@@ -28,14 +27,12 @@ from executive.trees.tasks import part_of
 from executive.validation import check
 from intents import goals
 from robot.config import nearest
-from robot.errors import CATALOGUE, ConfigError
+from robot.errors import CATALOGUE
 from robot.model.description import RobotDescription
 
 MAX_STEPS = 20_000
 MAX_ROUNDS = 1000
 MAX_TRIES = 100
-MAX_CALLS = 16
-"""Missions inside missions."""
 
 CODES = [ANY, *(code for code in CATALOGUE if code != "cancelled")]
 
@@ -59,24 +56,21 @@ class Compiler:
         self.names = names
         self.problems = problems
         self.scene = Scene(names.knowledge)
+        self.calls = Calls(names, problems)
         self._description = description
         self._slots = Slots(names, problems)
         self._conditions = Conditions(names, problems)
         self._meant: dict[tuple[goals.Goal, Hands], Meant] = {}
-        self._files: dict[Path, Mission | None] = {}
-        self._calls: list[Path] = []
         self._count = 0
-
-    @property
-    def files(self) -> tuple[Path, ...]:
-        """The missions that are called."""
-        return tuple(mission.path for mission in self._files.values() if mission is not None)
 
     # --- missions ---
 
     def mission(self, mission: Mission, bound: dict[str, Bound]) -> p.Part:
         """A mission with the values of its parameters."""
-        self._calls.append(mission.path.resolve())
+        with self.calls.inside(mission):
+            return self._mission(mission, bound)
+
+    def _mission(self, mission: Mission, bound: dict[str, Bound]) -> p.Part:
         record, node = mission.record, mission.node
         scope = Scope(bound, self.problems)
         steps = list(self.steps(record.steps, scope))
@@ -92,46 +86,7 @@ class Compiler:
         if record.always:
             after = p.Series(name="always", parts=self.steps(record.always, scope))
             part = p.Always(name=record.name, part=part, after=after)
-        self._calls.pop()
         return part
-
-    def bound(
-        self, mission: Mission, given: dict[str, Node], *, where: Node, samples: bool = False
-    ) -> dict[str, Bound]:
-        """The values of a mission's parameters: given, or their defaults.
-
-        Args:
-            mission: whose parameters.
-            given: values by name.
-            where: the place of what is missing.
-            samples: whether something fitting may stand in for what is missing.
-        """
-        found: dict[str, Bound] = {}
-        declared = mission.record.parameters
-        for name, node in given.items():
-            if name not in declared:
-                cure = nearest(name, list(declared)) if declared else "it has no parameters"
-                text = f"the mission {mission.record.name!r} has no parameter {name!r}"
-                self.problems.add(node, text, cure)
-        for name, parameter in declared.items():
-            node = given.get(name) or self._default(mission, name, samples=samples)
-            if node is None:
-                cure = f"--param {name}=..., or with: {{{name}: ...}}"
-                text = f"the parameter {name!r} of {mission.record.name!r} has no value"
-                self.problems.add(where, text, cure)
-                continue
-            value = bind(name, parameter, node, names=self.names, problems=self.problems)
-            if value is not None:
-                found[name] = value
-        return found
-
-    def _default(self, mission: Mission, name: str, *, samples: bool) -> Node | None:
-        node = _descend(mission.node, "parameters", name)
-        default = node.get("default") if node is not None else None
-        if default is not None or not samples or node is None:
-            return default
-        value = self.names.sample(mission.record.parameters[name].type)
-        return None if value is None else text_node(value, node, plain=True)
 
     # --- steps ---
 
@@ -301,7 +256,7 @@ class Compiler:
             case s.ForEachStep():
                 return self._for_each(record, node, scope)
             case s.MissionStep():
-                return self._mission(record, node, scope)
+                return self._call(record, node, scope)
             case s.FailStep():
                 return p.GiveUp(name="give up", cause=record.fail)
             case _:
@@ -403,69 +358,20 @@ class Compiler:
             return []
         return [Bound(type="object", value=info.name) for info in infos]
 
-    def _mission(self, record: s.MissionStep, node: Node, scope: Scope) -> p.Part | None:
+    def _call(self, record: s.MissionStep, node: Node, scope: Scope) -> p.Part | None:
         where = text_node(record.mission, node.entries["mission"][1])
-        called = self.called(where)
+        called = self.calls.called(where)
         if called is None:
             return None
-        bound = self.arguments(called, node, scope, where)
+        bound = self.calls.arguments(called, node, scope, where)
         if called.record.parameters.keys() - bound.keys():
             return None
         return self.mission(called, bound)
-
-    def arguments(self, called: Mission, node: Node, scope: Scope, where: Node) -> dict[str, Bound]:
-        """The values of a called mission's parameters: those of `with`, and defaults."""
-        arguments = node.get("with")
-        given = {
-            name: filled
-            for name, (_, value) in (arguments.entries if arguments else {}).items()
-            if (filled := scope.fill(value) if value.kind == "text" else value) is not None
-        }
-        return self.bound(called, given, where=where)
-
-    def called(self, where: Node) -> Mission | None:
-        """The mission that a step calls, unless it would never end."""
-        path = Path(where.file).parent / where.text
-        if not path.suffix:
-            path = path.with_suffix(".yaml")
-        real = path.resolve()
-        if real in self._calls:
-            chain = [*self._calls[self._calls.index(real) :], real]
-            text = "this mission calls itself: " + " > ".join(link.name for link in chain)
-            self.problems.add(where, text, "leave the step out, or use repeat")
-            return None
-        if len(self._calls) >= MAX_CALLS:
-            self.problems.add(where, f"missions inside missions: at most {MAX_CALLS}", "")
-            return None
-        if real not in self._files:
-            self._files[real] = self._load(path, where)
-        return self._files[real]
-
-    def _load(self, path: Path, where: Node) -> Mission | None:
-        try:
-            return load(path, self.problems)
-        except ConfigError as error:
-            for problem in error.problems:
-                if problem.line is None:
-                    near = [other.stem for other in path.parent.glob("*.yaml")][:200]
-                    cure = nearest(path.stem, near) if near else problem.suggestion or ""
-                    self.problems.add(where, f"{path}: {problem.message}", cure)
-                else:
-                    place = Node("text", problem.file or "", problem.line, problem.column or 1)
-                    self.problems.add(place, problem.message, problem.suggestion or "")
-            return None
 
 
 def _items(node: Node | None) -> list[Node]:
     """The items of a list, or nothing."""
     return node.items if node is not None and node.kind == "list" else []
-
-
-def _descend(node: Node, *keys: str) -> Node | None:
-    found: Node | None = node
-    for key in keys:
-        found = found.get(key) if found is not None else None
-    return found
 
 
 def _common(one: Hands, other: Hands) -> Hands:

@@ -87,10 +87,10 @@ class _Expander:
     def _call(self, node: Node, scope: Scope) -> list[Any]:
         where = text_node(str(self._value(node.entries["mission"][1], scope)),
                           node.entries["mission"][1])  # fmt: skip
-        called = self._compiler.called(where)
+        called = self._compiler.calls.called(where)
         if called is None:
             return []
-        bound = self._compiler.arguments(called, node, scope, where)
+        bound = self._compiler.calls.arguments(called, node, scope, where)
         inner = self.mission(called, bound)
         steps = [*inner["steps"], *map(_expected, inner.get("expect", ()))]
         core: dict[str, Any] = {"do": steps}
