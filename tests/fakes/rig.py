@@ -79,3 +79,13 @@ class Rig:
             for event in self.journal.recent
             if event.event in kinds
         ]
+
+    def at(self, *kinds: str) -> list[tuple[float, str, dict]]:
+        """When which events were journalled, with what they say."""
+        recent = self.journal.recent
+        return [(event.t_s, event.event, event.data) for event in recent if event.event in kinds]
+
+    @property
+    def states(self) -> dict[int, str]:
+        """Every job's state, by number."""
+        return {job.number: job.state for job in self.executive.jobs}
