@@ -25,8 +25,6 @@ from intents.english.verbs import verbs_at
 from intents.goals import (
     Bring,
     Cancel,
-    Condition,
-    Find,
     ForEach,
     Give,
     Goal,
@@ -172,6 +170,7 @@ class Grammar(Afterthoughts):
             lambda: self._statement(at, before),
             lambda: self.telegram(at),
             lambda: self.gapped(at),
+            lambda: self.told_of(at),
             lambda: self.alone(at),
         )
         errors: list[ReadingError] = []
@@ -229,7 +228,7 @@ class Grammar(Afterthoughts):
     def _times(self, at: int) -> Reading | None:
         """Three times, walk around the table."""
         amount = measure(self.text.words, at)
-        if amount is None or amount.kind != "times":
+        if amount is None or amount.kind != "times" or self.begins_clause(amount.end):
             return None
         start = self.text.phrase_end(OVER, amount.end) or amount.end
         goals, end = self.sequence(start, nested=True)
@@ -257,7 +256,7 @@ class Grammar(Afterthoughts):
         if start is None:
             return None
         holds, end = condition(self.text, start, self.scope)
-        soon = self._as_soon_as(at, holds)
+        soon = self.as_soon_as(at, holds)
         if soon:
             return [soon], end + (self.text.word(end) == COMMA)
         if isinstance(holds, Present):
@@ -281,17 +280,10 @@ class Grammar(Afterthoughts):
             then, other = other, then
         return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
 
-    def _as_soon_as(self, at: int, holds: Condition) -> Find | None:
-        """When you find a guest, ...: first find one."""
-        when = self.text.word(at) in ("when", "once") and self.text.word(at + 1) == "you"
-        if not when or not isinstance(holds, Present) or holds.negated:
-            return None
-        return Find(object=holds.object, person=holds.person)
-
     def _before(self, at: int) -> Reading | None:
         """Before you go to the shelf, pick up the cup: the other way round."""
         word = self.text.word(at)
-        if word not in ("before", "after", "once") or not self.begins_clause(at + 1):
+        if word not in ("before", "after", "once", "when") or not self.begins_clause(at + 1):
             return None
         one, end = self.clause(self.skip(at + 1), [])
         for goal in one:
@@ -315,7 +307,7 @@ class Grammar(Afterthoughts):
 
 def _once(goals: list[Goal]) -> bool:
     """Whether goals say no more when they are said twice: never mind, forget it."""
-    return all(isinstance(goal, Cancel | Stop | Pause | Resume) for goal in goals)
+    return all(isinstance(goal, Cancel | Stop | Pause | Resume | Place) for goal in goals)
 
 
 def _names_hand(said: str, goals: tuple[Goal, ...]) -> bool:

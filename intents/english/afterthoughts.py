@@ -12,16 +12,18 @@ from intents.english.corrections import correction_end, substitute
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
+from intents.english.phrase import NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.remarks import asks_end
 from intents.english.trouble import Misfit, ReadingError
 from intents.english.verbs import verbs_at
-from intents.goals import Answer, Condition, Find, Goal, If, Repeat
+from intents.goals import Answer, Condition, Find, Goal, If, Present, Repeat
 
 OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 """What may follow "three times" and adds nothing."""
+_WHEN = lexicon.phrases("when,once,as soon as,whenever")
 _OPENINGS = ("sorry", "oh", "wait")
 
 
@@ -51,7 +53,7 @@ class Afterthoughts(Constructions, ABC):
         while self.text.word(at) in (COMMA, FULL_STOP) and at < len(self.text):
             at += 1
         end = correction_end(self.text, at)
-        if end is None or verbs_at(self.text.words, at):
+        if end is None:
             return None
         new_sentence = self.text.word(at - 1) == FULL_STOP and self.text.word(at) in _OPENINGS
         return (
@@ -94,6 +96,9 @@ class Afterthoughts(Constructions, ABC):
             holds, end = condition(self.text, start, self.scope)
         except ReadingError:
             return None
+        soon = self.as_soon_as(at, holds)
+        if soon and (end >= len(self.text) or self.text.word(end) == FULL_STOP):
+            return [soon, *last], end
         unless = self.text.word(at) == "unless"
         comma = self.text.word(end) == COMMA and end < len(self.text)
         otherwise = self.text.phrase_end(lexicon.ELSE, end + comma)
@@ -111,7 +116,7 @@ class Afterthoughts(Constructions, ABC):
             return None
         if verbs_at(self.text.words, end):
             return self.clause(end, [])
-        phrase = noun_phrase(self.text, end)
+        phrase = noun_phrase(self.text, end) or self._after_preposition(end)
         if phrase is None:
             return None
         scope = self.scope
@@ -126,6 +131,21 @@ class Afterthoughts(Constructions, ABC):
             raise Misfit("I do not know what to correct")
         scope.mention(new)
         return [substitute(g, old, new) for g in last], phrase.end
+
+    def as_soon_as(self, at: int, holds: Condition) -> Find | None:
+        """When you find a guest, ...: first find one."""
+        end = self.text.phrase_end(_WHEN, at)
+        when = end is not None and self.text.word(end) == "you"
+        if not when or not isinstance(holds, Present) or holds.negated:
+            return None
+        return Find(object=holds.object, person=holds.person)
+
+    def _after_preposition(self, at: int) -> NounPhrase | None:
+        """No, *on the table*: the place, if it is one."""
+        located = self.text.lookup(lexicon.LOCATIVES, at)
+        start = located[1] if located else self.text.phrase_end(lexicon.GOALWARDS, at)
+        phrase = noun_phrase(self.text, start) if start else None
+        return phrase if phrase and is_spot(phrase) else None
 
     def _told_apart(self, at: int) -> int | None:
         """Where *the blue one* begins that tells which cup was meant a sentence before."""

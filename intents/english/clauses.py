@@ -46,6 +46,8 @@ _A_WHILE = phrases(
     "for a while,for a moment,for a bit,for a little while,a moment,a while,a second,a minute,"
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
 )
+_LINKS = (["in", "case"], ["as", "soon"], ["once", "you"])
+"""How a clause begins that says when or whether."""
 _STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
 _IGNORED = lexicon.words("there's exactly about approximately roughly around almost another more "
                          "further both yourself itself only")  # fmt: skip
@@ -119,7 +121,7 @@ def ends_clause(text: Text, at: int) -> bool:
     word = text.word(at)
     if at >= len(text) or word in (COMMA, FULL_STOP):
         return True
-    return text.words[at : at + 2] == ["in", "case"] or bool(connector_end(text, at))
+    return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
 
 
 def connector_end(text: Text, at: int) -> int | None:

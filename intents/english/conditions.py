@@ -10,7 +10,7 @@ from intents.english.text import Text
 from intents.english.trouble import NotUnderstood
 from intents.goals import Condition, Holding, ObjectQuery, Present, State
 
-IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that")
+IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
 """How a condition begins."""
 _EMPTY_HANDED = phrases(
     "your hands are empty,your hand is empty,your gripper is empty,you hold nothing,"

@@ -42,7 +42,12 @@ _ACTS: dict[str, tuple[str, str]] = {
     "spin": ("turn", "spin"),
     "look": ("look", "look at"), "glance": ("look", "look at"), "peek": ("look", "look at"),
     "thumbs-up": ("gesture", "thumbs up"), "greeting": ("greet", "greet"),
-    "welcome": ("greet", "greet"), "hello": ("greet", "greet"), "search": ("find", "search"),
+    "welcome": ("greet", "greet"), "hello": ("greet", "greet"),
+    "handshake": ("gesture", "shake hands"), "search": ("find", "search"),
+}  # fmt: skip
+_TWO_WORD_ACTS = {
+    ("high", "five"): ("gesture", "high five"), ("thumbs", "up"): ("gesture", "thumbs up"),
+    ("shake", "hands"): ("gesture", "shake hands"),
 }  # fmt: skip
 _ABOUT_FACE = dict.fromkeys(
     lexicon.phrases("u turn,you turn,about face,about turn,180,one eighty"), pi
@@ -118,7 +123,8 @@ class Constructions(Results):
         receiver = noun_phrase(text, start)
         complements: list[Complement] = []
         if receiver and is_person(receiver, self.scope) and receiver.noun != "unknown":
-            complements.append(Complement(role="to", phrases=[receiver]))
+            if receiver.noun != "operator":
+                complements.append(Complement(role="to", phrases=[receiver]))
             start = receiver.end
         about = text.lookup(_ABOUT_FACE, start + (text.word(start) in ("a", "an")))
         if about:
@@ -148,6 +154,9 @@ class Constructions(Results):
         at += text.word(at) in lexicon.DETERMINERS
         while True:
             word = text.word(at)
+            phrase = text.lookup(_TWO_WORD_ACTS, at)
+            if phrase:
+                return phrase[0], times, phrase[1]
             act = _ACTS.get(singular(word))
             if act and not text.name_at(at):
                 return act, times, at + 1
@@ -171,18 +180,27 @@ class Constructions(Results):
             return [LookAt(place="up" if up else "down")], at + 3 + (text.word(at + 3) == "up")
         if text.word(at) in ("light", "lights") and text.word(at + 1) in ("on", "off", "out"):
             return [Switch(what="light", on=text.word(at + 1) == "on")], at + 2
-        amount = measure(text.words, at)
-        if amount and amount.kind in ("length", "angle") and not verbs_at(text.words, at):
-            complements, end = read_complements(text, at)
-            moves = all(c.direction or c.measure for c in complements) and len(complements) > 1
-            sense = "go" if amount.kind == "length" else "turn"
-            return self.framed(sense, at, at, complements, end) if moves else None
+        moved = self._moved(at)
+        if moved:
+            return moved
         if verbs_at(text.words, at) and not text.name_at(at):
             return None
         on_or_off = self.brought_about(at)
         if on_or_off and isinstance(on_or_off[0][0], Switch):
             return on_or_off
         return None
+
+    def _moved(self, at: int) -> Reading | None:
+        """Three steps forward; left 90 degrees."""
+        text = self.text
+        if verbs_at(text.words, at) or text.name_at(at):
+            return None
+        complements, end = read_complements(text, at)
+        kinds = [c.measure.kind for c in complements if c.measure]
+        moves = all(c.direction or c.measure for c in complements) and len(complements) > 1
+        if not moves or kinds not in (["length"], ["angle"]):
+            return None
+        return self.framed("go" if kinds == ["length"] else "turn", at, at, complements, end)
 
     def _helped(self, at: int) -> Reading | None:
         """Help Ada find her way from the gate to the lab; show Ada where the lab is."""

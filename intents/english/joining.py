@@ -131,6 +131,8 @@ def _already_sought(before: Goal, goal: Goal) -> bool:
     if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
         told_of = goal.object or goal.person
         return told_of is not None and told_of.at == before.place
+    if isinstance(goal, Tell | Count) and isinstance(before, Tell | Count) and goal.to:
+        return replace(goal, to=None) == replace(before, to=None)
     if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
         return False
     if goal.person is not None:

@@ -40,6 +40,8 @@ _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"'
                          "«": '"', "»": '"', "\t": " ", "\n": " ", "\r": " "})  # fmt: skip
 _AT_HE = re.compile(r"\b(at|in|on|to|from|by|of|for) he\b(?!\s+(?:is|was|has))", re.IGNORECASE)
 """A slip of the fingers: "at he fridge"."""
+_TOO = re.compile(r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", re.IGNORECASE)
+"""Another: "go too the table"."""
 _IS = {"what", "where", "who", "how", "which", "there", "here", "that", "it", "he", "she", "this",
        "when", "why"}  # fmt: skip  # "what's" holds a verb, "Julia's" does not
 _WHOLE = {
@@ -57,7 +59,8 @@ _WHOLE = {
     "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),
     "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),
     "youre": ("you", "are"), "whens": ("when", "is"), "tho": ("to",), "fo": ("of",),
-    "uturn": ("u-turn",), "plase": ("please",), "pleas": ("please",), "pleese": ("please",),
+    "uturn": ("u-turn",), "plase": ("please",), "te": ("the",), "yuo": ("you",),
+    "thier": ("their",), "pleas": ("please",), "pleese": ("please",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
             ("'m", "am"))  # fmt: skip
@@ -67,6 +70,7 @@ def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
     text = _AT_HE.sub(r"\1 the", _COMMA_S.sub(r"\1's", _APART.sub("", text)))
+    text = _TOO.sub("to", text)
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         kind, raw = match.lastgroup, match.group()
@@ -94,7 +98,7 @@ def _words(raw: str) -> list[Token]:
         if word.endswith(ending) and len(word) > len(ending):
             return [
                 Token(word[: -len(ending)], raw[: -len(ending)]),
-                Token(meaning, meaning),
+                Token(meaning, raw[-len(ending) :]),
             ]
     if word.endswith("'s") and len(word) > 2:
         stem = Token(word[:-2], raw[:-2])

@@ -198,7 +198,10 @@ FILLERS = phrases(
     "fast,mate,buddy,pal,bro,pretty,with sugar on top,with a cherry on top,i was thinking,"
     "i was wondering,i think,i guess,if you understand,if you understand me,if you hear me,"
     "if you can hear me,if you are ready,if you have time,if you have a minute,"
-    "when you have a minute,see if you can,see whether you can,go see if you can,check if you can"
+    "when you have a minute,while you are at it,if it is not too much bother,"
+    "if it is not too much to ask,if that is okay,if that is all right,if it is okay,if you like,"
+    "if you want,if you wish,whenever you are ready,when you are ready,whenever you like,"
+    "see if you can,see whether you can,go see if you can,check if you can"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 OPENERS = phrases(
@@ -224,17 +227,20 @@ OPENERS = phrases(
     "proceed to,directly,there,"
     "with your left hand,with your right hand,using your left hand,using your right hand,"
     "use your left hand to,use your right hand to,use your left arm to,use your right arm to,"
-    "use your hand to,use your hands to,use both hands to,yo,listen,nice to meet you,"
+    "use your hand to,use your hands to,use both hands to,yo,listen,"
+    "evening,morning,hiya,howdy,greetings,nice to meet you,"
     "pleased to meet you,nice to see you,i want that you,i would like that you,fancy,how about,"
-    "what about,try and,i wonder if you could,"
-    "i wonder if you can,if you could,what i want is for you to,what i need is for you to,"
-    "i want to see you,i would like to see you,i would love to see you,mind"
+    "what about,try and,i wonder if you could,i wonder if you can,if you could,"
+    "what i want is for you to,what i need is for you to,"
+    "i want to see you,let us see you,let me see you,i would like to see you,"
+    "i would love to see you,mind"
 ) | {("look", ",")}
 """Words that can be dropped at the beginning of a clause."""
 
 LIGHT_VERBS = phrases(
     "give,do,make,take,have,perform,show,go into,go down into,get into,get down into,hold,stay in,"
-    "go for,do me,give it,execute,have yourself,lower yourself into,drop into,sink into,extend"
+    "go for,do me,give it,execute,have yourself,lower yourself into,drop into,sink into,extend,"
+    "show me,show us,let me see,let us see"
 )
 """Verbs that say nothing but that an act is done: "do a squat", "give a wave"."""
 

@@ -276,7 +276,11 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
     )
     end = match.end
     _prefix_level(text, phrase)
-    if match.of("room") and text.word(end) in ("floor", "area") and text.name_at(end) is None:
+    if (
+        match.of("room")
+        and text.word(end) in ("floor", "area", "room")
+        and text.name_at(end) is None
+    ):
         return end + 1
     if match.of("person") or text.word(end) == QUOTE:
         return end

@@ -26,7 +26,7 @@ _POINTED_AT = lexicon.phrases(
 )
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned put left sitting standing lying "
-    "laying hanging stays stands sits lies rests"
+    "laying hanging stays stands sits lies rests lie"
 )
 _ON_THE_FLOOR: dict[lexicon.Phrase, Literal["lying"]] = dict.fromkeys(
     lexicon.phrases("on the floor,on the ground,on the carpet"), "lying"
@@ -72,7 +72,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
     if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
-        at += 1
+        end = _relative(text, phrase, at + 1)
+        return end and end + (text.word(end) == COMMA and text.word(end + 1) in DETERMINERS)
     spot = is_spot(phrase)
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     if reduced:

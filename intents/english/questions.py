@@ -61,6 +61,7 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     return [Count(object=to_object(phrase, scope), to=to)], end
 
 
+_LYING = lexicon.words("lying standing sitting placed located kept stored")
 _GONE = lexicon.words("is are gone go went got to hidden hiding")
 _LEFT = lexicon.phrases(
     "did you put,did you leave,did you place,did i put,did i leave,have you put,have you left,"
@@ -141,7 +142,8 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
     color = lexicon.COLORS.get(text.word(start)) if text.word(start - 1) in BE else None
     if color and start + 1 == len(text):
         phrase, end = NounPhrase(start, start, noun="object", said="object", color=color), start + 1
-    elif asked and text.lookup(lexicon.LOCATIVES, start):
+    elif asked and text.lookup(lexicon.LOCATIVES, start + (text.word(start) in _LYING)):
+        start += text.word(start) in _LYING
         phrase = NounPhrase(start, start, noun="object", said="object")
         read_postmodifiers(text, phrase)
         end = phrase.end

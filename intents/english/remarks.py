@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from intents.english import lexicon
 from intents.english.clauses import read_complements
-from intents.english.lexer import COMMA, FULL_STOP
+from intents.english.lexer import COMMA, FULL_STOP, singular
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.postmodifiers import is_spot, read_postmodifiers
@@ -35,6 +35,8 @@ def asks_end(text: Text, at: int) -> int | None:
     return end if asks else None
 
 
+_SHORT = 4
+"""What is said of somebody in so many words is a remark."""
 _IS = lexicon.phrases(
     "is,are,was,were,should be,might be,must be,may be,could be,ought to be,has to be,will be,"
     "would be,used to be,should still be,is supposed to be"
@@ -118,6 +120,24 @@ class Remarks(Clauses):
         person = to_person(phrase, self.scope)
         things = [to_object(one, self.scope) for one in thing.phrases]
         return [Bring(object=query, to=person) for query in things], end
+
+    def told_of(self, at: int) -> Reading | None:
+        """Ada is thirsty, ...; the door is open, ...: passed over, but they are spoken of now."""
+        text = self.text
+        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+        stated = text.phrase_end(_IS, phrase.end) if phrase else None
+        if phrase is None or stated is None or phrase.noun in ("operator", "here", "there"):
+            return None
+        end = stated
+        while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+            end += 1
+        if end >= len(text) or end - stated > _SHORT:
+            return None
+        if phrase.noun == "unknown":
+            self.scope.device = singular(phrase.said)
+        elif phrase.noun == "name":
+            self._mention_phrase(phrase)
+        return [], end
 
     def _feeling(self, at: int) -> Reading | None:
         """I am thirsty after all that work, ...: it is passed over, if a command follows."""

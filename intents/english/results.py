@@ -11,11 +11,11 @@ from intents.english.frames.devices import device_names
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
-from intents.english.referents import is_person, to_object, to_person
+from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.remarks import Remarks
 from intents.english.trouble import ReadingError
 from intents.english.verbs import SENSES, participle_base, verbs_at
-from intents.goals import Bring, Close, Goal, Open, Switch
+from intents.goals import Bring, Close, Goal, Guide, Open, Switch
 
 _RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
                               "need switch shut")  # fmt: skip
@@ -36,6 +36,10 @@ _WISHED = lexicon.phrases(
     "to be,to go,to be put,to be moved,to be placed,to stand,to end up,put,moved,placed,back"
 )
 _GETS = lexicon.phrases("gets,get,has,have,receives,receive,is given,is brought,gets given")
+_GETS_TO = lexicon.phrases(
+    "gets to,get to,arrives at,arrives in,reaches,finds the way to,makes it to,comes to,"
+    "gets safely to,gets into"
+)
 WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
 """How a wish begins."""
 _PASSIVE = lexicon.phrases(
@@ -113,7 +117,12 @@ class Results(Remarks):
         return self.framed("put", at, phrase.end, [thing, *complements], end)
 
     def _served(self, phrase: NounPhrase) -> Reading | None:
-        """See that Ada gets the pencil."""
+        """See that Ada gets the pencil; see that she gets to the lab."""
+        way = self.text.phrase_end(_GETS_TO, phrase.end)
+        place = noun_phrase(self.text, way) if way else None
+        if place is not None and place.name("place", "room"):
+            to = to_place(place, self.scope)
+            return [Guide(person=to_person(phrase, self.scope), to=to)], place.end
         start = self.text.phrase_end(_GETS, phrase.end)
         complements, end = read_complements(self.text, start) if start else ([], 0)
         thing = complements[0] if len(complements) == 1 else None

@@ -8,7 +8,7 @@ from intents.english.text import Text
 from intents.goals import Goal, Report, ReportTopic, Say
 
 _NOW = (
-    r"(?: (?:right )?now| at the moment| currently| just now| then| yet| so far| again| there"
+    r"(?: (?:right )?now| just| at the moment| currently| just now| then| yet| so far| again| there"
     r"| here"
     r"| today)*"
 )

@@ -19,6 +19,7 @@ _SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "an
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
 
 
+_SEEN = lexicon.words("a an any the my some anyone anybody someone somebody anything")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
 _HANDED = ("bring", "take", "give", "pick", "collect", "want")
 
@@ -52,12 +53,17 @@ class Clauses:
             if text.word(at) in (COMMA, FULL_STOP) or self._sets_out(at):
                 at += 1
                 continue
+            if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
+                at += 4
+                continue
+            if text.words[at + 1 : at + 3] == ["you", "see"] and text.word(at + 3) in _SEEN:
+                return at
             verb = verbs_at(text.words, at)
             end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
             if not end or about_robot(text, at) or (verb and verb[0][1] > end):
                 return at
             opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
-            opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP)
+            opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
             open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
             if open_ended and not connector_end(text, at) and not opens_verb:
                 return at
@@ -75,8 +81,10 @@ class Clauses:
             return bool(verbs_at(text.words, at + 1)) and longest == at + 1
         if text.word(at) not in ("go", "come", "run", "hurry"):
             return False
-        whole = verbs_at(text.words, at)[0][1] > at + 1
         after = connector_end(text, at + 1) or at + 1
+        inner = max((end for _, end in verbs_at(text.words, after)), default=after)
+        whole = verbs_at(text.words, at)[0][1]
+        whole = at + 1 < whole >= inner
         goes_somewhere = text.lookup(lexicon.LOCATIVES, at + 1) or text.word(after) == "go"
         return not whole and not goes_somewhere and bool(verbs_at(text.words, after))
 

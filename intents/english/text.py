@@ -7,6 +7,7 @@ from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.lexicon import ADVERBS, DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
 from intents.english.names import Match, NameIndex, index_of
 from intents.english.spelling import KNOWN_WORDS, speller_of
+from intents.english.verbs import participle_base
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -16,6 +17,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
+_ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -48,7 +50,7 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        self.tokens: list[Token] = _without_fillers(corrected, self.index)
+        self.tokens: list[Token] = _unfinished(_without_fillers(corrected, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
 
@@ -88,7 +90,7 @@ class Text:
         """What was written from one word to another."""
         said = ""
         for token in self.tokens[start:end]:
-            glued = token.text in (COMMA, FULL_STOP) or token.text.startswith("'")
+            glued = token.text in (COMMA, FULL_STOP) or token.raw.lower().startswith(("'", "n't"))
             said += token.raw if glued or not said else " " + token.raw
         return said.rstrip(" ,;.")
 
@@ -121,6 +123,17 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     while kept and kept[-1].text in (COMMA, FULL_STOP):
         kept.pop()
     return kept
+
+
+def _unfinished(tokens: list[Token]) -> list[Token]:
+    """Once you *have picked* it up: once you pick it up."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 2, 1, -1):
+        done = words[at] == "have" and words[at - 1] == "you" and words[at - 2] in _ONCE
+        base = participle_base(words[at + 1]) if done else None
+        if base:
+            tokens[at : at + 2] = [Token(base, tokens[at + 1].raw)]
+    return tokens
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:

@@ -6,7 +6,7 @@ from intents.english.lexicon import Phrase
 SPELLINGS: dict[str, str] = {
     "go": (
         "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,"
-        "come closer,come nearer,"
+        "come closer,come nearer,get closer,get closer to,get nearer,get nearer to,move closer,"
         "come over,enter,head,head over,proceed,travel,get to,get over,return,visit,"
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
@@ -58,7 +58,10 @@ SPELLINGS: dict[str, str] = {
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull"
     ),
-    "inform": "give me,give us,give,provide,provide me with,show me,share,get me",
+    "inform": (
+        "i need,i want,i would like,give me,give us,give,provide,provide me with,show me,share,"
+        "get me"
+    ),
     "give": (
         "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
         "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
@@ -68,13 +71,16 @@ SPELLINGS: dict[str, str] = {
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
         "i want to have,i am looking for,we need,we want,we would like,i require,"
         "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
-        "i could murder,i would kill for,i would appreciate,let me have,i feel like,"
+        "i could murder,i would kill for,i am after,i am wanting,i am needing,"
+        "could i trouble you for,can i trouble you for,may i trouble you for,"
+        "could i bother you for,i would appreciate,let me have,i feel like,"
         "i am in need of,do you have,i like,i crave,me want,me need"
     ),
     "follow": (
         "follow,go after,come after,go behind,come behind,go along with,go with,come with,"
         "tail,chase,track,follow after,follow along,follow behind,walk behind,walk after,"
-        "trail,walk with,keep up with,pursue,shadow,stay with,move behind"
+        "trail,walk along with,come along with,tag along with,"
+        "move along with,walk with,keep up with,pursue,shadow,stay with,move behind"
     ),
     "guide": (
         "show,guide,escort,lead,accompany,conduct,usher,navigate,direct,show the way,"
@@ -103,7 +109,8 @@ SPELLINGS: dict[str, str] = {
         "relay to,share with,explain to,brief,identify,name,find out,check,determine,"
         "figure out,do you know,can i know,i want to know,i would like to know,"
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
-        "speak with,talk to,talk with,wish,bid,respond with,recount,communicate,communicate to,"
+        "speak with,talk to,talk with,wish,bid,do you happen to know,would you know,any idea,"
+        "do you have any idea,have you any idea,respond with,recount,communicate,communicate to,"
         "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
         "reveal,detail,point out"
     ),

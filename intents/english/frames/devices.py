@@ -89,6 +89,8 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     off = bool(particles & {"off", "down", "out", "deactivate", "disable", "kill", "extinguish"})
     if said is not None and said.role == "at":
         on, off = said.how == "on", said.how != "on"
+    if clause.verb == "turn" and "up" in particles:
+        raise Misfit("I can switch it on or off, not up")
     if on == off:
         raise Misfit("on or off?")
     if said is None and not particles & {"on", "off"}:

@@ -61,6 +61,8 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
     people = _someone(slots, "Whom shall I guide?", "with")
     slots.direction("forward", "around", "up", "down")
     slots.done()
+    if to is None and people == [ME] and clause.verb.split()[0] not in _GUIDES:
+        raise Misfit("that is to bring something")
     return [Guide(person=p, to=to) for p in people]
 
 

@@ -51,6 +51,21 @@ THERE = Context(
         ("face the other way", "turn around"),
         ("pick up the cup. the blue one", "pick up the blue cup"),
         ("do a 180", "turn around"),
+        ("right 90 degrees", "turn right 90 degrees"),
+        ("backward 20 cm", "walk backward 20 cm"),
+        ("show me a bow", "bow"),
+        ("give us a wave", "wave"),
+        ("give Anna a high five", "high five Anna"),
+        ("put the bottle on the table, wait, no, on the shelf", "put the bottle on the shelf"),
+        ("put the bottle on the table and leave it there", "put the bottle on the table"),
+        ("get closer to the table", "go to the table"),
+        ("go too the table", "go to the table"),
+        ("what is lying on the table?", "what is on the table?"),
+        ("can you see a bottle on the table?", "is there a bottle on the table?"),
+        ("I need the number of cups on the table", "tell me the number of cups on the table"),
+        ("do you happen to know where Anna is?", "where is Anna?"),
+        ("walk along with Anna", "follow Anna"),
+        ("what is the colour of the bottle? Tell Anna", "tell Anna the colour of the bottle"),
         ("take the bottle, no the cup", "take the cup"),
         ("go to the table... oh no, the shelf", "go to the shelf"),
         ("never mind, forget that", "never mind"),
@@ -164,3 +179,10 @@ def test_what_is_akin_is_asked_about(said: str, choices: list[str], answer: str)
     assert [choice.label for choice in outcome.choices] == choices
     agreed, _ = hear(answer, HOME, context=context)
     assert isinstance(agreed, Goals)
+
+
+@pytest.mark.parametrize("words", ["I'll be late", "we don't know", "it's Emil's birthday"])
+def test_words_to_be_said_stay_as_they_were_said(words: str) -> None:
+    outcome = parse(f"tell Anna {words}", HOME)
+    assert isinstance(outcome, Goals), outcome
+    assert to_builtins(outcome.goals)[0]["what"] == words
