@@ -102,7 +102,7 @@ def _words(raw: str) -> list[Token]:
             ]
     if word.endswith("'s") and len(word) > 2:
         stem = Token(word[:-2], raw[:-2])
-        return [stem, Token("is", "is") if stem.text in _IS else Token("'s", "'s")]
+        return [stem, Token("is" if stem.text in _IS else "'s", raw[-2:])]
     return [Token(word.replace("'", ""), raw)]
 
 
