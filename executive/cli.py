@@ -12,6 +12,7 @@ from typing import Annotated
 
 import typer
 
+from executive import streams
 from executive.dumps import cli as dumps
 from executive.ending import ended_by
 from executive.evaluation.cli import evaluate
@@ -295,6 +296,8 @@ app.command()(listen)
 
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
+    streams.steady()
+    sys.argv[1:] = map(streams.readable, sys.argv[1:])
     try:
         app(prog_name="humanoid")
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback

@@ -14,7 +14,7 @@ from executive import loop, runs
 from executive.app import Executive, Outcome
 from executive.faults import FaultPlan, Injector, SlowPlanner
 from executive.jobs import UNLIMITED, Limits
-from executive.journal import Event
+from executive.journal import FILE, Event
 from executive.knowledge import full_name
 from executive.progress import Progress
 from executive.request import Setting, Understood
@@ -156,7 +156,7 @@ def _summary(
         refused=body.refused if body else 0,
         placed=_placed(job, runtime.link.world()),
         late=late_periods(runtime),
-        folder=str(job.folder) if job.folder else "",
+        folder=str(job.folder) if job.folder and (job.folder / FILE).exists() else "",
     )
 
 

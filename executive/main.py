@@ -16,6 +16,7 @@ from typing import Any
 
 import msgspec
 
+from executive import streams
 from executive.ending import ended_by
 from robot.bringup import entry
 from robot.bringup.overseen import FRONT_FILE, Front, Handle
@@ -33,6 +34,7 @@ Run = Callable[[Handle, dict[str, Any]], int]
 
 def main(private: str, parent_pid: str, number: str) -> int:
     """Load, build, run, close; returns the exit status. A spare waits for its turn in between."""
+    streams.steady()
     tie_to_parent(int(parent_pid))
     folder = Path(private)
     try:

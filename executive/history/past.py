@@ -18,7 +18,7 @@ from robot.errors import ConfigError, Problem
 
 BASE = Path("runs")
 
-Ending = Literal["done", "failed", "stopped", "under way", "cut off"]
+Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
 
 
 class Past(msgspec.Struct, frozen=True, kw_only=True):
@@ -82,7 +82,7 @@ def look(folder: Path) -> Past:
         if journal.is_written(folder):
             code, ending = "", "under way"
         else:
-            ending = _ending(code, story.state)
+            ending = "idle" if story.idle else _ending(code, story.state)
     began = datetime.fromtimestamp(_began_s(folder)).astimezone()
     return Past(
         folder=str(folder),

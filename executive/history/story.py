@@ -95,6 +95,11 @@ class Story:
     missing: int = 0
 
     @property
+    def idle(self) -> bool:
+        """Whether somebody was there and asked for nothing."""
+        return bool(self.header.get("attended")) and not self.attempts and not self.state
+
+    @property
     def current(self) -> Attempt | None:
         """The newest go that has not ended."""
         going = [one for one in self.everything() if one.result == "going on"]

@@ -19,7 +19,9 @@ LEAD_UP_S = 20.0
 """How long before a failure what happened to the robot is told with it."""
 MOST_NOTES, MOST_ATTEMPTS = 8, 6
 
-Status = Literal["done", "failed", "stopped", "going on", "cut off"]
+IDLE = "Nothing was asked for."
+
+Status = Literal["done", "failed", "stopped", "going on", "cut off", "idle"]
 
 
 class Explanation(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,6 +51,8 @@ def why(events: Iterable[Event], *, live: bool = False) -> Explanation:
         return _stopped(story)
     if story.state == "failed":
         return _failed(story)
+    if story.idle:
+        return Explanation(status="idle", verdict=IDLE, lines=(IDLE,))
     return _going_on(story) if live else _cut_off(story)
 
 

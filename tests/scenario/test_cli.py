@@ -186,6 +186,7 @@ def test_a_folder_that_cannot_be_written_is_a_warning(runtime, humanoid, tmp_pat
     status, text = humanoid("do", "squat", "--fast", "--run-dir", "file/run")
     assert status == 0, text
     assert "warning: the journal cannot be written" in text
+    assert "journal: " not in text  # it is not there
 
 
 def test_a_folder_that_holds_a_run_is_not_written_over(runtime, humanoid):

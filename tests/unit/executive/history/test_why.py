@@ -94,6 +94,12 @@ def test_a_success_tells_what_had_to_be_recovered():
     )
 
 
+def test_a_prompt_at_which_nothing_was_asked_is_no_run_that_was_cut_off():
+    told = why([Event(0, 0.0, "run", {"text": "prompt", "attended": True})])
+    assert (told.status, told.text) == ("idle", "Nothing was asked for.")
+    assert why([Event(0, 0.0, "run", {"text": "squat"})]).status == "cut off"
+
+
 def test_a_run_that_was_killed_tells_where_it_was():
     told = why(journal(*FAILS[:4]))
     assert told.status == "cut off"

@@ -1,0 +1,74 @@
+"""Standard streams that cannot stop a robot, whoever has closed them, and whatever they lack.
+
+A robot on its way must not fall because somebody piped its output into `head`. What cannot be
+written is left out; a stream that was closed from the start leads nowhere.
+"""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+import sys
+from contextlib import suppress
+from typing import TextIO, cast
+
+GONE = (errno.EPIPE, errno.EIO)
+"""Errors after which nobody will read what is written."""
+
+
+class Lasting(io.TextIOWrapper):
+    """A stream of text that leaves out what cannot be written, and raises no OSError."""
+
+    def write(self, text: str, /) -> int:
+        """Write a text, or as much as can be; its length."""
+        try:
+            return super().write(text)
+        except OSError as error:
+            self._lost(error)
+            return len(text)
+
+    def flush(self) -> None:
+        """Pass on what was written."""
+        try:
+            super().flush()
+        except OSError as error:
+            self._lost(error)
+
+    def _lost(self, error: OSError) -> None:
+        """Lead nowhere from here on if nobody is left to read."""
+        if error.errno in GONE:
+            with suppress(OSError):
+                nowhere = os.open(os.devnull, os.O_WRONLY)
+                os.dup2(nowhere, self.fileno())
+                os.close(nowhere)
+
+
+def steady() -> None:
+    """Make this process's standard streams last; before anything is read or written."""
+    for fd in (0, 1, 2):  # what is closed would be the next file that is opened
+        try:
+            os.fstat(fd)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    if sys.stdin is None:  # pyright: ignore[reportUnnecessaryComparison]
+        sys.stdin = os.fdopen(0, encoding="utf-8", closefd=False)
+    if isinstance(sys.stdin, io.TextIOWrapper):
+        cast("io.TextIOWrapper", sys.stdin).reconfigure(errors="replace")
+    sys.stdout = _lasting(sys.stdout, 1)
+    sys.stderr = _lasting(sys.stderr, 2)
+
+
+def readable(word: str) -> str:
+    """A word of the command line with � for what is no text: no file can keep it otherwise."""
+    return word.encode(errors="surrogateescape").decode(errors="replace")
+
+
+def _lasting(stream: object, fd: int) -> TextIO:
+    """The stream in place of one of Python's own; others are somebody's on purpose."""
+    if stream is None:
+        return Lasting(os.fdopen(fd, "wb", closefd=False), encoding="utf-8")
+    if type(stream) is not io.TextIOWrapper:
+        return cast("TextIO", stream)
+    encoding, by_lines = stream.encoding, stream.line_buffering
+    return Lasting(stream.detach(), encoding=encoding, errors="replace", line_buffering=by_lines)
