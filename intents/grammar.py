@@ -12,7 +12,7 @@ from intents.english.afterthoughts import OVER, Afterthoughts
 from intents.english.clauses import connector_end
 from intents.english.conditions import IF, condition
 from intents.english.corrections import substitute
-from intents.english.joining import as_wished, joined, same_object
+from intents.english.joining import as_wished, joined, or_else, same_object
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
@@ -98,7 +98,7 @@ class Grammar(Afterthoughts):
             if nested and goals and self._ends_nested(at):
                 return goals, at
             begun, at = at, self.skip(at)
-            taken_back = self.taken_back(begun, goals[last:]) if goals else None
+            taken_back = self.taken_back(begun, goals[last:] if begun else list(self.history))
             if taken_back:
                 goals[last:], at = taken_back
                 continue
@@ -116,6 +116,8 @@ class Grammar(Afterthoughts):
                 self.trace.append((self.text.raw(at, end), tuple(found)))
             if wish and same_object(wish[0], found[:1]):
                 found[0] = as_wished(found[0], goals.pop())
+            if goals and found and "or" in self.text.words[begun:at]:
+                found[0] = or_else(goals, found[0])
             if goals and found:
                 found[0] = joined(goals, found[0], first=self.text.word(at))
             last = len(goals)
@@ -166,6 +168,8 @@ class Grammar(Afterthoughts):
             lambda: self.asker(at),
             lambda: self.about_thing(at),
             lambda: self._verb(at),
+            lambda: self.likewise(at, before or list(self.history)),
+            lambda: self.gapped(at) if self.text.word(at - 1) in ("then", "and") else None,
             lambda: self.fronted(at),
             lambda: self._statement(at, before),
             lambda: self.telegram(at),

@@ -5,10 +5,14 @@
 
 from abc import ABC, abstractmethod
 
+from msgspec.structs import replace
+
 from intents.english import lexicon
+from intents.english.clauses import Complement, ends_clause
 from intents.english.conditions import IF, condition
 from intents.english.constructions import Constructions
 from intents.english.corrections import correction_end, substitute
+from intents.english.frames.devices import device_names
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
@@ -19,10 +23,31 @@ from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.remarks import asks_end
 from intents.english.trouble import Misfit, ReadingError
 from intents.english.verbs import verbs_at
-from intents.goals import Answer, Condition, Find, Goal, If, Present, Repeat
+from intents.goals import (
+    Answer,
+    Bring,
+    Close,
+    Condition,
+    Find,
+    Follow,
+    Give,
+    Goal,
+    Greet,
+    Guide,
+    If,
+    LookAt,
+    Meet,
+    Open,
+    Pick,
+    Place,
+    Present,
+    Repeat,
+    Switch,
+)
 
 OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 """What may follow "three times" and adds nothing."""
+_TOO = lexicon.phrases("too,also,as well,likewise")
 _WHEN = lexicon.phrases("when,once,as soon as,whenever")
 _OPENINGS = ("sorry", "oh", "wait")
 
@@ -53,7 +78,11 @@ class Afterthoughts(Constructions, ABC):
         while self.text.word(at) in (COMMA, FULL_STOP) and at < len(self.text):
             at += 1
         end = correction_end(self.text, at)
-        if end is None:
+        if end is None or not last:
+            return None
+        begins = at == 0  # it takes back what was said before, if it is no command of its own
+        plain = self.text.word(end - 1) != COMMA and end < at + 2  # no cup there?
+        if begins and (verbs_at(self.text.words, end) or (plain and self.text.word(end) != "the")):
             return None
         new_sentence = self.text.word(at - 1) == FULL_STOP and self.text.word(at) in _OPENINGS
         return (
@@ -139,6 +168,26 @@ class Afterthoughts(Constructions, ABC):
         if not when or not isinstance(holds, Present) or holds.negated:
             return None
         return Find(object=holds.object, person=holds.person)
+
+    def likewise(self, at: int, before: list[Goal]) -> Reading | None:
+        """Put the cup on the shelf, *and the plate too*: the same with another."""
+        text = self.text
+        phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+        end = text.phrase_end(_TOO, phrase.end) if phrase else None
+        if phrase is None or end is None or not before or not ends_clause(text, end):
+            return None
+        last = before[-1]
+        if isinstance(last, Open | Close | Switch):
+            act = "switch" if isinstance(last, Switch) else "open"
+            names = device_names(Complement(phrases=[phrase]), self.scope, act)
+            return [replace(last, what=name) for name in names], end
+        if is_person(phrase, self.scope):
+            person = to_person(phrase, self.scope)
+            alike = isinstance(last, Find | Follow | Greet | Guide | Meet)
+            return ([replace(last, person=person)], end) if alike else None
+        if isinstance(last, Pick | Place | Bring | Give | Find | LookAt):
+            return [replace(last, object=to_object(phrase, self.scope))], end
+        return None
 
     def _after_preposition(self, at: int) -> NounPhrase | None:
         """No, *on the table*: the place, if it is one."""

@@ -54,7 +54,7 @@ _ABOUT_FACE = dict.fromkeys(
 ) | dict.fromkeys(lexicon.phrases("360,three sixty,full 360"), 2 * pi)
 _TURNS = {"full": 2 * pi, "whole": 2 * pi, "complete": 2 * pi, "half": pi, "quarter": pi / 2}
 _ADJECTIVES = lexicon.words("quick good little big small long short nice friendly proper close "
-                            "sharp deep polite careful gentle single slow hard warm "
+                            "sharp deep polite careful gentle single slow hard warm wee "
                             "hearty big fast tiny")  # fmt: skip
 
 _HELPS = lexicon.words("help assist let")

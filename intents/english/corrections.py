@@ -12,7 +12,8 @@ from intents.goals import Goal, ObjectQuery, Person
 _MARKERS = phrases(
     "no wait,wait no,no,i mean,i meant,or rather,rather,scratch that,correction,make that,sorry,"
     "oh sorry,not that,no sorry,wait,oh no,oops,my mistake,i mean to say,sorry i meant,"
-    "sorry i mean,no i mean,no i meant,no not that,no make that,or better,better"
+    "sorry i mean,no i mean,no i meant,no not that,not that one,not this one,"
+    "no not that one,no not this one,wrong one,no make that,or better,better"
 )
 
 

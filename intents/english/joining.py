@@ -12,12 +12,14 @@ from intents.goals import (
     Goal,
     GoTo,
     Guide,
+    If,
     LookAt,
     Meet,
     ObjectQuery,
     Person,
     Pick,
     Place,
+    Present,
     Say,
     Tell,
     Wait,
@@ -68,6 +70,21 @@ def as_wished(goal: Goal, wish: Goal) -> Goal:
     if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
         return replace(goal, object=replace(goal.object, at=wish.object.at))
     return goal
+
+
+def or_else(before: list[Goal], goal: Goal) -> Goal:
+    """Bring a pear or, *if there is none*, a plum: one or the other, and not both."""
+    last = before[-1] if before else None
+    if not isinstance(goal, If) or not isinstance(last, Bring | Find | Give | Pick | Place):
+        return goal
+    holds = goal.condition
+    if not isinstance(holds, Present) or not holds.negated or holds.object != last.object:
+        return goal
+    before.pop()
+    sought = last.object and replace(last.object, count=None)
+    there = replace(holds, object=sought, negated=False)
+    then = last if sought is None else replace(last, object=sought)
+    return If(condition=there, then=(then,), else_=goal.then)
 
 
 _HOLDS = ("hold", "stay", "keep", "remain")

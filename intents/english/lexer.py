@@ -15,7 +15,7 @@ class Token(NamedTuple):
 
     Attributes:
         text: Lower case; punctuation is ``COMMA`` or ``FULL_STOP``, a quotation ``QUOTE``.
-        raw: As it was written.
+        raw: As it was written; empty if the token before holds it.
     """
 
     text: str
@@ -59,8 +59,8 @@ _WHOLE = {
     "thats": ("that", "is"), "till": ("until",), "hes": ("he", "is"), "shes": ("she", "is"),
     "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),
     "youre": ("you", "are"), "whens": ("when", "is"), "tho": ("to",), "fo": ("of",),
-    "uturn": ("u-turn",), "plase": ("please",), "te": ("the",), "yuo": ("you",),
-    "thier": ("their",), "pleas": ("please",), "pleese": ("please",),
+    "uturn": ("u-turn",), "plase": ("please",), "te": ("the",), "ur": ("your",), "n": ("and",),
+    "yuo": ("you",), "thier": ("their",), "pleas": ("please",), "pleese": ("please",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),
             ("'m", "am"))  # fmt: skip
@@ -70,7 +70,7 @@ def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
     text = _AT_HE.sub(r"\1 the", _COMMA_S.sub(r"\1's", _APART.sub("", text)))
-    text = _TOO.sub("to", text)
+    text = _TOO.sub("to", text).replace("&", " and ")
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         kind, raw = match.lastgroup, match.group()
@@ -93,7 +93,8 @@ def _words(raw: str) -> list[Token]:
     """One written word as tokens: contractions come apart, possessives become "'s"."""
     word = raw.lower()
     if word in _WHOLE:
-        return [Token(w, w) for w in _WHOLE[word]]
+        first, *rest = _WHOLE[word]
+        return [Token(first, raw), *(Token(w, "") for w in rest)]
     for ending, meaning in _ENDINGS:
         if word.endswith(ending) and len(word) > len(ending):
             return [

@@ -43,7 +43,8 @@ COLORS = {
 SIZES = {
     "big": "big", "large": "big", "huge": "big", "bigger": "big", "larger": "big",
     "giant": "big", "enormous": "big", "massive": "big", "gigantic": "big",
-    "small": "small", "little": "small", "tiny": "small", "smaller": "small", "mini": "small",
+    "wee": "small", "small": "small", "little": "small", "tiny": "small", "smaller": "small",
+    "mini": "small",
     "miniature": "small", "weighty": "heavy", "slim": "thin", "slender": "thin",
     "skinny": "thin", "narrow": "thin",
     "tall": "tall", "short": "short", "heavy": "heavy", "light": "light", "medium": "medium",
@@ -159,7 +160,7 @@ LOCATIVES.update(
     {
         (stress, *phrase): how
         for phrase, how in LOCATIVES.items()
-        for stress in ("right", "just", "directly", "immediately")
+        for stress in ("right", "just", "directly", "immediately", "close", "closely", "straight")
         if how in ("near", "under", "behind", "above", "in_front", "between")
     }
 )
@@ -201,10 +202,12 @@ FILLERS = phrases(
     "when you have a minute,while you are at it,if it is not too much bother,"
     "if it is not too much to ask,if that is okay,if that is all right,if it is okay,if you like,"
     "if you want,if you wish,whenever you are ready,when you are ready,whenever you like,"
-    "see if you can,see whether you can,go see if you can,check if you can"
+    "wherever she goes,wherever he goes,wherever they go,wherever i go,everywhere she goes,"
+    "everywhere he goes,everywhere i go,see if you can,see whether you can,"
+    "go see if you can,check if you can"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
-OPENERS = phrases(
+_OPENINGS = phrases(
     "can you,could you,would you,will you,can you please,would you mind,do you mind,"
     "would you be able to,are you able to,is it possible for you to,is it possible to,"
     "would it be possible to,would it be possible for you to,i want you to,i would like you to,"
@@ -218,23 +221,33 @@ OPENERS = phrases(
     "be so kind as to,be so kind and,do me a favor and,help me,why do not you,why not,"
     "do me a favour and,would you like to,do you think you can,do you think you could,"
     "how would you,how do you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
-    "hi there,hello there,hey there,good morning,good evening,good afternoon,good day,"
-    "start to,begin to,make sure to,make sure you,be sure to,remember to,do not forget to,you,to,"
+    "hi there,hello there,hey there,good morning,good evening,good afternoon,good day,start to,"
+    "begin to,make sure to,make sure you,be sure to,remember to,do not forget to,you,to,"
     "listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,ready,help me to,help me and,may you,"
     "might you,shall you,attempt to,i wish you to,i wish for you to,your next task is to,"
     "the task is to,it is time to,time to,i said,it would be nice if you could,"
     "it would be great if you could,could i ask you to,may i ask you to,can i ask you to,please,"
-    "proceed to,directly,there,"
-    "with your left hand,with your right hand,using your left hand,using your right hand,"
-    "use your left hand to,use your right hand to,use your left arm to,use your right arm to,"
-    "use your hand to,use your hands to,use both hands to,yo,listen,"
-    "evening,morning,hiya,howdy,greetings,nice to meet you,"
+    "proceed to,directly,there,with your left hand,with your right hand,using your left hand,"
+    "using your right hand,use your left hand to,use your right hand to,use your left arm to,"
+    "use your right arm to,use your hand to,use your hands to,use both hands to,yo,listen,"
+    "right then,would it be okay if you,would it be all right if you,"
+    "it would be great if you,it would be nice if you,it would be lovely if you,"
+    "it would be good if you,i would be grateful if you,i would be glad if you,"
+    "i would be happy if you,i would appreciate it if you would,i would like it if you,"
+    "i would love it if you,i would be grateful if you could,i would be grateful if you would,"
+    "i would be glad if you could,evening,morning,hiya,howdy,greetings,nice to meet you,"
     "pleased to meet you,nice to see you,i want that you,i would like that you,fancy,how about,"
     "what about,try and,i wonder if you could,i wonder if you can,if you could,"
-    "what i want is for you to,what i need is for you to,"
-    "i want to see you,let us see you,let me see you,i would like to see you,"
-    "i would love to see you,mind"
-) | {("look", ",")}
+    "what i want is for you to,what i need is for you to,i want to see you,let us see you,"
+    "let me see you,i would like to see you,i would love to see you,mind,i would be grateful,"
+    "i would be glad,i would be happy,it would be great,it would be nice,it would be lovely,"
+    "i would appreciate it"
+)
+_ANNOUNCED = phrases(
+    "look,right,your next job,your job,your task,your next task,your mission,next job,next task,"
+    "new job,task,mission,the task,the plan,plan,order,command"
+)
+OPENERS = _OPENINGS | {(*phrase, ",") for phrase in _ANNOUNCED}
 """Words that can be dropped at the beginning of a clause."""
 
 LIGHT_VERBS = phrases(

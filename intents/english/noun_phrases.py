@@ -19,6 +19,7 @@ from intents.english.verbs import verbs_at
 
 _PARTS = lexicon.words("door doors lid flap")
 """Parts of furniture that stand for the whole: the cabinet door."""
+_APART = ("different", "separate")
 _STANDS = lexicon.words("is are am was were stands stood sits sat lies lay belongs goes")
 _SOURCES = lexicon.phrases(
     "you found it,you got it,you got it from,you took it from,you picked it up,it came from,"
@@ -194,7 +195,7 @@ def _read_common_adjective(text: Text, phrase: NounPhrase, at: int) -> int | Non
     end = _read_person_adjective(text, phrase, at)
     if end:
         return end
-    if word == "other" and phrase.determiner == "the":
+    if (word == "other" and phrase.determiner == "the") or (word in _APART and followed):
         phrase.other = True
         return at + 1
     if word in lexicon.EMPTY_ADJECTIVES and followed:

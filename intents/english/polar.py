@@ -42,7 +42,9 @@ def read_on(text: Text, phrase: NounPhrase) -> int:
     return phrase.end
 
 
-_IS_THERE = lexicon.phrases("is there,are there,do you see,can you see,there is,there are,is,are")
+_IS_THERE = lexicon.phrases(
+    "have you seen,did you see,is there,are there,do you see,can you see,there is,there are,is,are"
+)
 _HERE = lexicon.words("here there around home present")
 _KINDS: dict[str, str] = dict.fromkeys(lexicon.GENDERS, "gender") | dict.fromkeys(
     (word for phrase in lexicon.POSTURES for word in phrase), "posture"

@@ -11,6 +11,9 @@ _PARTS = lexicon.words("top center centre middle front side end edge surface bot
                        "left right rest")  # fmt: skip
 
 
+_OF_THEM = lexicon.DETERMINERS | {"of"}
+
+
 def part_of(text: Text, start: int) -> int | None:
     """The top of the counter is the counter: where the whole begins."""
     at = start + (text.word(start) in ("the", "its"))
@@ -46,6 +49,8 @@ def pronoun(text: Text, start: int) -> NounPhrase | None:
     if word in ("over", "right") and text.word(start + 1) in ("here", "there"):
         noun = "here" if text.word(start + 1) == "here" else "there"
         return NounPhrase(start, start + 2, noun=noun, said=noun)
+    if word == "both" and not is_content(text, start + 1) and text.word(start + 1) not in _OF_THEM:
+        return NounPhrase(start, start + 1, noun="pronoun", said=word)
     if word not in lexicon.PRONOUNS:
         return None
     determines = word in DETERMINERS and is_content(text, start + 1)

@@ -45,7 +45,7 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     start = at + 2 if text.words[at : at + 2] in (["what", "is"], ["what", "are"]) else at
     start += text.word(start) in ("the", "a", "what")
     start += text.word(start) in ("total", "exact", "overall")
-    if text.words[start : start + 2] == ["how", "many"] or (
+    if text.words[start : start + 2] in (["how", "many"], ["how", "much"]) or (
         text.word(start) in ("number", "amount", "quantity", "count")
         and text.word(start + 1) == "of"
     ):
@@ -53,14 +53,17 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     else:
         return None
     phrase = noun_phrase(text, start)
-    if phrase is None:
+    if phrase is None or (text.word(start - 1) == "much" and phrase.noun != "name"):
         return None
-    end = read_on(text, phrase)
     if is_person(phrase, scope):
+        end = read_on(text, phrase)
         return [Count(person=to_person(phrase, scope), to=to)], end
+    phrase.end += text.word(phrase.end) in _STAND
+    end = read_on(text, phrase)
     return [Count(object=to_object(phrase, scope), to=to)], end
 
 
+_STAND = lexicon.words("hang stand lie sit rest hangs stands lies sits rests")
 _LYING = lexicon.words("lying standing sitting placed located kept stored")
 _GONE = lexicon.words("is are gone go went got to hidden hiding")
 _LEFT = lexicon.phrases(

@@ -234,6 +234,8 @@ def to_place(
     """
     if phrase.noun in ("here", "operator"):
         return OPERATOR
+    if phrase.other:
+        raise Unclear("Which place do you mean? Tell me its name.")
     if phrase.where:
         raise Unclear(
             "I know that place only by what is there. What is it called?", (), phrase.where

@@ -149,7 +149,10 @@ class Results(Remarks):
         complements, end = read_complements(self.text, start)
         if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
             return None
+        if is_person(complements[0].phrase, self.scope):
+            return None
         thing = Complement(phrases=[phrase])
+        self._last_verb = (at, at + 1, ("put",))
         return self.framed("put", at, phrase.end, [thing, *complements], end)
 
     def _passive(self, phrase: NounPhrase) -> Reading | None:

@@ -19,8 +19,20 @@ _SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "an
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
 
 
-_SEEN = lexicon.words("a an any the my some anyone anybody someone somebody anything")
+_SEEN = lexicon.words(
+    "a an any the my some anyone anybody someone somebody anything it them him her"
+)
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
+
+
+def _numbering_end(text: Text, at: int) -> int | None:
+    """*Step 1:* go to the table. *2.* Take the cup."""
+    numeral = at + (text.word(at) in ("step", "number", "task"))
+    end = numeral + 1
+    numbered = text.word(numeral).isdecimal() and text.word(end) in (COMMA, FULL_STOP)
+    return end + 1 if numbered and end < len(text) else None
+
+
 _HANDED = ("bring", "take", "give", "pick", "collect", "want")
 
 
@@ -52,6 +64,10 @@ class Clauses:
         while at < len(text):
             if text.word(at) in (COMMA, FULL_STOP) or self._sets_out(at):
                 at += 1
+                continue
+            numbered = _numbering_end(text, at)
+            if numbered:
+                at = numbered
                 continue
             if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
                 at += 4

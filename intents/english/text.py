@@ -17,6 +17,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
+_WISHING = words("would it i")
 _ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -91,7 +92,7 @@ class Text:
         said = ""
         for token in self.tokens[start:end]:
             glued = token.text in (COMMA, FULL_STOP) or token.raw.lower().startswith(("'", "n't"))
-            said += token.raw if glued or not said else " " + token.raw
+            said += token.raw if glued or not (said and token.raw) else " " + token.raw
         return said.rstrip(" ,;.")
 
 
@@ -126,8 +127,13 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
-    """Once you *have picked* it up: once you pick it up."""
+    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
     words = [t.text for t in tokens]
+    for at in range(len(words) - 1, 1, -1):
+        wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING
+        base = participle_base(words[at]) if wished else None
+        if base:
+            tokens[at] = Token(base, tokens[at].raw)
     for at in range(len(words) - 2, 1, -1):
         done = words[at] == "have" and words[at - 1] == "you" and words[at - 2] in _ONCE
         base = participle_base(words[at + 1]) if done else None

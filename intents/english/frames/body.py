@@ -5,6 +5,7 @@ from intents.english.frames.slots import Slots
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
+from intents.english.verbs import base_form
 from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, LookAt, Side
 
 _LEGS = ("leg", "legs", "foot", "feet")
@@ -116,7 +117,9 @@ _KINDS = (
 def gesture(clause: Clause, scope: Scope) -> list[Goal]:
     """Wave; point at the cup; nod; give a thumbs up."""
     slots = Slots(clause, scope)
-    kind = next((kind for word, kind in _KINDS if word in clause.verb), clause.verb)
+    first, *rest = clause.verb.split()
+    verb = " ".join([base_form(first), *rest])
+    kind = next((kind for word, kind in _KINDS if word in verb), verb)
     _limb(slots, "", "with")
     slots.direction("up", "down", "left", "right", "forward")
     points = clause.verb.startswith("point")

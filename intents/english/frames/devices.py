@@ -88,7 +88,7 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     on = bool(particles & {"on", "up", "activate", "enable", "start", "light"})
     off = bool(particles & {"off", "down", "out", "deactivate", "disable", "kill", "extinguish"})
     if said is not None and said.role == "at":
-        on, off = said.how == "on", said.how != "on"
+        on, off = said.how == "on", False
     if clause.verb == "turn" and "up" in particles:
         raise Misfit("I can switch it on or off, not up")
     if on == off:

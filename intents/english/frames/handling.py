@@ -170,6 +170,9 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
     if bare and len(bare.phrases) > 1 and all(p.places for p in bare.phrases):
         return _each_there(clause, bare, scope)
+    if bare and len(bare.phrases) > 1 and not any(p.places for p in bare.phrases[1:]):
+        bare.phrases[-1].places += bare.phrases[0].places[-1:]
+        del bare.phrases[0].places[-1:]
     to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)

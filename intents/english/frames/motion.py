@@ -57,10 +57,13 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if target is None and (distance is not None or direction or clause.vague()):
         slots.done()
         return [_step(direction or _implied(clause), distance, vague=clause.vague())]
-    if target is None and clause.verb.startswith(("come", "return", "get back", "go back")):
+    if target is None and (
+        clause.verb.startswith(("come", "return", "get back")) or clause.verb.endswith(" back")
+    ):
         slots.done()
         return [GoTo(place=OPERATOR)]
-    if target and target.role == "" and clause.verb.startswith("move") and direction:
+    pushed = target is not None and target.role == "" and clause.verb == "move"
+    if pushed and (direction or (target and target.phrase.determiner)):
         raise NotUnderstood("I can carry things, not move furniture")
     if target is None and clause.vague() is False and source is None:
         need(None, "Where shall I go?")
@@ -68,11 +71,11 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("I need to know where to go to")
     slots.done()
     said = clause.text.words[clause.first : target.phrase.start]
-    way = next((w for w in ("around", "along", "past", "between") if w in said), None)
+    way = next((w for w in ("around", "round", "along", "past", "between") if w in said), None)
     if way:
         places = "two" if way == "between" else "one"
         raise NotUnderstood(f"I can walk to a place, not {way} {places}")
-    return [_towards(clause, scope, target.phrase)]
+    return [_towards(clause, scope, phrase) for phrase in target.phrases]
 
 
 def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
@@ -161,7 +164,7 @@ def look(clause: Clause, scope: Scope) -> list[Goal]:
         slots.done()
         return [LookAt(place={"forward": "ahead", "backward": "behind"}.get(direction, direction))]
     slots.done()
-    return [_look(target.phrase, scope)]
+    return [_look(phrase, scope) for phrase in target.phrases]
 
 
 def _look(phrase: NounPhrase, scope: Scope) -> LookAt:

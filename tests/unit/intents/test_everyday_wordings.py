@@ -51,6 +51,17 @@ THERE = Context(
         ("face the other way", "turn around"),
         ("pick up the cup. the blue one", "pick up the blue cup"),
         ("do a 180", "turn around"),
+        ("keep waving", "wave"),
+        ("stay close to Anna", "follow Anna"),
+        ("follow close behind Anna", "follow Anna"),
+        ("pop over to the table", "go to the table"),
+        ("go to the table and come straight back", "go to the table and come back"),
+        ("visit the table and the shelf", "visit the table, then visit the shelf"),
+        ("look at the table and the shelf", "look at the table, then look at the shelf"),
+        ("how many cups stand on the table?", "how many cups are on the table?"),
+        ("have you seen the bottle?", "do you see the bottle?"),
+        ("do you know where the bottle went?", "where is the bottle?"),
+        ("wave & nod", "wave and nod"),
         ("right 90 degrees", "turn right 90 degrees"),
         ("backward 20 cm", "walk backward 20 cm"),
         ("show me a bow", "bow"),
@@ -181,8 +192,19 @@ def test_what_is_akin_is_asked_about(said: str, choices: list[str], answer: str)
     assert isinstance(agreed, Goals)
 
 
-@pytest.mark.parametrize("words", ["I'll be late", "we don't know", "it's Emil's birthday"])
+@pytest.mark.parametrize(
+    "words", ["I'll be late", "we don't know", "it's Emil's birthday", "I'm at the table"]
+)
 def test_words_to_be_said_stay_as_they_were_said(words: str) -> None:
     outcome = parse(f"tell Anna {words}", HOME)
     assert isinstance(outcome, Goals), outcome
     assert to_builtins(outcome.goals)[0]["what"] == words
+
+
+def test_two_listeners_are_told_the_same() -> None:
+    home = Vocabulary.of(people=["Anna", "Emil"])
+    outcome = parse("tell Anna and Emil that lunch is ready", home)
+    assert isinstance(outcome, Goals), outcome
+    told = to_builtins(outcome.goals)
+    assert [goal["to"] for goal in told] == [{"name": "Anna"}, {"name": "Emil"}]
+    assert {goal["what"] for goal in told} == {"lunch is ready"}

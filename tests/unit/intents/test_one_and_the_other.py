@@ -108,12 +108,56 @@ def test_what_has_no_name_is_asked_and_the_answer_fits(
         ("I would like the hammer to be on the bench", "put the hammer on the bench"),
         ("if you cannot see the hammer, wave", "if there is no hammer, wave"),
         ("where has the hammer gone?", "where is the hammer?"),
+        (
+            "put the hammer on the bench and the green jar too",
+            "put the hammer on the bench and the green jar on the bench",
+        ),
+        (
+            "grab the hammer, then the green jar, and put both on the ledge",
+            "grab the hammer and the green jar, and put them on the ledge",
+        ),
+        (
+            "the hammer goes on the bench and the green jar in the crate",
+            "put the hammer on the bench and the green jar in the crate",
+        ),
         ("take the whiet jar", "take the white jar"),
         ("puth the hammer onn the bench", "put the hammer on the bench"),
     ],
 )
 def test_these_say_what_is_said_plainly(said: str, plainly: str) -> None:
     assert goals(said) == goals(plainly)
+
+
+@pytest.mark.parametrize(
+    ("before", "said", "plainly"),
+    [
+        ("take the green jar", "no, the white one", "take the white jar"),
+        ("take the green jar", "not that one, the other one", "take the white jar"),
+        ("go to the bench", "I mean the ledge", "go to the ledge"),
+        ("put the hammer on the bench", "no, on the ledge", "put the hammer on the ledge"),
+        ("put the hammer on the ledge", "the green jar too", "put the green jar on the ledge"),
+        ("take the green jar", "take a different jar", "take the white jar"),
+    ],
+)
+def test_what_is_said_next_changes_what_was_said_last(before: str, said: str, plainly: str) -> None:
+    _, context = hear(before, WORDS)
+    outcome, _ = hear(said, WORDS, context=context)
+    assert isinstance(outcome, Goals), outcome
+    found = to_builtins(outcome.goals)[0]
+    if isinstance(found.get("object"), dict):
+        found["object"] = {k: v for k, v in found["object"].items() if k != "count"}
+    assert [found] == goals(plainly)
+
+
+@pytest.mark.parametrize("said", ["no hammer there?", "no", "no, thanks"])
+def test_a_no_alone_changes_nothing(said: str) -> None:
+    _, context = hear("take the green jar", WORDS)
+    assert not isinstance(hear(said, WORDS, context=context)[0], Goals)
+
+
+@pytest.mark.parametrize("said", ["put the jars on different ledges", "go to the other bench"])
+def test_a_place_told_apart_by_nothing_is_asked_for(said: str) -> None:
+    asked(said)
 
 
 @pytest.mark.parametrize("said", ["swap the two jars", "exchange the hammer and the green jar"])
