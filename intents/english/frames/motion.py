@@ -9,7 +9,7 @@ from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.trouble import Misfit, NotUnderstood
 from intents.goals import (
     OPERATOR,
     Displacement,
@@ -123,8 +123,6 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     way_out = next((n for w in ("exit", "door", "entrance") for n in scope.index.exact(w)), None)
     if target and target.phrase.said == "way":
         raise Misfit("that is to step aside")
-    if way_out is None and target:
-        raise Unclear("Where shall I go?")
     return [GoTo(place=way_out.name if way_out else "exit")]
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from intents.goals import from_builtins, to_builtins
+from intents.goals import to_builtins
 from intents.outcomes import Goals, Question, Refusal
 from intents.parser import hear, parse
 from intents.vocabulary import Thing, Vocabulary
@@ -165,11 +165,3 @@ def test_to_swap_is_refused_with_what_can_be_done_instead(said: str) -> None:
     outcome = parse(said, WORDS)
     assert isinstance(outcome, Refusal)
     assert "where to put each" in outcome.reason
-
-
-def test_there_is_no_way_out_that_nobody_named() -> None:
-    assert not isinstance(parse("leave the house", WORDS), Goals)
-    home = Vocabulary.of(places=["exit"], rooms=["house"])
-    outcome = parse("leave the house", home)
-    assert isinstance(outcome, Goals)
-    assert outcome.goals == from_builtins([{"goal": "go_to", "place": "exit"}])
