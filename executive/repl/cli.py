@@ -120,8 +120,10 @@ def _at_terminal(shell: Shell, options: Options, handle: Handle | None) -> int:
     say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
     Terminal(shell, history=HISTORY.expanduser()).run()
     shell.speech.hush()
+    if shell.gone:
+        return BROKEN
     say("The robot comes to a stand." if shell.robot.busy else "The robot stands.")
-    return BROKEN if shell.robot.lost else DONE
+    return DONE
 
 
 @contextmanager

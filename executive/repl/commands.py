@@ -158,9 +158,8 @@ class _Seeing:
 
     def status(self, _rest: str) -> None:
         view, out = self._shell.robot.view, self._shell.out
-        lost = self._shell.robot.lost
-        if lost is not None:
-            out(f"The robot is gone: {lost.cause}. {lost.suggestion}")
+        if self._shell.gone:
+            out(self._shell.gone)
             return
         doing = f": {view.goal}" if view.goal else ""
         out(f"{view.state}{doing}{f' ({view.phase})' if view.phase else ''}")

@@ -16,6 +16,7 @@ def work_off(shell: Shell, lines: Iterable[str]) -> None:
         shell.out(f"> {text}")
         shell.line(text)
         shell.robot.wait()
-        gone = shell.robot.lost is not None or shell.robot.interrupts.count
-        if shell.leaving or gone:
+        if shell.gone:
+            shell.out(shell.gone)
+        if shell.leaving or shell.gone or shell.robot.interrupts.count:
             return

@@ -16,7 +16,7 @@ from executive.jobs import OVER, UNLIMITED, Limits
 from executive.journal import Event, Journal, read
 from executive.loop import Interrupts, Runtime
 from executive.repl.returning import return_to
-from executive.repl.view import Observer, View
+from executive.repl.view import Observer, View, view_of_lost
 from executive.request import Setting, Understood
 from executive.session import Session
 from robot.clock import Clock
@@ -168,6 +168,8 @@ class Robot:
                 else:
                     self._wake.wait(0.1)
                     self._wake.clear()
+            lost = runtime.failure()
+            self.view = self.view if lost is None else view_of_lost(self.view, lost)
 
     def _begin(self, before: list[Event]) -> None:
         """Open the journal of a new run; in one that is returned to, go on with its jobs."""

@@ -79,6 +79,12 @@ class Shell:
         self.stop("the operator said stop")
         return True
 
+    @property
+    def gone(self) -> str:
+        """That the robot is gone, and what to do; empty while it is there."""
+        lost = self.robot.lost
+        return f"The robot is gone: {lost.cause}; {lost.suggestion}." if lost is not None else ""
+
     def answer(self, text: str) -> None:
         """Say a line to people, and aloud."""
         self.out(text)
@@ -130,6 +136,9 @@ class Shell:
 
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
         """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
+        if self.gone:
+            self._refuse(self.gone)
+            return
         number = self.robot.submit(understood, urgent=urgent, **how)
         self._holds = understood.holds
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}

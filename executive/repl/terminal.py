@@ -59,11 +59,12 @@ class Terminal:
         self._worker.shutdown(wait=True, cancel_futures=True)
 
     async def _run(self) -> None:
-        signals = asyncio.create_task(self._leave_on_signal())
+        besides = [asyncio.create_task(one) for one in (self._leave_on_signal(), self._mourn())]
         try:
             await self._prompt_until_leaving()
         finally:
-            signals.cancel()
+            for task in besides:
+                task.cancel()
 
     async def _leave_on_signal(self) -> None:
         """A signal from outside (the terminal was closed, SIGTERM) is a wish to leave."""
@@ -71,6 +72,12 @@ class Terminal:
             await asyncio.sleep(REFRESH_S)
         if self._prompt.app.is_running:
             self._prompt.app.exit(exception=EOFError())
+
+    async def _mourn(self) -> None:
+        """Tell that the robot is gone when that happens, also while nothing is asked of it."""
+        while not self._shell.gone:
+            await asyncio.sleep(REFRESH_S)
+        self._shell.answer(self._shell.gone)
 
     async def _prompt_until_leaving(self) -> None:
         shell = self._shell

@@ -6,12 +6,14 @@ import math
 from collections import deque
 
 import msgspec
+from msgspec.structs import replace
 
 from executive.app import Executive
 from executive.blackboard import BODY, HEALTH, HELD, HELP, PHASE, WORLD
 from executive.dumps.text import Line, lines
 from executive.jobs import UNDER_WAY
 from executive.ladder import Level
+from robot.errors import Failure
 
 PACE_SPAN_S = 2.0
 PANEL_PERIOD_S = 0.2
@@ -23,7 +25,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         time_s: the runtime's time.
         state: of the executive: idle, working, pausing, paused, stopping.
-        mode: of the body: damping, stand, walk, fallen.
+        mode: of the body: damping, stand, walk, fallen; "gone" when nothing is left of it.
         pose: estimated x [m], y [m] and heading [degrees] in the world, None before the first fix.
         goal: what the first job under way was asked for.
         phase: what the newest skill does.
@@ -49,6 +51,14 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
     help: str = ""
     pace: float = 1.0
     tree: tuple[Line, ...] = ()
+
+
+def view_of_lost(last: View, lost: Failure) -> View:
+    """A robot that is gone, as it was seen last."""
+    return replace(
+        last, mode="gone", state="idle", goal="", phase="", waiting=0, help="", tree=(), pace=0.0,
+        level=Level.DAMP, unwell=lost.cause,
+    )  # fmt: skip
 
 
 class Observer:

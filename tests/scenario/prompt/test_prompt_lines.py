@@ -9,6 +9,7 @@ import pytest
 from benchmarks.intents.endpoint import Reply, serving
 from executive import request, runtimes
 from executive.journal import read
+from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
 from executive.speaking import Speech
@@ -274,3 +275,17 @@ def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
         assert voice.told[-1] == "(hush)"
     finally:
         shell.speech = Speech()
+
+
+def test_a_robot_that_is_gone_is_said_to_be_and_takes_no_more_jobs(tmp_path: Path):
+    with shell_in(tmp_path) as shell:
+        work_off(shell, ["inject kill process=controller", "squat for 1 second"] * 4)
+        assert shell.out[-1] == shell.gone != ""
+        assert shell.robot.lost is not None
+        assert shell.robot.lost.cause in shell.gone
+        assert eventually(lambda: shell.robot.view.mode == "gone")
+        before = len(shell.robot.executive.jobs)
+        shell.out.clear()
+        shell.line("say hello")
+        assert shell.out == [shell.gone]
+        assert len(shell.robot.executive.jobs) == before

@@ -5,7 +5,8 @@ from prompt_toolkit.formatted_text import to_plain_text
 from executive.dumps.text import Line
 from executive.ladder import Level
 from executive.repl.toolbar import toolbar, window
-from executive.repl.view import View
+from executive.repl.view import View, view_of_lost
+from robot.errors import failure
 
 words = st.text(st.characters(codec="ascii", categories=("L", "N", "Zs")), max_size=60)
 trees = st.lists(
@@ -54,3 +55,13 @@ def test_trouble_and_questions_are_told():
     assert "hold: the lidar is silent" in text
     assert "asks: move the chair" in text
     assert "healthy" not in text
+
+
+def test_a_robot_that_is_gone_is_not_called_healthy():
+    lost = failure("plant_lost", "the simulation died")
+    view = view_of_lost(View(mode="walk", goal="go to the table", pose=(1, 2, 3)), lost)
+    text = to_plain_text(toolbar(view, columns=120, rows=0))
+    assert "gone" in text
+    assert "the simulation died" in text
+    assert "healthy" not in text
+    assert "table" not in text
