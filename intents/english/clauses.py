@@ -46,6 +46,7 @@ _A_WHILE = phrases(
     "for a while,for a moment,for a bit,for a little while,a moment,a while,a second,a minute,"
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
 )
+_SUBJECTS = ("it", "they", "he", "she")
 _LINKS = (["in", "case"], ["as", "soon"], ["once", "you"])
 """How a clause begins that says when or whether."""
 _STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
@@ -120,6 +121,8 @@ def ends_clause(text: Text, at: int) -> bool:
     """Whether nothing more of a clause can begin here."""
     word = text.word(at)
     if at >= len(text) or word in (COMMA, FULL_STOP):
+        return True
+    if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
 

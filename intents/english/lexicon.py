@@ -164,6 +164,7 @@ LOCATIVES.update(
         if how in ("near", "under", "behind", "above", "in_front", "between")
     }
 )
+LOCATIVES.update({("somewhere", *phrase): how for phrase, how in LOCATIVES.items()})
 """Prepositions that say where something is; None says no more than "at"."""
 GOALWARDS = phrases(
     "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,until,"

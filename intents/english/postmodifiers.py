@@ -26,7 +26,7 @@ _POINTED_AT = lexicon.phrases(
 )
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned put left sitting standing lying "
-    "laying hanging stays stands sits lies rests lie"
+    "laying hanging stays stands sits lies rests lie waiting staying working relaxing"
 )
 _ON_THE_FLOOR: dict[lexicon.Phrase, Literal["lying"]] = dict.fromkeys(
     lexicon.phrases("on the floor,on the ground,on the carpet"), "lying"
@@ -268,7 +268,8 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return inner.end
     if is_spot(phrase):
         in_room = bool(inner.name("room")) and how in ("on", "in", None, "near")
-        if not in_room and not (how in ("in", "near") and inner.name("place")):
+        by_another = how in ("in", "near", "in_front", "behind", "left", "right")
+        if not in_room and not (by_another and inner.name("place")):
             return None
     phrase.places.append(Locative(how, inner))
     if how == "on" and text.word(inner.end - 1) == "floor" and phrase.is_person:

@@ -40,7 +40,14 @@ def without_favours(sense: str, complements: list[Complement]) -> list[Complemen
     """Put the cup on the table *for me*: it goes there, and not to whom it is done a favour."""
     if sense in _HANDED and not any(c.role in ("to", "into") for c in complements):
         return complements
-    return [c for c in complements if c.role != "for" or c.phrase.noun != "operator"]
+    kept: list[Complement] = []
+    for one in complements:
+        favour = one.role == "for" and one.phrase.noun == "operator"
+        places = one.phrase.places if favour else []
+        kept += [Complement(role="at", how=p.how, phrases=[p.of]) for p in places] or (
+            [] if favour else [one]
+        )
+    return kept
 
 
 class Clauses:

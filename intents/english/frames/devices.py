@@ -93,6 +93,12 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("I can switch it on or off, not up")
     if on == off:
         raise Misfit("on or off?")
+    if (
+        clause.verb == "light"
+        and said
+        and singular(said.phrase.said.split()[-1]) not in _SWITCHABLE
+    ):
+        raise NotUnderstood("I light no fires")
     if said is None and not particles & {"on", "off"}:
         raise Misfit("switch what?")
     if said is None:

@@ -6,7 +6,7 @@ from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots, need
 from intents.english.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit
-from intents.goals import OPERATOR, Find, Follow, Goal, Greet, Guide, Meet, Person
+from intents.goals import OPERATOR, Find, Follow, Goal, GoTo, Greet, Guide, Meet, Person
 
 
 def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
@@ -69,8 +69,12 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
 def meet(clause: Clause, scope: Scope) -> list[Goal]:
     """Meet Ada by the gate."""
     slots = Slots(clause, scope)
+    here = next((c.phrase for c in slots.rest if c.phrases and c.phrase.noun == "operator"), None)
     people = _someone(slots, "Whom shall I meet?", "with", "to")
     slots.done()
+    if here is not None:
+        within = to_place(here.places[0].of, scope) if here.places else people[0].at
+        return [GoTo(place=within or OPERATOR)]
     return [Meet(person=p) for p in people]
 
 
