@@ -48,8 +48,14 @@ def main(private: str, parent_pid: str, number: str) -> int:
 
 
 def _turn(folder: Path, number: int) -> tuple[Run, Front]:
-    """Load everything, then wait until as many executives have died as `number` says."""
-    stop = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Load everything, then wait until as many executives have died as `number` says.
+
+    Ctrl-C is for the executive whose turn it is: that hears it while it loads, a spare does not.
+    """
+    stop = signal.getsignal(signal.SIGINT)
+    if _read(folder).deaths < number:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the overseer held it back
     clock = WallClock()
     run: Run = entry.attribute(_read(folder).entry)
     for needed in LIVE:

@@ -134,10 +134,17 @@ class Overseer:
         return self._judge(child.returncode)
 
     def _start(self, number: int) -> subprocess.Popen[bytes]:
-        """Start the executive of that number; it waits until so many have died before it."""
-        return subprocess.Popen(
-            [*command(EXECUTIVE, self._private), str(number)], env=environment()
-        )
+        """Start the executive of that number; it waits until so many have died before it.
+
+        Ctrl-C is held back from it until it can hear: a wish to stop must not be lost meanwhile.
+        """
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            return subprocess.Popen(
+                [*command(EXECUTIVE, self._private), str(number)], env=environment()
+            )
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
     def _prepare(self) -> None:
         """Have a spare executive ready, loaded and waiting, once the robot is up."""

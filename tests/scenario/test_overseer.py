@@ -93,6 +93,18 @@ def test_the_executives_exit_status_is_the_shells(shell, status):
     assert shell(status=status).end()[0] == status
 
 
+def test_ctrl_c_while_the_executive_is_loading_is_heeded(shell):
+    """Before there is a robot, and before anybody could listen."""
+    job = shell(ends=False, robot=False)
+    assert eventually(lambda: any("executive.main" in words for words in job.left()), within_s=60.0)
+    os.killpg(job.job.pid, signal.SIGINT)
+    status, text = job.end()
+    assert status == 1
+    assert text.startswith("Stopped on request.")
+    assert "Traceback" not in text
+    assert job.told == []
+
+
 def test_a_killed_executive_is_started_again_and_the_robot_stays(shell, tmp_path):
     job = shell(dies=1, ends=False)
     second = job.wait_up(2)
