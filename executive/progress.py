@@ -164,7 +164,7 @@ def _drawn(line: Line) -> Text:
 NEWS = frozenset({
     "step", "done", "failure", "recovery", "no recovery", "hold", "abort", "stopping", "paused",
     "resume", "resumed", "help", "answer", "fault", "health", "said", "warning",
-    "slip",
+    "slip", "break",
 })  # fmt: skip
 """Kinds of events that people are told as they happen."""
 

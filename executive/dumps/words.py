@@ -16,7 +16,7 @@ SENTENCES: Mapping[str, str] = {
     "hold": "standing still: {why}",
     "pause": "pausing: {why}",
     "paused": "paused: the robot stands",
-    "break": "held at a breakpoint",
+    "break": "{step}: held at a breakpoint, it has not begun",
     "resume": "going on",
     "resumed": "going on: {why}",
     "request": "requested: {request}",

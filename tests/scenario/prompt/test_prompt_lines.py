@@ -9,6 +9,7 @@ import pytest
 from benchmarks.intents.endpoint import Reply, serving
 from executive import request, runtimes
 from executive.journal import read
+from executive.repl.cli import words
 from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
@@ -289,3 +290,15 @@ def test_a_robot_that_is_gone_is_said_to_be_and_takes_no_more_jobs(tmp_path: Pat
         shell.line("say hello")
         assert shell.out == [shell.gone]
         assert len(shell.robot.executive.jobs) == before
+
+
+def test_a_step_that_a_breakpoint_holds_is_told(shell: Shell):
+    told: list[str] = []
+    shell.robot.session.journal.listen(lambda event: told.append(words(event)))
+    shell.line("break say*")
+    shell.line("say hello")
+    assert eventually(lambda: any("held at a breakpoint" in one for one in told))
+    shell.line("break off")
+    shell.line("continue")
+    shell.robot.wait()
+    assert "say hello: held at a breakpoint" in "\n".join(told)
