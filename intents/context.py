@@ -40,11 +40,17 @@ def answered(text: str, question: Question) -> tuple[Goal, ...] | None:
     """The goals of an open question once a text answers it; None if it does not.
 
     An answer names what one of the choices has and the others have not ("blue", "the one on the
-    shelf"), or its position ("the second").
+    shelf"), or its position ("the second"); "any" is the first of them, "both" are all.
     """
     if question.kind == "confirmation":
         return question.goals if verdict_of(text) else None
-    choice = _choice(text, question.choices)
+    about, said = question.about, tuple(t.text for t in tokenize(text) if t.text.isalpha())
+    said = tuple(word for word in said if word != "please")
+    if said in _ALL and about is not None and question.choices:
+        every = replace(about, count="all")
+        return tuple(substitute(goal, about, every) for goal in question.goals)
+    choice = question.choices[0] if said in _ANY and question.choices else None
+    choice = choice or _choice(text, question.choices)
     if choice is None or choice.query is None or question.about is None:
         return None
     refined = replace(choice.query, count=question.about.count)
@@ -66,6 +72,11 @@ def completed(text: str, question: Question) -> list[str]:
     return [f"{before}{link}{text}" for link in (" ", " on ", " to ")]
 
 
+_ANY = lexicon.phrases(
+    "any,either,any of them,either of them,either one,any one,anyone,whichever,whichever you like,"
+    "you choose,your choice,it does not matter,does not matter,i do not care,i do not mind,whatever"
+)
+_ALL = lexicon.phrases("both,all,both of them,all of them,each,every one,both please,the both")
 _ORDINALS = {"first": 0, "former": 0, "second": 1, "latter": 1, "third": 2, "fourth": 3, "last": -1}
 _EMPTY = lexicon.DETERMINERS | lexicon.ONES | lexicon.words("at on in please")
 

@@ -169,6 +169,7 @@ class Grammar(Afterthoughts):
             lambda: self.about_thing(at),
             lambda: self._verb(at),
             lambda: self.likewise(at, before or list(self.history)),
+            lambda: None if before else self.follow_up(at, self.history),
             lambda: self.gapped(at) if self.text.word(at - 1) in ("then", "and") else None,
             lambda: self.fronted(at),
             lambda: self._statement(at, before),

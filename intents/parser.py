@@ -18,9 +18,9 @@ from intents.english.names import index_of
 from intents.english.referents import Scope
 from intents.english.text import Text
 from intents.english.trouble import Partly, ReadingError, Unclear
-from intents.goals import Cancel, Goal, ObjectQuery, Stop
+from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop
 from intents.grammar import Grammar
-from intents.grounding import Ambiguous, Unknown, ground, narrowed, queries
+from intents.grounding import Ambiguous, Grounded, Unknown, ground, narrowed, queries
 from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
@@ -90,9 +90,36 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         if chosen:
             return chosen
     outcome, after = _read(text, vocabulary, context)
+    pointed = None if isinstance(outcome, Goals) else _pointed_out(text, vocabulary, context)
+    if pointed:
+        return pointed
     if isinstance(outcome, Refusal) and question is not None:
         return _completed(text, vocabulary, context, question) or (outcome, after)
     return outcome, after
+
+
+def _pointed_out(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> tuple[Outcome, Context] | None:
+    """What an answer like "the left one" or "the one on the shelf" settles, as things stand."""
+    question = context.question
+    about = question.about if question is not None else None
+    if question is None or about is None:
+        return None
+    seen, _ = _read(f"look at {text}", vocabulary, replace(context, object=about, question=None))
+    goal = seen.goals[0] if isinstance(seen, Goals) and len(seen.goals) == 1 else None
+    query = goal.object if isinstance(goal, LookAt) else None
+    found = ground(query, context.entities, view=context.view) if query else None
+    ids = found.ids if isinstance(found, Grounded) else ()
+    meant = [narrowed(about, e) for e in context.entities if e.id in ids]
+    if len(meant) != 1 or meant[0] not in [choice.query for choice in question.choices]:
+        return None
+    one = replace(meant[0], count=about.count)
+    goals = tuple(substitute(goal, about, one) for goal in question.goals)
+    scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
+    for goal in goals:
+        scope.mention_goal(goal)
+    return _settled(_checked(text, goals, context), context, scope)
 
 
 def _completed(

@@ -32,6 +32,7 @@ from intents.goals import (
     Follow,
     Give,
     Goal,
+    GoTo,
     Greet,
     Guide,
     If,
@@ -48,6 +49,8 @@ from intents.goals import (
 OVER = lexicon.phrases("over,in a row,in total,altogether,in all,each")
 """What may follow "three times" and adds nothing."""
 _TOO = lexicon.phrases("too,also,as well,likewise")
+_MORE = lexicon.phrases("more,a bit more,a little more,some more,further,a bit further,again more")
+_LINKING = ("and", "also", "then", "plus", "next", "about")
 _WHEN = lexicon.phrases("when,once,as soon as,whenever")
 _OPENINGS = ("sorry", "oh", "wait")
 
@@ -176,18 +179,40 @@ class Afterthoughts(Constructions, ABC):
         end = text.phrase_end(_TOO, phrase.end) if phrase else None
         if phrase is None or end is None or not before or not ends_clause(text, end):
             return None
-        last = before[-1]
+        found = self._with_another(before[-1], phrase)
+        return (found, end) if found else None
+
+    def follow_up(self, at: int, history: tuple[Goal, ...]) -> Reading | None:
+        """*And the plate on the table*, *the other one*, *a bit more*: the last goal anew."""
+        text, last = self.text, history[-1] if history else None
+        if last is None or verbs_at(text.words, at):
+            return None
+        more = text.phrase_end(_MORE, at)
+        if more is not None and more == len(text) and isinstance(last, GoTo) and last.by:
+            again: list[Goal] = [last]
+            return again, more
+        phrase = noun_phrase(text, at)
+        linked = at > 0 and text.word(at - 1) in _LINKING
+        if phrase is None or phrase.end < len(text) or not (linked or phrase.other):
+            return None
+        if isinstance(last, Place) and phrase.places:
+            return self.framed("put", at, at + 1, [Complement(phrases=[phrase])], phrase.end)
+        found = self._with_another(last, phrase)
+        return (found, phrase.end) if found else None
+
+    def _with_another(self, last: Goal, phrase: NounPhrase) -> list[Goal]:
+        """A goal with another thing, device or person; none if it has nothing of the kind."""
         if isinstance(last, Open | Close | Switch):
             act = "switch" if isinstance(last, Switch) else "open"
             names = device_names(Complement(phrases=[phrase]), self.scope, act)
-            return [replace(last, what=name) for name in names], end
+            return [replace(last, what=name) for name in names]
         if is_person(phrase, self.scope):
             person = to_person(phrase, self.scope)
             alike = isinstance(last, Find | Follow | Greet | Guide | Meet)
-            return ([replace(last, person=person)], end) if alike else None
+            return [replace(last, person=person)] if alike else []
         if isinstance(last, Pick | Place | Bring | Give | Find | LookAt):
-            return [replace(last, object=to_object(phrase, self.scope))], end
-        return None
+            return [replace(last, object=to_object(phrase, self.scope))]
+        return []
 
     def _after_preposition(self, at: int) -> NounPhrase | None:
         """No, *on the table*: the place, if it is one."""

@@ -184,7 +184,7 @@ def _read_common_adjective(text: Text, phrase: NounPhrase, at: int) -> int | Non
     if word in SIZES and (followed or phrase.determiner) and word != "light":
         phrase.size = SIZES[word]
         return at + 1
-    if word in LEVELS and followed:
+    if word in LEVELS and (followed or text.word(at + 1) in lexicon.ONES):
         phrase.level = word
         phrase.side = word if word in ("left", "right") else ""
         return at + 1

@@ -11,7 +11,7 @@ from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
 from intents.goals import (
     OPERATOR,
     Balance,
@@ -176,6 +176,11 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)
+    beside = bare and bare.phrases[-1].places[-1:]
+    near = bool(beside and beside[0].how == "near" and beside[0].of.name("object"))
+    if bare and near and len(bare.phrases[-1].places) > 1:
+        bare.phrases[-1].places.pop()
+        raise Partly("I cannot put things next to one another", tuple(put(clause, scope)))
     spot = _destination(slots)
     objects = slots.objects()
     if not objects and clause.sense == "drop":
