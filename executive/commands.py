@@ -220,8 +220,9 @@ def at_terminal() -> bool:
 def ask(question: Question) -> str | None:
     """Put an open question to the person at the terminal."""
     try:
-        answer = typer.prompt(question.question, default="", show_default=False)
+        answer = typer.prompt(question.question, default="", show_default=False, prompt_suffix=" ")
     except (typer.Abort, EOFError):
+        typer.echo()  # what is said next begins a line
         return None
     return str(answer) or None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ import pytest
 from benchmarks.intents.endpoint import Reply, serving
 from executive import commands, request, runtimes
 from executive.loop import Interrupts
+from intents.outcomes import Question
 from robot.errors import failure
 from robot.messages import Damp, Stand
 from robot.model import description
@@ -104,6 +106,16 @@ def test_at_a_terminal_the_question_is_asked(runtime, humanoid, monkeypatch):
     status, text = humanoid("do", "pick up the cup", "--fast")
     assert status == 0, text
     assert "blue cup" in text
+
+
+@pytest.mark.parametrize(("typed", "answer"), [("blue\n", "blue"), ("\n", None), ("", None)])
+def test_a_question_is_asked_on_a_line_of_its_own(monkeypatch, capsys, typed, answer):
+    monkeypatch.setattr("sys.stdin", io.StringIO(typed))
+    question = Question(question="Which cup, the red one or the blue one?", choices=())
+    assert commands.ask(question) == answer
+    out = capsys.readouterr().out
+    assert out.startswith("Which cup, the red one or the blue one? ")
+    assert out.endswith("\n") or typed  # who types ends the line, who leaves does not
 
 
 def test_a_task_that_fails_ends_with_1_its_code_and_a_cure(runtime, humanoid):
