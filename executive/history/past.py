@@ -59,6 +59,8 @@ def find(name: str | None, *, base: Path = BASE) -> Path:
     if fitting:
         return fitting[-1]
     hint = nearest(name, [folder.name for folder in known])
+    if hint.startswith("valid"):
+        hint = f"the newest is {known[-1].name!r}; `humanoid history` shows all"
     raise ConfigError([Problem(f"there is no run {name!r}", suggestion=hint)])
 
 

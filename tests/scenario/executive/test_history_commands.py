@@ -71,3 +71,4 @@ def test_a_run_that_is_not_there_names_the_nearest(runtime, humanoid):  # noqa: 
     humanoid("do", "squat", "--fast", "--run-dir", "runs/squat")
     status, text = humanoid("why", "squad")
     assert (status, "did you mean 'squat'?" in text) == (2, True)
+    assert "the newest is 'squat'; `humanoid history` shows all" in humanoid("why", "xyz")[1]
