@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from intents import replies, wording
 from intents.context import Context, verdict_of
-from intents.goals import Cancel, Find, Goal, Report, Stop
+from intents.goals import Cancel, Find, Goal, Report, Stop, Tell
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.risks import risk
@@ -110,6 +110,9 @@ class Dialogue:
             self._close()
             return Goals(goals=(Stop(),), parser="stop")
         opened = self.context.question
+        polite = None if opened else replies.courtesy(text)
+        if polite:
+            return Reply(text=polite)
         turn = self._answer(text, opened, state) if opened else None
         return turn or self._understand(text, state, opened)
 
@@ -176,6 +179,9 @@ class Dialogue:
         if reports and len(reports) == len(goals):
             return Reply(text=" ".join(replies.report(goal.topic, state) for goal in reports))
         sought = goals[0] if len(goals) == 1 else None
+        known = replies.told(sought, state) if isinstance(sought, Tell) else None
+        if known:
+            return Reply(text=known)
         if not isinstance(sought, Find) or sought.object is None or not _WHERE.search(text):
             return None
         found = replies.where(sought.object, state)

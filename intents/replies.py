@@ -2,8 +2,11 @@
 
 from collections.abc import Callable
 
+from msgspec.structs import replace
+
+from intents.english.lexer import tokenize
 from intents.english.trouble import listing
-from intents.goals import ObjectQuery, ReportTopic
+from intents.goals import ObjectQuery, ReportTopic, Tell
 from intents.grounding import Entity, Grounded, describe, describe_entity, ground
 from intents.state import RobotState
 
@@ -30,8 +33,66 @@ def report(topic: ReportTopic, state: RobotState) -> str:
     return _REPORTS[topic](state)
 
 
+def courtesy(text: str) -> str | None:
+    """The answer to words that only are polite; None if there is more in them."""
+    said = " ".join(t.text for t in tokenize(text) if t.text.isalpha())
+    return _COURTESIES.get(said.removesuffix(" robot"))
+
+
+def told(goal: Tell, state: RobotState) -> str | None:
+    """What is known of the things asked about; None if that is not known."""
+    query = goal.object
+    if query is None or (goal.to is not None and goal.to.who is None):
+        return None
+    known = [e for e in state.entities if query.at is None or (_spot(e) and not e.held)]
+    found = ground(replace(query, count="all"), known, view=state.view) if known else None
+    if found is None:
+        return None
+    if not isinstance(found, Grounded):
+        kind = describe(replace(query, at=None)) if query.name or query.category else ""
+        sought = f"no {kind}" if kind else "nothing"
+        return f"I have seen {sought} at the {query.at}." if query.at else None
+    things = [e for e in known if e.id in found.ids]
+    if goal.property == "name":
+        return f"{_capital(listing([_name(e) for e in things], 'and'))}."
+    says = _PROPERTIES.get(goal.property)
+    parts = [f"{_name(e)} {said}" for e in things if says and (said := says(e))]
+    return f"{_capital(listing(parts, 'and'))}." if len(parts) == len(things) else None
+
+
+def _extent(entity: Entity) -> str:
+    x, y, z = (f"{100 * metres:.0f}" for metres in entity.size_m or ())
+    return f"is {x} by {y} by {z} cm"
+
+
+_PROPERTIES: dict[str, Callable[[Entity], str]] = {
+    "color": lambda e: f"is {e.color}" if e.color else "",
+    "weight": lambda e: f"weighs {1000 * e.mass_kg:.0f} g" if e.mass_kg else "",
+    "size": lambda e: _extent(e) if e.size_m else "",
+    "height": lambda e: f"is {100 * e.size_m[2]:.0f} cm high" if e.size_m else "",
+    "location": lambda e: f"is {_spot(e)}" if _spot(e) else "",
+}
+"""What can be said of a thing, as the rest of a sentence; empty where it is not known."""
+_COURTESIES = {
+    said: answer
+    for answer, texts in (
+        ("You are welcome.", "thanks,thank you,thank you very much,many thanks,thanks a lot"),
+        ("Thank you.", "well done,good job,great,nice,very good,good robot,great job,nice work,"
+                       "that was great,excellent,perfect,good,wonderful,thanks that was great"),
+        ("Goodbye.", "bye,goodbye,good bye,bye bye,see you,see you later,good night"),
+    )
+    for said in texts.split(",")
+}  # fmt: skip
+
+
 def where(query: ObjectQuery, state: RobotState) -> str | None:
     """Where something is; None if that is not known, or nothing of the kind."""
+    found = _where(query, state)
+    elsewhere = _where(replace(query, at=None), state) if query.at and not found else None
+    return found or (f"No: {elsewhere[0].lower()}{elsewhere[1:]}" if elsewhere else None)
+
+
+def _where(query: ObjectQuery, state: RobotState) -> str | None:
     everywhere = ground(_placeless(query), state.entities, view=state.view)
     ids = everywhere.ids if isinstance(everywhere, Grounded) else getattr(
         everywhere, "candidates", ()

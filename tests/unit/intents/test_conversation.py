@@ -20,7 +20,7 @@ WORDS = Vocabulary.of(
 )
 GREEN = Entity(id="j1", name="jar", color="green", at="bench", room="cellar")
 WHITE = Entity(id="j2", name="jar", color="white", held=True)
-TORCH = Entity(id="t1", name="torch")
+TORCH = Entity(id="t1", name="torch", mass_kg=0.3, size_m=(0.03, 0.04, 0.2))
 KNIFE = Entity(id="k1", name="knife")
 STATE = RobotState(
     entities=(GREEN, WHITE, TORCH, KNIFE),
@@ -54,6 +54,16 @@ def test_the_example_of_the_docstring_holds() -> None:
         ("where is the white jar?", "in my hand"),
         ("where are the jars?", "in my hand"),
         ("do you see the green jar?", "at the bench"),
+        ("what is on the bench?", "The green jar."),
+        ("what is on the stove?", "I have seen nothing at the stove."),
+        ("which jars are on the stove?", "I have seen no jar at the stove."),
+        ("which things are white?", "The white jar."),
+        ("what colour is the green jar?", "The green jar is green."),
+        ("how heavy is the torch?", "The torch weighs 300 g."),
+        ("how big is the torch?", "The torch is 3 by 4 by 20 cm."),
+        ("is the green jar on the stove?", "No: the green jar is at the bench in the cellar."),
+        ("thank you!", "You are welcome."),
+        ("good night, robot", "Goodbye."),
     ],
 )
 def test_questions_are_answered_from_state(asked: str, told: str) -> None:
@@ -181,3 +191,9 @@ def test_cancel_as_an_answer_cancels_what_is_being_done() -> None:
     _, cancelled = talk("look at the jar", "cancel", state=busy)
     assert isinstance(cancelled, Goals)
     assert cancelled.goals == (Cancel(),)
+
+
+@pytest.mark.parametrize("said", ["what is on the bench?", "how heavy is the knife?"])
+def test_what_is_not_known_is_for_the_robot_to_find_out(said: str) -> None:
+    (outcome,) = talk(said, state=RobotState(entities=(KNIFE,)))
+    assert isinstance(outcome, Goals)
