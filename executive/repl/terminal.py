@@ -117,7 +117,8 @@ class Terminal:
         keys = KeyBindings()
 
         def stop(event: KeyPressEvent) -> None:
-            """Ctrl-C stops the robot; with nothing to stop it clears the line."""
+            """Ctrl-C silences and stops the robot; with nothing to stop it clears the line."""
+            self._shell.speech.hush()
             if self._shell.robot.busy:
                 self._shell.stop("the operator pressed Ctrl-C")
             elif event.current_buffer.text:

@@ -3,8 +3,13 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from prompt_toolkit.application import create_app_session
+from prompt_toolkit.buffer import Buffer
+from prompt_toolkit.keys import Keys
+from prompt_toolkit.output import DummyOutput
 
 from benchmarks.intents.endpoint import Reply, serving
 from executive import request, runtimes
@@ -13,6 +18,7 @@ from executive.repl.cli import words
 from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
+from executive.repl.terminal import Terminal
 from executive.speaking import Speech
 from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
@@ -302,3 +308,16 @@ def test_a_step_that_a_breakpoint_holds_is_told(shell: Shell):
     shell.line("continue")
     shell.robot.wait()
     assert "say hello: held at a breakpoint" in "\n".join(told)
+
+
+def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
+    voice = Loudspeaker()
+    shell.speech = Speech(voice)
+    try:
+        with create_app_session(output=DummyOutput()):
+            keys = Terminal(shell, history=None)._keys()
+        (ctrl_c,) = keys.get_bindings_for_keys((Keys.ControlC,))
+        ctrl_c.handler(SimpleNamespace(current_buffer=Buffer()))
+        assert voice.told == ["(hush)"]
+    finally:
+        shell.speech = Speech()
