@@ -13,13 +13,16 @@ from intents.english.questions import Reading, property_question, question
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot, small_talk
 from intents.english.text import Text
-from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 
 _TO = lexicon.words("to for with")
 _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
+)
+_LETTERS = lexicon.words(
+    "message messages mail mails email emails letter phone call calls tweet chat"
 )
 _QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
 
@@ -53,6 +56,8 @@ def _listener(text: Text, at: int, scope: Scope) -> NounPhrase | None:
     """The person at a word, if one is there."""
     if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
         return None
+    if text.word(at) == "where":
+        return None
     phrase = noun_phrase(text, at)
     return phrase if phrase and is_person(phrase, scope) else None
 
@@ -78,7 +83,7 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
         first = _listener(text, at + 1, scope)
         if first:
             to, at = to_person(first, scope), first.end
-    asked = question(text, at, scope, told=True)
+    asked = _asked(text, at, scope)
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
     if to is not None and text.word(at) == COMMA and verbs_at(text.words, at + 1):
@@ -99,10 +104,21 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
     return [Say(what=what, to=to)], end
 
 
+def _asked(text: Text, at: int, scope: Scope) -> Reading | None:
+    """What is to be said as a question to be answered, if it is one."""
+    try:
+        return question(text, at, scope, told=True)
+    except ReadingError:
+        return None
+
+
 def _place_of_speech(text: Text, at: int, end: int, scope: Scope) -> tuple[int, str | None]:
     """Say the time *in the kitchen*: the place where it is to be said."""
     for start in range(at + 1, end):
         place = text.lookup(lexicon.LOCATIVES, start)
+        stated = text.word(start - 1) in ("am", "is", "are", "was", "were", "be")
+        if stated and text.word(at) not in lexicon.WH:
+            continue
         if place and place[0] in (None, "in"):
             phrase = noun_phrase(text, place[1])
             if phrase and phrase.end == end and phrase.name("room", "place"):
@@ -126,11 +142,23 @@ def _addressed(goal: Goal, person: Person) -> Goal:
 
 
 def tell(text: Text, at: int, scope: Scope) -> Reading:
+    """Tell Ada and Emil that lunch is ready: first the one, then the other."""
+    first = _listener(text, at + (text.word(at) in _TO), scope)
+    second = None
+    if first and first.name("person") and text.word(first.end) == "and":
+        second = _listener(text, first.end + 1, scope)
+    if first is None or second is None:
+        return _tell(text, at, None, scope)
+    told = [_tell(text, second.end, to_person(one, scope), scope) for one in (first, second)]
+    return [goal for goals, _ in told for goal in goals], told[0][1]
+
+
+def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Reading:
     """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
-    to: Person | None = None
+    to = listener
     if text.word(at) in _TO and text.word(at) != "for":
         at += 1
-    first = _listener(text, at, scope)
+    first = None if listener else _listener(text, at, scope)
     if first and text.word(first.end) != "'s":
         to, at = to_person(first, scope), first.end
     if to not in (None, ME) and text.word(at) == COMMA and verbs_at(text.words, at + 1):
@@ -140,7 +168,7 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
     at = text.phrase_end(_ABOUT, at) or at
     found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)
     if found is not None and isinstance(scope.last, Count | Tell):
-        return [], found
+        return ([replace(scope.last, to=to)] if to not in (None, ME) else []), found
     if found is not None and scope.object and isinstance(scope.last, Find):
         return [Tell(object=scope.object, property="name", to=to)], found
     asked = question(text, at, scope, to, told=True)
@@ -252,6 +280,8 @@ def answer(text: Text, at: int, scope: Scope) -> Reading:
     if asks:
         raise Misfit("ask what?")
     end = _read_out(text, start)
+    if _LETTERS.intersection(text.words[start:end]):
+        raise NotUnderstood("I can answer questions that I am asked, not messages or calls")
     if text.word(end) == FULL_STOP and text.word(end + 1) == "to":
         listener = _listener(text, end + 2, scope)
         if listener:
@@ -285,6 +315,7 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
     after = phrase.end
     while text.word(after) in ("has", "have", "asks", "is", "asking"):
         after += 1
+    after += 2 if text.words[after : after + 2] == ["for", "you"] else 0
     return person or to_person(phrase, scope), after
 
 
