@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import random
 import subprocess
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -24,6 +24,7 @@ SPEEDS_WPM = (130, 160, 190)
 PAUSE_S = 1.0
 """Before and after each utterance."""
 _ESPEAK_HZ = 22_050
+_SEED = 5
 Noise = Literal["clean", "white", "babble"]
 
 
@@ -60,13 +61,17 @@ def lines(name: str) -> list[Line]:
     return found
 
 
-def takes(name: str, share: int) -> Iterator[Take]:
-    """One in `share` of all sentences by all voices at all speeds, spread evenly."""
-    for i, line in enumerate(lines(name)):
-        for j, voice in enumerate(VOICES):
-            for k, speed_wpm in enumerate(SPEEDS_WPM):
-                if (i + j + k) % share == 0:
-                    yield Take(line, voice, speed_wpm)
+def takes(name: str, voice: str, share: int) -> list[Take]:
+    """One in `share` of all sentences of a voice at all speeds, spread evenly, in random order."""
+    j = VOICES.index(voice)
+    found = [
+        Take(line, voice, speed_wpm)
+        for i, line in enumerate(lines(name))
+        for k, speed_wpm in enumerate(SPEEDS_WPM)
+        if (i + j + k) % share == 0
+    ]
+    random.Random(_SEED).shuffle(found)
+    return found
 
 
 def vocabularies() -> dict[str, Vocabulary]:

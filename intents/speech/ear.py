@@ -121,6 +121,8 @@ class Ear:
             return None
         self._early = None
         kind, text, why = self._judged(heard, utterance)
+        if kind == "sentence":
+            self._recogniser.learn()
         return Spoken(
             kind=kind, text=text, why=why, begin_s=utterance.begin_s, end_s=utterance.spoken_s,
             doubt=heard.doubt, took_s=heard.took_s,

@@ -39,3 +39,7 @@ class Recogniser(Protocol):
             replying: whether a question is open, so that "yes" or "the blue one" may come.
         """
         ...
+
+    def learn(self) -> None:
+        """Get used to the voice of the last utterance, which was a command."""
+        ...

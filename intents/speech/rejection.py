@@ -19,6 +19,7 @@ class Fit(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         word: the word.
+        phones: of which it is made, as it was spoken.
         frames: how long it takes, in frames of 10 ms.
         score: log-likelihood over all frames, relative to the best senone of each [nat].
         chance: logarithm of how likely the grammar holds the word, as the decoder weighs it [nat].
@@ -26,6 +27,7 @@ class Fit(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     word: str
+    phones: tuple[str, ...] = ()
     frames: int
     score: float
     chance: float

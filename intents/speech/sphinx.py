@@ -2,7 +2,8 @@
 # PocketSphinx has no types; this is the one file that knows it.
 """The embedded recogniser: PocketSphinx with its bundled English model and a grammar.
 
-Whatever it hears it forces onto the grammar, so every result comes with a doubt.
+Whatever it hears it forces onto the grammar, so every result comes with a doubt. It gets used to
+the voice that speaks; to a stranger's it listens twice, used to what it heard the first time.
 """
 
 from __future__ import annotations
@@ -10,25 +11,30 @@ from __future__ import annotations
 import math
 import re
 import time
-import warnings
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pocketsphinx
 from numpy.typing import NDArray
 
+from intents.speech import acoustics
+from intents.speech.alignment import States, aligned
 from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.automaton import Automaton
-from intents.speech.endpointing import FRAME
+from intents.speech.cepstra import HOP, Cepstra, centred, cepstra
 from intents.speech.frontend import prepared
 from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce
 from intents.speech.recogniser import Heard
 from intents.speech.rejection import Fit, doubt, features, mean_score
+from intents.speech.speaker import Speaker
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
 
+MODEL = Path(pocketsphinx.get_model_path()) / "en-us" / "en-us"
 OPTIONS: dict[str, Any] = {
+    "hmm": str(MODEL), "featparams": str(Path(__file__).with_name("features.params")),
     "lm": None, "bestpath": False, "loglevel": "FATAL",
     "compallsen": True, "beam": 1e-80, "pbeam": 1e-80, "wbeam": 1e-50, "wip": 0.05, "lw": 4.0,
 }  # fmt: skip
@@ -42,6 +48,8 @@ SAY_OF_GRAMMAR = 8.0
 """The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
+KNOWN_FRAMES = 3000
+"""After so much speech a voice is known: a second look at what it says brings no more."""
 SHORT_S = 1.7
 """What is no longer may be a cry to stop, whatever else it is like."""
 FEW_WORDS = 2
@@ -58,44 +66,78 @@ ENDS = 5.0
 """How much likelier a sentence ends than that it goes on with some word."""
 
 
+class Utterance(NamedTuple):
+    """What is listened to: its centred cepstra, and the mean square of each frame."""
+
+    values: Cepstra
+    power: NDArray[np.float64]
+
+
 class Sphinx:
-    """A recogniser for the commands of one world."""
+    """A recogniser for the commands of one world.
+
+    Attributes:
+        speaker: whom it listens to, as far as it knows the voice.
+    """
 
     def __init__(self, vocabulary: Vocabulary, *, wake_word: str = "") -> None:
         """Load the model and compile the grammar; takes about a second."""
+        self.speaker = Speaker()
         self._decoder = pocketsphinx.Decoder(**OPTIONS)
+        self._acoustics = acoustics.load(MODEL)
         self._vocabulary = vocabulary
         self._wake_word = wake_word
         self._compiled: set[str] = set()
+        self._last: tuple[Cepstra, list[Fit]] | None = None
         self._search(SPOKEN)
 
     def recognise(self, sound: Samples, *, replying: bool = False) -> Heard:
         """The sentence of the grammar that fits an utterance best."""
         begun_s = time.perf_counter()
+        self._last = None
         data = prepared(sound)
         if not data:
             return Heard(text="")
-        fits = self._decoded(data, REPLY if replying else SPOKEN)
+        heard = Utterance(centred(cepstra(data)), _power(data))
+        fits = self._found(heard, REPLY if replying else SPOKEN)
         if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
-            cry = self._decoded(data, CRY)
+            cry = self._decoded(heard, CRY, self.speaker)
             if cry and _is_cry(cry, fits, replying=replying):
                 fits = cry
+        self._last = (heard.values, fits)
         return Heard(
             text=_text(fits),
             doubt=doubt(fits) if fits else 0.0,
             took_s=time.perf_counter() - begun_s,
         )
 
-    def _decoded(self, data: bytes, root: str) -> list[Fit]:
-        """The words that fit best of what begins with a rule; none if nothing fits."""
+    def learn(self) -> None:
+        """Get used to the voice of the last utterance, which was a command."""
+        if self._last and self._last[1]:
+            self.speaker = self._used_to(*self._last)
+        self._last = None
+
+    def _found(self, heard: Utterance, root: str) -> list[Fit]:
+        """The words that fit best, of a known voice, or one that is got used to for this once."""
+        fits = self._decoded(heard, root, self.speaker) or self._decoded(heard, root, Speaker())
+        if not fits or self.speaker.frames > KNOWN_FRAMES:
+            return fits
+        return self._decoded(heard, root, self._used_to(heard.values, fits)) or fits
+
+    def _used_to(self, values: Cepstra, fits: list[Fit]) -> Speaker:
+        """The speaker, after words that fit an utterance."""
+        spoken = [fit.phones for fit in fits]
+        states: States = aligned(self.speaker.adapted(values), spoken, self._acoustics)
+        return self.speaker.after(values, states, self._acoustics)
+
+    def _decoded(self, heard: Utterance, root: str, speaker: Speaker) -> list[Fit]:
+        """The words of a speaker that fit best of what begins with a rule; none if nothing fits."""
         self._search(root)
-        with warnings.catch_warnings():  # it is said to be unnecessary, and is not
-            warnings.simplefilter("ignore", DeprecationWarning)
-            self._decoder.start_stream()  # forgets the background of the utterance before
         self._decoder.start_utt()
-        self._decoder.process_raw(data, full_utt=True)
+        values = speaker.adapted(heard.values).astype("<f4")
+        self._decoder.process_cep(values.tobytes(), full_utt=True)
         self._decoder.end_utt()
-        return self._fits(_power(data)) if self._decoder.hyp() else []
+        return self._fits(heard.power) if self._decoder.hyp() else []
 
     def _fits(self, power: NDArray[np.float64]) -> list[Fit]:
         """How each word of the sentence found fits the sound; pauses and noises are left out."""
@@ -103,6 +145,7 @@ class Sphinx:
         return [
             Fit(
                 word=re.sub(r"\(\d+\)$", "", segment.word),
+                phones=tuple(self._decoder.lookup_word(segment.word).split()),
                 frames=segment.end_frame - segment.start_frame + 1,
                 score=_UNSCALED * math.log(max(segment.ascore, 1e-300)),
                 chance=_UNSCALED * math.log(max(segment.lscore, 1e-300)),
@@ -128,7 +171,7 @@ class Sphinx:
 def _power(data: bytes) -> NDArray[np.float64]:
     """The mean square of each frame of an utterance for the decoder."""
     samples = np.frombuffer(data, "<i2").astype(np.float64)
-    return np.mean(samples[: len(samples) // FRAME * FRAME].reshape(-1, FRAME) ** 2, axis=1)
+    return np.mean(samples[: len(samples) // HOP * HOP].reshape(-1, HOP) ** 2, axis=1)
 
 
 def _is_cry(cry: list[Fit], fits: list[Fit], *, replying: bool) -> bool:

@@ -62,6 +62,9 @@ class Whisper:
         text = self._model.recognize(sound, sample_rate=RATE_HZ, language=LANGUAGE)
         return Heard(text=str(text).strip(), took_s=time.perf_counter() - begun_s)
 
+    def learn(self) -> None:
+        """Nothing: it knows many voices."""
+
 
 def _kind(folder: Path) -> tuple[str, str | None]:
     """Which export it is, and how it is quantised."""

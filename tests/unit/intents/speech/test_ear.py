@@ -16,6 +16,10 @@ class Told:
     def __init__(self, *heard):
         self.heard = [Heard(text=one) if isinstance(one, str) else one for one in heard]
         self.asked = []
+        self.learnt = 0
+
+    def learn(self):
+        self.learnt += 1
 
     def recognise(self, sound, *, replying=False):
         self.asked.append((len(sound) / RATE_HZ, replying))
@@ -145,3 +149,11 @@ def test_without_the_key_nothing_but_stop_counts():
     ear = Ear(Told("go to the table"))
     found = listened(ear, quiet(1), burst(1), quiet(1), heeded=lambda t_s: False)
     assert [one.kind for _, one in found] == ["ignored"]
+
+
+def test_a_voice_is_learnt_from_what_is_meant_for_the_robot():
+    doubtful = Heard(text="go to the table", doubt=1.5)
+    for heard, learnt in [("go to the table", 1), ("stop", 0), ("", 0), (doubtful, 0)]:
+        told = Told(heard)
+        listened(Ear(told), quiet(1.0), burst(1.0), quiet(2.0))
+        assert told.learnt == learnt

@@ -98,6 +98,32 @@ def test_nothing_is_nothing(recogniser, nothing):
     assert not heard.believed
 
 
+def test_a_voice_is_got_used_to_by_commands_only(recogniser):
+    stranger = recogniser.speaker
+    recogniser.recognise(in_noise(sound("command"), 40))
+    assert recogniser.speaker is stranger
+    recogniser.learn()
+    known = recogniser.speaker
+    assert known.frames > 50
+    recogniser.learn()
+    assert recogniser.speaker is known
+    recogniser.recognise(np.zeros(0, np.float32))
+    recogniser.learn()
+    assert recogniser.speaker is known
+    recogniser.speaker = stranger
+
+
+def test_a_command_of_a_known_voice_fits_better():
+    recogniser = Sphinx(KITCHEN)
+    spoken, doubts = in_noise(sound("command"), 30), []
+    for _ in range(3):
+        heard = recogniser.recognise(spoken)
+        recogniser.learn()
+        doubts.append(heard.doubt)
+    assert heard.believed
+    assert doubts[-1] <= doubts[0]
+
+
 def test_noise_moves_nothing(recogniser):
     noise = np.random.default_rng(0).normal(scale=0.1, size=2 * RATE_HZ).astype(np.float32)
     heard = recogniser.recognise(noise)
