@@ -26,7 +26,7 @@ from intents.outcomes import Goals, Question, Refusal, Reply
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
-from robot.errors import RobotError
+from robot.errors import CATALOGUE, RobotError
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
@@ -83,7 +83,10 @@ class Shell:
     def gone(self) -> str:
         """That the robot is gone, and what to do; empty while it is there."""
         lost = self.robot.lost
-        return f"The robot is gone: {lost.cause}; {lost.suggestion}." if lost is not None else ""
+        if lost is None:
+            return ""
+        cure = lost.suggestion or CATALOGUE[lost.code].suggestion
+        return f"The robot is gone: {lost.cause}; {cure}."
 
     def answer(self, text: str) -> None:
         """Say a line to people, and aloud."""

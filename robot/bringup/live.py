@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Protocol, Self
 
@@ -218,8 +219,9 @@ class LiveRuntime(Closing):
         if self._private is not None:
             private_folder.remove(self._private)
         if self.timing:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
+            with suppress(OSError):  # the last words told it; a full disk is no mistake of ours
+                self._folder.mkdir(parents=True, exist_ok=True)
+                (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
 
     def _wait_for_body(self) -> None:
         until_s = self._wall.now_s() + START_S

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
@@ -127,7 +128,8 @@ class Supervisor(Closing):
         spare = known.spare if known else None
         ready = spare is not None and spare.poll() is None
         popen = spare if spare and ready else self._spawn(entry, log)
-        (self._logs / f"{entry.name}.pid").write_text(f"{popen.pid}\n")
+        with suppress(OSError):  # it is for people; a full disk keeps no robot from starting
+            (self._logs / f"{entry.name}.pid").write_text(f"{popen.pid}\n")
         starts_s = known.starts_s if known else []
         self._children[entry.name] = _Child(entry, popen, log, [*starts_s, self._clock.now_s()])
 

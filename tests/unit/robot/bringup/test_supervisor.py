@@ -65,6 +65,14 @@ def test_children_run_and_are_gone_afterwards(supervise, tmp_path):
     assert not list((tmp_path / "logs").glob("*.pid"))
 
 
+def test_a_full_disk_keeps_no_robot_from_starting(supervise, tmp_path):
+    (tmp_path / "logs").mkdir()
+    (tmp_path / "logs" / "plant.pid").symlink_to("/dev/full")
+    with supervise() as supervisor:
+        ready(supervisor, tmp_path, *ALL)
+        assert supervisor.check() is None
+
+
 @pytest.mark.parametrize(
     ("name", "code"), [("plant", "plant_lost"), ("controller", "controller_lost")]
 )
