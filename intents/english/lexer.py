@@ -40,8 +40,16 @@ _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"'
                          "«": '"', "»": '"', "\t": " ", "\n": " ", "\r": " "})  # fmt: skip
 _AT_HE = re.compile(r"\b(at|in|on|to|from|by|of|for) he\b(?!\s+(?:is|was|has))", re.IGNORECASE)
 """A slip of the fingers: "at he fridge"."""
-_TOO = re.compile(r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", re.IGNORECASE)
-"""Another: "go too the table"."""
+_SLIPS = tuple(
+    (re.compile(slip, re.IGNORECASE), meant)
+    for slip, meant in (
+        (r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", "to"),
+        (r"\bform(?=\s+(?:the|my|your|her|his)\b)", "from"),
+        (r"\byour self\b", "yourself"),
+        (r"&", " and "),
+    )
+)
+"""More of them: "go too the table", "take it form the table"."""
 _IS = {"what", "where", "who", "how", "which", "there", "here", "that", "it", "he", "she", "this",
        "when", "why"}  # fmt: skip  # "what's" holds a verb, "Julia's" does not
 _WHOLE = {
@@ -70,7 +78,8 @@ def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
     text = _AT_HE.sub(r"\1 the", _COMMA_S.sub(r"\1's", _APART.sub("", text)))
-    text = _TOO.sub("to", text).replace("&", " and ")
+    for slip, meant in _SLIPS:
+        text = slip.sub(meant, text)
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         kind, raw = match.lastgroup, match.group()

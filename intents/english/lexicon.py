@@ -168,7 +168,10 @@ LOCATIVES.update({("somewhere", *phrase): how for phrase, how in LOCATIVES.items
 """Prepositions that say where something is; None says no more than "at"."""
 GOALWARDS = phrases(
     "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,until,"
-    "back into,back onto,back in,back on,over into"
+    "back into,back onto,back in,back on,over into,until he reaches,until she reaches,"
+    "until they reach,until he gets to,until she gets to,until they get to,until he arrives at,"
+    "until she arrives at,until they arrive at,until he is in,until she is in,until they are in,"
+    "until he is at,until she is at,until they are at,until you reach,until you get to"
 )
 SOURCEWARDS = phrases(
     "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,from within,"
@@ -219,7 +222,8 @@ _OPENINGS = phrases(
     "your task is to,your job is to,your mission is to,your goal is to,go ahead and,"
     "would you be a dear and,be a dear and,would you be so good as to,be so good as to,"
     "be a good robot and,would you be so kind and,would you be kind enough to,be kind enough to,"
-    "be so kind as to,be so kind and,do me a favor and,help me,why do not you,why not,"
+    "be so kind as to,be so kind and,do me a favor and,give me a hand and,"
+    "lend me a hand and,give us a hand and,help me,why do not you,why not,"
     "do me a favour and,would you like to,do you think you can,do you think you could,"
     "how would you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
     "hi there,hello there,hey there,good morning,good evening,good afternoon,good day,start to,"

@@ -25,7 +25,7 @@ _POINTED_AT = lexicon.phrases(
     "who i am pointing at,who i am pointing to,whom i point at"
 )
 _LYING_AROUND = lexicon.words(
-    "located placed situated found kept stored resting positioned put left sitting standing lying "
+    "located placed situated found kept stored resting positioned left sitting standing lying "
     "laying hanging stays stands sits lies rests lie waiting staying working relaxing"
 )
 _ON_THE_FLOOR: dict[lexicon.Phrase, Literal["lying"]] = dict.fromkeys(
@@ -73,7 +73,8 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
     if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
         end = _relative(text, phrase, at + 1)
-        return end and end + (text.word(end) == COMMA and text.word(end + 1) in DETERMINERS)
+        follows = text.word(end + 1) in DETERMINERS | {"to", "into"} if end else False
+        return end and end + (text.word(end) == COMMA and follows)
     spot = is_spot(phrase)
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     if reduced:

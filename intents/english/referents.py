@@ -197,7 +197,14 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
     if phrase.noun in ("pronoun", "one"):
         if scope.person is None:
             raise Unclear("Who is meant?")
-        return replace(scope.person, at=at or scope.person.at)
+        known = scope.person
+        return replace(
+            known,
+            at=at or known.at,
+            posture=phrase.posture or known.posture,
+            gesture=phrase.gesture or known.gesture,
+            wearing=phrase.wearing or known.wearing,
+        )
     if phrase.noun == "unknown" and not phrase.determiner:
         if not scope.index.knows_people:
             return Person(name=phrase.said, at=at)

@@ -16,8 +16,8 @@ from intents.english.questions import Reading, question
 from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.sentences import Clauses
 from intents.english.text import Text
-from intents.english.verbs import verbs_at
-from intents.goals import Answer, Bring, Find, GoTo, Guide
+from intents.english.verbs import base_form, verbs_at
+from intents.goals import Answer, Bring, Find, Goal, GoTo, Guide, ObjectQuery, Pick, Place
 
 _ASKING = lexicon.words(
     "who that whose wants want would like likes to ask asks asking is has have got a an any some "
@@ -61,6 +61,16 @@ _NEEDS_TO_GO = lexicon.phrases(
     "would like to be brought,would like to be taken,wishes to go,is looking for the way,"
     "wants to be taken,wants to be brought,needs to come,wants to come"
 )
+
+
+def _one_of(goal: Goal, among: ObjectQuery) -> Goal:
+    """A goal whose thing is one of those."""
+    if not isinstance(goal, Bring | Find | Pick | Place):
+        return goal
+    one = goal.object or among
+    name = one.name or (None if one.category else among.name)
+    category = one.category or (None if one.name else among.category)
+    return replace(goal, object=replace(one, name=name, category=category, at=one.at or among.at))
 
 
 class Remarks(Clauses):
@@ -191,6 +201,8 @@ class Remarks(Clauses):
 
     def fronted(self, at: int) -> Reading | None:
         """At the desk, find the cup; the red cup, bring it to me."""
+        if self.text.word(at) in ("of", "among"):
+            return self._out_of(at + 1)
         complements, end = read_complements(self.text, at)
         after = self.skip(end)
         usable = bool(complements) and all(
@@ -208,11 +220,27 @@ class Remarks(Clauses):
             return [GoTo(place=at_place), *asked[0]], asked[1]
         if not verbs_at(self.text.words, after):
             return None
+        inflected = self.text.word(after) != base_form(self.text.word(after))
+        if inflected and self.text.word(end) != COMMA:
+            return None
         for complement in complements:
             if complement.role == "":
                 for phrase in complement.phrases:
                     self._mention_phrase(phrase)
         return self.verb(after, [c for c in complements if c.role])
+
+    def _out_of(self, at: int) -> Reading | None:
+        """Of *all the cups on the table, bring me the largest one*."""
+        phrase = noun_phrase(self.text, at)
+        start = self.skip(phrase.end) if phrase else at
+        if phrase is None or self.text.word(phrase.end) != COMMA:
+            return None
+        if phrase.is_person or not verbs_at(self.text.words, start):
+            return None
+        among = replace(to_object(phrase, self.scope), count=None)
+        self.scope.mention(among)
+        goals, end = self.verb(start)
+        return [_one_of(goal, among) for goal in goals], end
 
     def _is_where(self, at: int) -> bool:
         """On the table *is a cup*; ... *there is a cup*; ... *a person is standing*."""

@@ -150,7 +150,10 @@ class Results(Remarks):
         if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
             return None
         if is_person(complements[0].phrase, self.scope):
-            return None
+            goes = self.text.word(start - 1).startswith("go")
+            person = to_person(complements[0].phrase, self.scope) if goes else None
+            thing = to_object(phrase, self.scope)
+            return ([Bring(object=thing, to=person)], end) if person else None
         thing = Complement(phrases=[phrase])
         self._last_verb = (at, at + 1, ("put",))
         return self.framed("put", at, phrase.end, [thing, *complements], end)

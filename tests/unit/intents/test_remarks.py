@@ -21,6 +21,23 @@ def goals_of(said: str) -> str:
         ("pleased to meet you. Go to the office!", "go to the office"),
         ("I was wondering, maybe you could, like, go to the office", "go to the office"),
         ("listen, wave, buddy", "wave"),
+        ("give me a hand and bring me the thermos", "bring me the thermos"),
+        (
+            "of all the tools in the garage, bring me the heaviest one",
+            "bring me the heaviest tool in the garage",
+        ),
+        ("follow Ada until she reaches the office", "follow Ada to the office"),
+        (
+            "guide Ada, who is in the garage, to the office",
+            "guide Ada from the garage to the office",
+        ),
+        ("the thermos goes to Ada", "bring the thermos to Ada"),
+        ("I need the thermos put on the sofa", "put the thermos on the sofa"),
+        ("bring me the thermos form the sofa", "bring me the thermos from the sofa"),
+        (
+            "greet the man in the garage, he is wearing a red hat",
+            "greet the man wearing a red hat in the garage",
+        ),
         ("right then, your next job: wave", "wave"),
         ("step 1: wave. step 2: nod.", "wave, then nod"),
         ("would it be okay if you moved the thermos to the sofa?", "move the thermos to the sofa"),
