@@ -109,6 +109,7 @@ class Placed(msgspec.Struct, frozen=True, kw_only=True):
     z_m: float
 
 
+MOST_AT_ONCE = 100
 BROKEN = frozenset({"plant_lost", "internal"})
 """Codes that mean that the system broke, not the task."""
 
@@ -121,11 +122,24 @@ def exit_status(outcome: Outcome) -> int:
 
 
 def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
-    """A folder name that sorts by time and says what it was about."""
+    """A new folder, whose name sorts by time and says what it was about.
+
+    It is made here, so that two runs that begin in the same second have one each; where none can be
+    made, the journal says so.
+    """
     slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
-    return base / f"{stamp}-{slug or 'run'}"
+    first = base / f"{stamp}-{slug or 'run'}"
+    for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError:
+            break
+        return folder
+    return first
 
 
 def check_free(folder: Path) -> None:
