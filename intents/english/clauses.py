@@ -9,7 +9,7 @@ from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREP
 from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import Locative, NounPhrase, is_content
-from intents.english.postmodifiers import read_postmodifiers
+from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
 from intents.goals import How
@@ -166,6 +166,10 @@ def _attach(
     bare = nouns[-1] if nouns else None
     if bare is None or bare is complements[-1] or bare.phrase.noun == "pronoun":
         return None
+    weighed = weight_at(text, at + 1) if text.word(at) in ("that", "which") else None
+    if weighed:
+        bare.phrase.superlative = weighed[0]
+        return weighed[1]
     if found and found[0].how in _STRICT and found[0].phrase.name("object"):
         bare.phrase.places.append(Locative(found[0].how, found[0].phrase))
         return found[1]

@@ -71,6 +71,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
 
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
+    if phrase.noun == "operator":
+        return None
     if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
         end = _relative(text, phrase, at + 1)
         follows = text.word(end + 1) in DETERMINERS | {"to", "into"} if end else False

@@ -209,6 +209,10 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     start = skip_being(text, at + 1)
     phrase = NounPhrase(start, start, noun="person", said="person")
     read_postmodifiers(text, phrase)
+    if text.word(start - 1) == "there" and scope.place and phrase.end == start:
+        there = NounPhrase(start - 1, start, noun="there", said="there")
+        phrase.places.append(Locative(None, there))
+        return [Tell(person=to_person(phrase, scope), property="name", to=to)], start
     if phrase.end == start:
         named = noun_phrase(text, start)
         if named is None or not is_person(named, scope):

@@ -171,7 +171,7 @@ SPELLINGS: dict[str, str] = {
         "wave your left hand,wave hello,wave goodbye,shake hands with,shake hands,high five,"
         "give me a high five,give a high five,cross your arms,shrug your shoulders,"
         "do a dance,do a bow,wave your arms,wave both hands,curtsy,show thumbs up,"
-        "point towards,point out,make a bow,bow down,raise your hand,raise your arm,"
+        "point towards,point out,handshake,make a bow,bow down,raise your hand,raise your arm,"
         "raise your left hand,raise your right hand,raise your left arm,raise your right arm,"
         "raise both arms,raise both hands,raise your arms,raise your hands,shake my hand,"
         "put both your hands up,put both hands up,put your hands up,put your arms up,hands up,"

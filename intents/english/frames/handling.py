@@ -5,13 +5,14 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
+from intents.english.clauses import Clause, Complement, connector_end
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.postmodifiers import is_spot
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
+from intents.english.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
     Balance,
@@ -82,7 +83,10 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
         raise NotUnderstood("I can take things to a place, not move them a little")
     if to is None and clause.verb.startswith(("move", "transport", "transfer")):
-        raise Unclear("Where shall I take it?")
+        after = connector_end(clause.text, clause.end)
+        if after is None or not verbs_at(clause.text.words, after):
+            raise Unclear("Where shall I take it?")
+        return [Pick(object=replace(o, at=o.at or at)) for o in objects]
     slots.direction("backward")
     slots.done()
     return [

@@ -50,6 +50,10 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     direction = slots.direction(*_BY)
     slots.direction("around", "up", "down")
     second = slots.take("at", "")
+    if target and second and clause.text.word(second.phrase.start) == "where":
+        person = to_person(second.phrase, scope)
+        slots.done()
+        return [Find(person=replace(person, at=to_place(target.phrase, scope)))]
     if target and second and target.phrase.noun in ("here", "there"):
         target = second
     elif second:

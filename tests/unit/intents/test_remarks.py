@@ -21,6 +21,13 @@ def goals_of(said: str) -> str:
         ("pleased to meet you. Go to the office!", "go to the office"),
         ("I was wondering, maybe you could, like, go to the office", "go to the office"),
         ("listen, wave, buddy", "wave"),
+        ("move the thermos and take it to the sofa", "pick up the thermos and take it to the sofa"),
+        ("go to the sofa where Ada is", "find Ada at the sofa"),
+        ("go to the office. Who is there?", "go to the office. Who is in the office?"),
+        (
+            "hand me the tool from the sofa that weighs the least",
+            "hand me the lightest tool from the sofa",
+        ),
         ("give me a hand and bring me the thermos", "bring me the thermos"),
         (
             "of all the tools in the garage, bring me the heaviest one",
