@@ -16,7 +16,7 @@ from executive.listening.hearing import INVALID, Options, audio_errors, ear, sou
 from executive.overseeing import oversee
 from executive.repl import cli
 from executive.repl.shell import Shell
-from executive.speaking import Speech
+from executive.speaking import Speech, able
 from intents import goals as g
 from intents.goals import Goal
 from intents.risks import each, risk
@@ -42,6 +42,8 @@ def obey(options: Options) -> int:
     options = replace(options, folder=folder)
     with sound(options):
         pass  # what is missing is said before a robot is started
+    if options.voice == "auto" and not able(wanted=True, model=options.voice_model):
+        options = replace(options, voice="none")
     voice(options.voice, model=options.voice_model).close()
     if options.fast:
         return converse(options)

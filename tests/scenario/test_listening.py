@@ -184,6 +184,15 @@ def test_answers_what_is_said_and_the_end_are_spoken(humanoid, told, loudspeaker
     assert "I am not holding anything." in loudspeaker.told
 
 
+def test_without_a_voice_that_is_said_once(humanoid, told, monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    status, text = humanoid("listen", "--file", told("say welcome home"), "--fast")
+    assert status == 0, text
+    assert text.count("is only printed") == 1
+    silent = humanoid("listen", "--file", told("say hello"), "--fast", "--voice", "none")[1]
+    assert "is only printed" not in silent
+
+
 def test_stop_silences_it_and_is_never_said_aloud(humanoid, told, loudspeaker):
     file = told("what can you do", "stop")
     text = humanoid("listen", "--file", file, "--fast", "--run-dir", "run")[1]
