@@ -215,7 +215,10 @@ class _Seeing:
     def plan(self, rest: str) -> None:
         from executive.missions.plan import forecast_lines
 
-        understood = self._shell.understand(rest)
+        understood = self._shell.understand(rest, steers=False)
+        if self._shell.dialogue.question is not None:
+            self._shell.dialogue.forget()  # an answer would be taken for a wish to have it done
+            self._shell.out("  Say it again with the answer in it: plan ...")
         if understood is not None:
             for line in forecast_lines(understood.task, self._shell.robot.where):
                 self._shell.out(line)
@@ -344,6 +347,7 @@ class _Steering:
     def inject(self, rest: str) -> None:
         if not rest:
             self._shell.out("Faults: " + ", ".join(faults.names()))
+            self._shell.out("For example: inject shove strength_n_s=8 towards_deg=90")
             return
         fault = faults.in_words(rest)
         where = self._shell.robot.where

@@ -103,7 +103,7 @@ class Shell:
 
     def line(self, text: str) -> None:
         """Do what a line says; never raises for what is in it."""
-        text = text.strip()
+        text = "".join(one if one.isprintable() else " " for one in text).strip()
         try:
             if text and not self.stop_at_once(text):
                 self._take(text)
@@ -116,8 +116,11 @@ class Shell:
         if isinstance(understood, Understood):
             self.submit(understood, urgent=urgent)
 
-    def understand(self, text: str) -> Understood | None:
-        """What a sentence asks for; None when something else was said about it already."""
+    def understand(self, text: str, *, steers: bool = True) -> Understood | None:
+        """What a sentence asks for; None when something else was said about it already.
+
+        One that only steers the jobs ("pause") does so at once, if `steers`.
+        """
         robot = self.robot
         state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
         if self._model is not None and not robot.busy:
@@ -134,7 +137,13 @@ class Shell:
                 self.out(f"The language model was of no help: {self._model.trouble}.")
         else:
             # an answer ("the blue one") says nothing by itself: the job is called what it means
-            return self._settle(in_words(turn.goals) if answers else text, turn, state)
+            steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
+            if not steering:
+                return self._settle(in_words(turn.goals) if answers else text, turn, state)
+            if steers:
+                self._steer(turn.goals)
+            else:
+                self.answer(f"I would {in_words(turn.goals)} at once.")
         return None
 
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
@@ -166,11 +175,7 @@ class Shell:
             self.sentence(text)
 
     def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
-        """Steer the jobs at once if that is all that was meant; else what the goals mean here."""
-        if all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals):
-            for goal in turn.goals:
-                self._steer(goal)
-            return None
+        """What the goals mean here."""
         held = self._holds if self.robot.busy else self._held()
         understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
         if isinstance(understood, Refused):
@@ -187,9 +192,10 @@ class Shell:
     def _held(self) -> tuple[str, ...]:
         return tuple(self.robot.executive.board.read(HELD).values())
 
-    def _steer(self, goal: Goal) -> None:
-        """Steer the jobs as a command would."""
-        self.commands[type(goal).__name__.casefold()].run("")
+    def _steer(self, goals: tuple[Goal, ...]) -> None:
+        """Steer the jobs as commands would."""
+        for goal in goals:
+            self.commands[type(goal).__name__.casefold()].run("")
 
 
 def _answer(text: str) -> Answer | None:

@@ -321,3 +321,25 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
         assert voice.told == ["(hush)"]
     finally:
         shell.speech = Speech()
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [("plan pause", "I would pause"), ("plan stop", "I would stop"),
+     ("plan pick up the cup", "Which cup")],
+)  # fmt: skip
+def test_a_plan_does_nothing_also_when_its_question_is_answered(shell: Shell, line: str, says: str):
+    before = len(shell.robot.executive.jobs)
+    shell.line(line)
+    assert says in shell.out.text
+    assert not any(word in shell.out.text for word in ("Pausing", "Stopping", "stand already"))
+    shell.line("the red one")
+    assert len(shell.robot.executive.jobs) == before
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\x1b[2J", "\x07"])
+def test_letters_that_cannot_be_seen_are_no_part_of_a_line(shell: Shell, name: str):
+    shell.line(f"run {name}.yaml")
+    shell.line(f"save mission /nowhere/{name}")
+    assert "\0" not in shell.out.text
+    assert "\x1b" not in shell.out.text
