@@ -28,6 +28,7 @@ from intents.goals import (
     ForEach,
     Give,
     Goal,
+    GoTo,
     Greet,
     Holding,
     If,
@@ -48,6 +49,8 @@ _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
 )
 _NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")
+_DANGLING = lexicon.words("to into onto from with towards the a an of")
+"""Words that no command ends with."""
 _DEEPEST = 4
 
 
@@ -74,7 +77,12 @@ class Grammar(Afterthoughts):
         """
         if self.text.phrase_end(_HELLO, 0) == len(self.text):
             return [Greet(person=ME)]
+        for at in range(1, len(self.text)):
+            if self.text.word(at) == "myself" and self.text.word(at - 1) not in ("for", "to"):
+                raise NotUnderstood("That is for you to do, as I hear it")
         goals, end = self.sequence(0, nested=False)
+        if self.text.word(len(self.text) - 1) in _DANGLING and _acts(goals[-1:]):
+            raise Unclear(f"“... {self.text.word(len(self.text) - 1)}” what?")
         if end < len(self.text):
             raise self.not_understood(end)
         if self._one_hand:
@@ -308,6 +316,11 @@ class Grammar(Afterthoughts):
             if phrase.noun == "pronoun" and was is not None and now is not None:
                 before[:] = [substitute(g, was, now) for g in before]
         return [], end
+
+
+def _acts(goals: list[Goal]) -> bool:
+    """Whether something is to be taken or put."""
+    return any(isinstance(goal, Bring | Give | GoTo | Pick | Place) for goal in goals)
 
 
 def _once(goals: list[Goal]) -> bool:

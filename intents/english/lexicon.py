@@ -225,7 +225,7 @@ _OPENINGS = phrases(
     "be so kind as to,be so kind and,do me a favor and,give me a hand and,"
     "lend me a hand and,give us a hand and,help me,why do not you,why not,"
     "do me a favour and,would you like to,do you think you can,do you think you could,"
-    "how would you,let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
+    "let us,hey,hi,hello,okay,alright,all right,well,now,just,try to,"
     "hi there,hello there,hey there,good morning,good evening,good afternoon,good day,start to,"
     "begin to,make sure to,make sure you,be sure to,remember to,do not forget to,you,to,"
     "listen up,look here,excuse me,sorry,oh,yes,no,yeah,so,ready,help me to,help me and,may you,"

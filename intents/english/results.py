@@ -7,7 +7,7 @@ should be brought to me"; "the lamp should be on"; "see that Ada gets the pencil
 from intents.english import lexicon
 from intents.english.clauses import Clause, Complement, ends_clause, read_complements
 from intents.english.frames import FRAMES
-from intents.english.frames.devices import device_names
+from intents.english.frames.devices import device_names, is_device
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
@@ -86,7 +86,9 @@ class Results(Remarks):
             return placed
         if wish is None and text.word(at) not in _RESULT_VERBS:
             return None
-        return self.brought_about(wish or at + 1)
+        found = self.brought_about(wish or at + 1)
+        put = found and text.word(at) == "put" and isinstance(found[0][0], Switch)
+        return None if found and put and not is_device(found[0][0]) else found
 
     def brought_about(self, at: int) -> Reading | None:
         """The drawer open; the lamp on."""

@@ -170,7 +170,9 @@ class Clauses:
             return self._count(first)
         complements, end = read_complements(text, first if resumed is None else resumed)
         complements = without_favours(sense, complements)
-        if sense == "stop":
+        given_up = sense == "cancel" and text.word(first).endswith("ing")
+        if sense == "stop" or given_up:
+            complements = []
             while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
                 end += 1
         verb = " ".join(text.words[at:first])

@@ -57,6 +57,11 @@ def device_names(said: Complement, scope: Scope, act: str) -> list[str]:
     return _what(said, scope, _SWITCHABLE if act == "switch" else _OPENABLE, act)
 
 
+def is_device(goal: Goal) -> bool:
+    """Whether what is switched is of a kind that any home may switch."""
+    return isinstance(goal, Switch) and singular(goal.what.split()[-1]) in _SWITCHABLE
+
+
 def open_(clause: Clause, scope: Scope) -> list[Goal]:
     """Open the fridge; open your hand."""
     return [Open(what=w) for w in _opened(clause, scope, "open")]
@@ -94,11 +99,11 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     if on == off:
         raise Misfit("on or off?")
     if (
-        clause.verb == "light"
+        clause.verb in ("light", "put")
         and said
         and singular(said.phrase.said.split()[-1]) not in _SWITCHABLE
     ):
-        raise NotUnderstood("I light no fires")
+        raise NotUnderstood(f"I cannot switch “{said.phrase.said}”")
     if said is None and not particles & {"on", "off"}:
         raise Misfit("switch what?")
     if said is None:

@@ -9,7 +9,7 @@ from intents.english.frames.slots import Slots, is_person, is_spot, need
 from intents.english.measures import STEP_M
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, to_object, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.goals import (
     OPERATOR,
     Displacement,
@@ -148,6 +148,8 @@ def turn(clause: Clause, scope: Scope) -> list[Goal]:
         direction = direction or "around"
     if not direction and angle is None and clause.verb == "face":
         raise Misfit("face what?")
+    if not direction and angle is None and clause.verb in ("turn", "rotate"):
+        raise Unclear("Which way shall I turn?")
     if angle is None:
         half = direction in ("around", "backward")
         whole = clause.verb.startswith("spin") or not direction

@@ -51,6 +51,7 @@ THERE = Context(
         ("face the other way", "turn around"),
         ("pick up the cup. the blue one", "pick up the blue cup"),
         ("do a 180", "turn around"),
+        ("quit following me", "cancel that"),
         ("meet me at the table", "go to the table"),
         ("come and join us", "come here"),
         ("wait for me at the table", "go to the table and wait"),

@@ -3,7 +3,7 @@
 import pytest
 
 from intents.context import Context
-from intents.goals import to_builtins
+from intents.goals import Goal, to_builtins
 from intents.grounding import Entity
 from intents.outcomes import Goals, Question
 from intents.parser import hear
@@ -86,3 +86,16 @@ def test_beside_another_thing_is_asked_about_with_the_place_alone() -> None:
     assert isinstance(outcome, Question)
     assert outcome.kind == "confirmation"
     assert to_builtins(outcome.goals) == last_of("put the hammer on the ledge")
+
+
+def test_a_sentence_cut_off_is_completed_by_the_next() -> None:
+    outcome, context = hear("put the hammer on the", WORDS)
+    assert isinstance(outcome, Question)
+    assert to_builtins(_goals(hear("ledge", WORDS, context=context)[0])) == last_of(
+        "put the hammer on the ledge"
+    )
+
+
+def _goals(outcome: object) -> tuple[Goal, ...]:
+    assert isinstance(outcome, Goals), outcome
+    return outcome.goals
