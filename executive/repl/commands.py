@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from shlex import quote
 
 from executive import faults
 from executive.blackboard import KEYS
@@ -368,7 +369,7 @@ class _Keeping:
             raise ConfigError("save it where? For example: save mission morning.yaml")
         steps = [job.text for job in self._shell.robot.executive.jobs if job.state == "done"]
         path = saving.save(Path(name), steps, self._shell.robot.where)
-        self._shell.out(f"Saved: {path}. Run it with: humanoid mission run {path}")
+        self._shell.out(f"Saved: {path}. Run it with: humanoid mission run {quote(str(path))}")
 
     def quit(self, _rest: str) -> None:
         self._shell.leaving = True

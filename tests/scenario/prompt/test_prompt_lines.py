@@ -325,7 +325,7 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
 
 @pytest.mark.parametrize(
     ("line", "says"),
-    [("plan pause", "I would pause"), ("plan stop", "I would stop"),
+    [("plan pause", "I would pause"), ("plan resume", "I would go on"),
      ("plan pick up the cup", "Which cup")],
 )  # fmt: skip
 def test_a_plan_does_nothing_also_when_its_question_is_answered(shell: Shell, line: str, says: str):
