@@ -18,7 +18,7 @@ _SWITCHABLE = words(
     "light lamp tv television machine fan heater heating oven stove computer pc laptop "
     "cleaner "
     "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
-    "dryer toaster device chandelier"
+    "dryer toaster device chandelier radio stereo speaker printer blender mixer console"
 )
 
 

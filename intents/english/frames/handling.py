@@ -274,11 +274,12 @@ def _destination(slots: Slots) -> tuple[str, str] | None:
     at = slots.take("at")
     if at:
         return _spot(Locative(at.how, at.phrase), slots.scope)
-    there = next((c for c in slots.rest if c.phrases and c.phrase.noun == "there"), None)
+    bares = [c for c in slots.rest if c.phrases and c.role == ""]
+    there = next((c for c in bares[1:] if c.phrase.noun == "there"), None)
     if there and slots.scope.place:
         slots.rest.remove(there)
         return "on", slots.scope.place
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    bare = bares[0] if bares else None
     place = detach_place(bare.phrases[-1]) if bare else None
     source = next((c for c in slots.rest if c.phrases and c.role == "from"), None)
     if place is None and source:

@@ -98,6 +98,7 @@ def test_they_say_what_is_said_plainly(said: str, plainly: str) -> None:
         "bring the thermos to",
         "put the thermos on",
         "turn",
+        "empty there, there is one level",
         "the thermos belongs to Ada",
         "help me move the sofa",
         "go round the sofa",
