@@ -18,8 +18,10 @@ _SWITCHABLE = words(
     "light lamp tv television machine fan heater heating oven stove computer pc laptop "
     "cleaner "
     "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
-    "dryer toaster device chandelier radio stereo speaker printer blender mixer console"
+    "dryer toaster device chandelier"
 )
+_APPLIANCES = _SWITCHABLE | words("radio stereo speaker printer blender mixer console")
+"""What is a device where a world has it; not all of them are in every home."""
 
 
 def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> list[str]:
@@ -58,8 +60,8 @@ def device_names(said: Complement, scope: Scope, act: str) -> list[str]:
 
 
 def is_device(goal: Goal) -> bool:
-    """Whether what is switched is of a kind that any home may switch."""
-    return isinstance(goal, Switch) and singular(goal.what.split()[-1]) in _SWITCHABLE
+    """Whether what is switched is of a kind that is switched."""
+    return isinstance(goal, Switch) and singular(goal.what.split()[-1]) in _APPLIANCES
 
 
 def open_(clause: Clause, scope: Scope) -> list[Goal]:
@@ -101,7 +103,7 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
     if (
         clause.verb in ("light", "put")
         and said
-        and singular(said.phrase.said.split()[-1]) not in _SWITCHABLE
+        and singular(said.phrase.said.split()[-1]) not in _APPLIANCES
     ):
         raise NotUnderstood(f"I cannot switch “{said.phrase.said}”")
     if said is None and not particles & {"on", "off"}:
