@@ -25,6 +25,14 @@ _SEEN = lexicon.words(
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
 
 
+def _is_seen(text: Text, at: int) -> bool:
+    """Whether "can you see ..." asks after something, and not for it to be seen to the door."""
+    named = text.name_at(at)
+    return text.word(at) in _SEEN or (
+        named is not None and text.word(named.end) not in ("to", "into")
+    )
+
+
 def _numbering_end(text: Text, at: int) -> int | None:
     """*Step 1:* go to the table. *2.* Take the cup."""
     numeral = at + (text.word(at) in ("step", "number", "task"))
@@ -79,7 +87,7 @@ class Clauses:
             if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
                 at += 4
                 continue
-            if text.words[at + 1 : at + 3] == ["you", "see"] and text.word(at + 3) in _SEEN:
+            if text.words[at + 1 : at + 3] == ["you", "see"] and _is_seen(text, at + 3):
                 return at
             verb = verbs_at(text.words, at)
             end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)

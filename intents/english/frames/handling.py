@@ -180,6 +180,8 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)
+    if bare and clause.verb == "tidy" and is_spot(bare.phrase):
+        raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
     beside = bare and bare.phrases[-1].places[-1:]
     near = bool(beside and beside[0].how == "near" and beside[0].of.name("object"))
     if bare and near and len(bare.phrases[-1].places) > 1:

@@ -20,6 +20,8 @@ def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
     return [replace(p, at=p.at or at) for p in people]
 
 
+_NEED_PLACE = ("see", "show", "help", "move", "steer")
+"""Verbs that guide only where a place is named: see Ada to the door."""
 _GUIDES = ("guide", "escort", "lead", "accompany", "conduct", "usher")
 
 
@@ -61,8 +63,9 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
     people = _someone(slots, "Whom shall I guide?", "with")
     slots.direction("forward", "around", "up", "down")
     slots.done()
-    if to is None and people == [ME] and clause.verb.split()[0] not in _GUIDES:
-        raise Misfit("that is to bring something")
+    verb = clause.verb.split()[0]
+    if to is None and verb not in _GUIDES and (people == [ME] or verb in _NEED_PLACE):
+        raise Misfit("that is not to guide anybody")
     return [Guide(person=p, to=to) for p in people]
 
 

@@ -51,6 +51,8 @@ THERE = Context(
         ("face the other way", "turn around"),
         ("pick up the cup. the blue one", "pick up the blue cup"),
         ("do a 180", "turn around"),
+        ("can you see Anna?", "do you see Anna?"),
+        ("could you see Anna to the table?", "guide Anna to the table"),
         ("quit following me", "cancel that"),
         ("meet me at the table", "go to the table"),
         ("come and join us", "come here"),

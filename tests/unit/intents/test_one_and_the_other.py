@@ -160,6 +160,12 @@ def test_a_place_told_apart_by_nothing_is_asked_for(said: str) -> None:
     asked(said)
 
 
+def test_to_tidy_is_refused_with_what_can_be_done_instead() -> None:
+    outcome = parse("tidy the bench", WORDS)
+    assert isinstance(outcome, Refusal)
+    assert "what is to go where" in outcome.reason
+
+
 @pytest.mark.parametrize("said", ["swap the two jars", "exchange the hammer and the green jar"])
 def test_to_swap_is_refused_with_what_can_be_done_instead(said: str) -> None:
     outcome = parse(said, WORDS)
