@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
+from functools import cache, cached_property
 from multiprocessing import get_context
 from typing import NamedTuple
 
@@ -65,8 +65,8 @@ CONDITIONS = (
     Condition("stops", "white", 10.0),
     Condition("stops", "babble", 20.0),
 )
-"""Each voice has said sixteen sentences before, and goes on being got used to; a stranger's is
-forgotten after each."""
+"""All voices have said sixteen sentences before, and go on being got used to; who speaks is not
+said. A stranger's voice is forgotten after each sentence, and no other is known."""
 
 
 class Result(NamedTuple):
@@ -111,21 +111,21 @@ class Listener:
         """Compile the grammars."""
         self._vocabularies = vocabularies()
         self._recognisers = {name: Sphinx(v) for name, v in self._vocabularies.items()}
-        self.speaker = Speaker()
+        self.speakers: tuple[Speaker, ...] = ()
 
     def hear(self, take: Take, condition: Condition, seed: int) -> Result:
         """Listen to one take, and judge it by the list that it is from."""
         names = list(self._recognisers)
         world = take.line.world or names[seed % len(names)]
         recogniser = self._recognisers[world]
-        recogniser.speaker = self.speaker
+        recogniser.speakers = self.speakers
         sound = stream(take, condition.noise, condition.snr_db, seed)
         begun_s = time.process_time()
         ear = Ear(recogniser)
         found = [s for at in range(0, len(sound), BLOCK) for s in ear.push(sound[at : at + BLOCK])]
         found += ear.finish()
         busy_s = time.process_time() - begun_s
-        self.speaker = recogniser.speaker
+        self.speakers = recogniser.speakers
         sentences = [one for one in found if one.kind == "sentence"]
         stopped = any(one.kind == "stop" for one in found)
         good = {
@@ -136,12 +136,15 @@ class Listener:
         heard = "; ".join(f"{one.kind} {one.text!r}" for one in found)
         return Result(take, good, stopped, busy_s, len(sound) / RATE_HZ, heard)
 
-    def meet(self, voice: str) -> None:
-        """Forget the voice before, and listen to what another says first."""
-        self.speaker = Speaker()
-        for number, line in enumerate(lines("acquaintance")):
-            take = Take(line, voice, SPEEDS_WPM[number % len(SPEEDS_WPM)])
-            self.hear(take, Condition("commands"), number)
+    @cached_property
+    def acquainted(self) -> tuple[Speaker, ...]:
+        """The speakers when all voices have said their first sentences, each after the other."""
+        self.speakers = ()
+        for voice in VOICES:
+            for number, line in enumerate(lines("acquaintance")):
+                take = Take(line, voice, SPEEDS_WPM[number % len(SPEEDS_WPM)])
+                self.hear(take, Condition("commands"), number)
+        return self.speakers
 
 
 @cache
@@ -153,10 +156,10 @@ def _listener() -> Listener:
 def _listened(voice: str, condition: Condition, each: int) -> list[Result]:
     """What came of one in `each` takes of a voice."""
     listener, found = _listener(), list[Result]()
-    listener.meet(voice)
+    listener.speakers = listener.acquainted if condition.known else ()
     for number, take in enumerate(takes(condition.name, voice, each)):
         if not condition.known:
-            listener.speaker = Speaker()
+            listener.speakers = ()
         found.append(listener.hear(take, condition, number))
     return found
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import struct
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 import numpy as np
@@ -56,9 +56,43 @@ class Acoustics:
         Returns:
             Shape (frames, Gaussians) [nat].
         """
-        mean, precision = self.means[phone, stream], self.precisions[phone, stream]
-        around = (mean**2 * precision - np.log(precision)).sum(axis=1)
-        return seen @ (mean * precision).T - 0.5 * (seen**2 @ precision.T + around)
+        return _densities(seen, self.means[phone, stream], self.precisions[phone, stream])
+
+    def speech(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The log-density of cepstra under all sounds of speech, whichever, but for a constant.
+
+        Args:
+            values: centred cepstra, shape (frames, 13).
+
+        Returns:
+            Shape (frames,) [nat].
+        """
+        means, precisions, weights = self._pooled
+        return log_sum(_densities(values, means, precisions) + weights)
+
+    @cached_property
+    def _pooled(self) -> tuple[NDArray[np.float64], ...]:
+        """The Gaussians of the cepstra of all sounds of speech, and their weights."""
+        sounds = [n for name, n in self.phones.items() if name != SILENCE and name[0] != "+"]
+        shares = np.exp(self.weights[sounds, :, 0]).mean(axis=1)
+        return (
+            self.means[sounds, 0].reshape(-1, COUNT),
+            self.precisions[sounds, 0].reshape(-1, COUNT),
+            np.log(shares / len(sounds)).ravel(),
+        )
+
+
+def log_sum(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The logarithm of the sum of what has these logarithms, row by row."""
+    highest = values.max(axis=1)
+    return highest + np.log(np.exp(values - highest[:, None]).sum(axis=1))
+
+
+def _densities(
+    seen: NDArray[np.float64], means: NDArray[np.float64], precisions: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    around = (means**2 * precisions - np.log(precisions)).sum(axis=1)
+    return seen @ (means * precisions).T - 0.5 * (seen**2 @ precisions.T + around)
 
 
 @cache

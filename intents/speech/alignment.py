@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from intents.speech.acoustics import SILENCE, STATES, STREAMS, Acoustics
+from intents.speech.acoustics import SILENCE, STATES, STREAMS, Acoustics, log_sum
 from intents.speech.cepstra import Cepstra, with_changes
 
 States = NDArray[np.intp]
@@ -49,13 +49,8 @@ def _fitting(values: Cepstra, chain: States, model: Acoustics) -> NDArray[np.flo
         scores = [model.scores(phone, stream, streams[stream]) for stream in range(STREAMS)]
         for state in range(STATES):
             weighed = [scores[k] + model.weights[phone, state, k] for k in range(STREAMS)]
-            found[phone, state] = np.sum([_log_sum(one) for one in weighed], axis=0)
+            found[phone, state] = np.sum([log_sum(one) for one in weighed], axis=0)
     return np.stack([found[int(phone), int(state)] for phone, state in chain], axis=1)
-
-
-def _log_sum(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    highest = values.max(axis=1)
-    return highest + np.log(np.exp(values - highest[:, None]).sum(axis=1))
 
 
 def _best_path(fitting: NDArray[np.float64], from_before: States) -> States:

@@ -1,4 +1,4 @@
-"""Getting used to a voice: an affine map from its cepstra to those that the model was trained on.
+"""Getting used to voices: an affine map from each one's cepstra to those of the model.
 
 The map is the one under which what the speaker is known to have said is most likely (constrained
 maximum likelihood linear regression, "fMLLR"), found row by row. A prior stands in for a few
@@ -9,6 +9,7 @@ likelihood linear transformations for HMM-based speech recognition.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -23,6 +24,10 @@ PRIOR_FRAMES = 300.0
 """How many frames the prior is worth."""
 HALF_LIFE_FRAMES = 20_000.0
 """After so much speech of the same or another voice, what was heard counts half."""
+MOST = 4
+"""Voices are known at a time; whoever was silent longest is forgotten."""
+UNLIKE = 2.0
+"""So much worse than usual fits a voice that is not the speaker's [nat/frame]."""
 ROUNDS = 8
 """Over the rows; each depends on the others."""
 _FEW = 1e-4
@@ -52,15 +57,17 @@ class _Sums:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Speaker:
     """What is known of a voice; of a stranger's, nothing.
 
     Attributes:
         map: shape (13, 14): applied to centred cepstra and 1.
+        usual: how well speech of the voice fits the model [nat/frame].
     """
 
     map: Array = field(default_factory=lambda: np.eye(COUNT, COUNT + 1))
+    usual: float = 0.0
     _sums: _Sums = field(default_factory=_Sums)
 
     @property
@@ -82,7 +89,17 @@ class Speaker:
         """
         share = 0.5 ** (len(values) / HALF_LIFE_FRAMES)
         sums = self._sums.plus(self._seen(values, states, model), share=share)
-        return replace(self, map=_best(self.map, sums.plus(_prior(model))), _sums=sums)
+        used_to = replace(self, map=_best(self.map, sums.plus(_prior(model))), _sums=sums)
+        fits = used_to.fits(values, model)
+        return replace(used_to, usual=fits if not self.frames else 0.8 * self.usual + 0.2 * fits)
+
+    def fits(self, values: Cepstra, model: Acoustics) -> float:
+        """How well an utterance fits the model through the map [nat/frame]."""
+        loud = values[values[:, 0] >= 0.0]
+        if not len(loud):
+            return -np.inf
+        stretch = np.linalg.slogdet(self.map[:, :COUNT]).logabsdet
+        return float(model.speech(self.adapted(loud)).mean() + stretch)
 
     def _seen(self, values: Cepstra, states: States, model: Acoustics) -> _Sums:
         """The sums of one utterance; silence is no part of a voice."""
@@ -109,6 +126,13 @@ class Speaker:
                     )
                 )
         return sums
+
+
+def whose(values: Cepstra, known: Iterable[Speaker], model: Acoustics) -> Speaker:
+    """Who says an utterance: of those that are known the one that it fits best, or a stranger."""
+    fitting = [(speaker.fits(values, model), speaker) for speaker in known]
+    best, speaker = max(fitting, key=lambda one: one[0], default=(-np.inf, Speaker()))
+    return speaker if best > speaker.usual - UNLIKE else Speaker()
 
 
 def _with_one(values: Array, stream: int) -> Array:

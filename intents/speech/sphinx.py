@@ -28,7 +28,7 @@ from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce
 from intents.speech.recogniser import Heard
 from intents.speech.rejection import Fit, doubt, features, mean_score
-from intents.speech.speaker import Speaker
+from intents.speech.speaker import MOST, Speaker, whose
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
 
@@ -48,6 +48,8 @@ SAY_OF_GRAMMAR = 8.0
 """The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
+VARIANTS = (("halt", "HH AA L T"),)
+"""Pronunciations that the dictionary lacks: of those who say "cot" and "caught" alike."""
 KNOWN_FRAMES = 3000
 """After so much speech a voice is known: a second look at what it says brings no more."""
 SHORT_S = 1.7
@@ -67,28 +69,29 @@ ENDS = 5.0
 
 
 class Utterance(NamedTuple):
-    """What is listened to: its centred cepstra, and the mean square of each frame."""
+    """What is listened to: its centred cepstra, the mean square of each frame, and who speaks."""
 
     values: Cepstra
     power: NDArray[np.float64]
+    speaker: Speaker
 
 
 class Sphinx:
     """A recogniser for the commands of one world.
 
     Attributes:
-        speaker: whom it listens to, as far as it knows the voice.
+        speakers: whose voices it knows, who spoke last first.
     """
 
     def __init__(self, vocabulary: Vocabulary, *, wake_word: str = "") -> None:
         """Load the model and compile the grammar; takes about a second."""
-        self.speaker = Speaker()
+        self.speakers: tuple[Speaker, ...] = ()
         self._decoder = pocketsphinx.Decoder(**OPTIONS)
         self._acoustics = acoustics.load(MODEL)
         self._vocabulary = vocabulary
         self._wake_word = wake_word
         self._compiled: set[str] = set()
-        self._last: tuple[Cepstra, list[Fit]] | None = None
+        self._last: tuple[Utterance, list[Fit]] | None = None
         self._search(SPOKEN)
 
     def recognise(self, sound: Samples, *, replying: bool = False) -> Heard:
@@ -98,13 +101,15 @@ class Sphinx:
         data = prepared(sound)
         if not data:
             return Heard(text="")
-        heard = Utterance(centred(cepstra(data)), _power(data))
+        values = centred(cepstra(data))
+        speaker = whose(values, self.speakers, self._acoustics)
+        heard = Utterance(values, _power(data), speaker)
         fits = self._found(heard, REPLY if replying else SPOKEN)
         if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
-            cry = self._decoded(heard, CRY, self.speaker)
+            cry = self._decoded(heard, CRY, speaker)
             if cry and _is_cry(cry, fits, replying=replying):
                 fits = cry
-        self._last = (heard.values, fits)
+        self._last = (heard, fits)
         return Heard(
             text=_text(fits),
             doubt=doubt(fits) if fits else 0.0,
@@ -114,21 +119,24 @@ class Sphinx:
     def learn(self) -> None:
         """Get used to the voice of the last utterance, which was a command."""
         if self._last and self._last[1]:
-            self.speaker = self._used_to(*self._last)
+            heard, fits = self._last
+            others = (one for one in self.speakers if one is not heard.speaker)
+            self.speakers = (self._used_to(heard, fits), *others)[:MOST]
         self._last = None
 
     def _found(self, heard: Utterance, root: str) -> list[Fit]:
         """The words that fit best, of a known voice, or one that is got used to for this once."""
-        fits = self._decoded(heard, root, self.speaker) or self._decoded(heard, root, Speaker())
-        if not fits or self.speaker.frames > KNOWN_FRAMES:
+        speaker = heard.speaker
+        fits = self._decoded(heard, root, speaker) or self._decoded(heard, root, Speaker())
+        if not fits or speaker.frames > KNOWN_FRAMES:
             return fits
-        return self._decoded(heard, root, self._used_to(heard.values, fits)) or fits
+        return self._decoded(heard, root, self._used_to(heard, fits)) or fits
 
-    def _used_to(self, values: Cepstra, fits: list[Fit]) -> Speaker:
+    def _used_to(self, heard: Utterance, fits: list[Fit]) -> Speaker:
         """The speaker, after words that fit an utterance."""
         spoken = [fit.phones for fit in fits]
-        states: States = aligned(self.speaker.adapted(values), spoken, self._acoustics)
-        return self.speaker.after(values, states, self._acoustics)
+        states: States = aligned(heard.speaker.adapted(heard.values), spoken, self._acoustics)
+        return heard.speaker.after(heard.values, states, self._acoustics)
 
     def _decoded(self, heard: Utterance, root: str, speaker: Speaker) -> list[Fit]:
         """The words of a speaker that fit best of what begins with a rule; none if nothing fits."""
@@ -163,6 +171,9 @@ class Sphinx:
                 if self._decoder.lookup_word(word) is None:
                     phones = pronounce(word, self._decoder.lookup_word)
                     self._decoder.add_word(word, phones, False)  # noqa: FBT003
+            for number, (word, phones) in enumerate(VARIANTS, start=2):
+                if self._decoder.lookup_word(f"{word}({number})") is None:
+                    self._decoder.add_word(f"{word}({number})", phones, False)  # noqa: FBT003
             self._decoder.add_fsg(root, _fsg(self._decoder, root, automaton))
             self._compiled.add(root)
         self._decoder.activate_search(root)

@@ -11,7 +11,7 @@ from intents.speech.acoustics import SILENCE, STATES
 from intents.speech.alignment import aligned
 from intents.speech.cepstra import COUNT, centred, cepstra, with_changes
 from intents.speech.frontend import prepared
-from intents.speech.speaker import Speaker
+from intents.speech.speaker import Speaker, whose
 from intents.speech.sphinx import MODEL
 
 SOUND = Path(__file__).parent / "sounds" / "command.wav"
@@ -155,3 +155,9 @@ def test_an_old_voice_is_forgotten(model, monkeypatch):
         speaker = speaker.after(values, states, model)
     spoken = (states[:, 0] != model.phones[SILENCE]).sum()
     assert speaker.frames == pytest.approx(spoken * (2 - 0.5**4))
+
+
+def test_who_says_nothing_is_a_stranger(model):
+    known = Speaker().after(*said(model), model)
+    assert whose(np.full((5, COUNT), -1.0), [known], model).frames == 0
+    assert whose(said(model)[0], [], model).frames == 0

@@ -98,19 +98,38 @@ def test_nothing_is_nothing(recogniser, nothing):
     assert not heard.believed
 
 
-def test_a_voice_is_got_used_to_by_commands_only(recogniser):
-    stranger = recogniser.speaker
+def test_a_voice_is_got_used_to_by_commands_only():
+    recogniser = Sphinx(KITCHEN)
     recogniser.recognise(in_noise(sound("command"), 40))
-    assert recogniser.speaker is stranger
+    assert recogniser.speakers == ()
     recogniser.learn()
-    known = recogniser.speaker
+    (known,) = recogniser.speakers
     assert known.frames > 50
     recogniser.learn()
-    assert recogniser.speaker is known
     recogniser.recognise(np.zeros(0, np.float32))
     recogniser.learn()
-    assert recogniser.speaker is known
-    recogniser.speaker = stranger
+    assert recogniser.speakers == (known,)
+
+
+def higher(spoken, factor):
+    """The same, said faster by a shorter speaker."""
+    at = np.arange(0, len(spoken) - 1, factor)
+    return np.interp(at, np.arange(len(spoken)), spoken).astype(np.float32)
+
+
+def test_voices_are_told_apart():
+    recogniser = Sphinx(KITCHEN)
+    for _ in range(2):
+        for factor in (1.0, 1.2):
+            recogniser.recognise(in_noise(higher(sound("command"), factor), 40))
+            recogniser.learn()
+    high, low = recogniser.speakers
+    for factor, speaker in [(1.0, low), (1.2, high)]:
+        for name in ("command", "other"):
+            recogniser.recognise(in_noise(higher(sound(name), factor), 40))
+            recogniser.learn()
+            assert recogniser.speakers[0].frames > speaker.frames
+            recogniser.speakers = (high, low)
 
 
 def test_a_command_of_a_known_voice_fits_better():
