@@ -78,7 +78,7 @@ def test_which_of_them_is_asked_with_every_choice(said: str) -> None:
         ("put it back where it was", "on the bench", "put it back on the bench"),
         ("bring the hammer to where you found it", "the bench", "bring the hammer to the bench"),
         ("step aside", "left", "step to the left"),
-        ("get out of my way, please", "to the right", "step to the right"),
+        ("get out of my way, please", "the right", "sidestep right"),
     ],
 )
 def test_what_has_no_name_is_asked_and_the_answer_fits(
