@@ -35,7 +35,7 @@ bench: env-dev ## measure; figures go to docs/benchmarks.md
 eval: env ## strike with every fault (ARGS="--seeds 20 --no-recovery" for the whole table)
 	@$(BIN)/humanoid eval $(ARGS)
 
-bench-intents: env-dev ## measure what is understood (ARGS="--sets FOLDER --speech 12": your sets, what is heard)
+bench-intents: env-dev ## measure what is understood, typed and spoken (ARGS="--sets FOLDER": your sets too)
 	@$(BIN)/python -m benchmarks.intents $(ARGS)
 
 bench-speech: env-dev ## measure what is heard; needs espeak-ng (ARGS="--share 1" for every take)
