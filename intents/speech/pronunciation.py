@@ -19,6 +19,10 @@ _VOICELESS = words("P T K F TH")
 _HISSING = words("S Z SH ZH CH JH")
 _DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
+_ALSO = (("AO L T", "AA L T"), ("OW L", "AH UH L"))
+"""Sounds that others make otherwise, where the model takes it for another word: "halt" of those who
+say "cot" and "caught" alike, "bowl" of the British."""
+
 _SOUNDS: tuple[tuple[str, str], ...] = (
     ("tion", "SH AH N"), ("sion", "ZH AH N"), ("ough", "AO"), ("augh", "AO"), ("eigh", "EY"),
     ("tch", "CH"), ("sch", "SH"), ("dge", "JH"), ("igh", "AY"), ("eau", "OW"), ("oor", "AO R"),
@@ -60,6 +64,16 @@ def pronounce(word: str, lookup: Lookup) -> str:
         spoken = [_DIGITS[int(part)] if part.isdigit() else part for part in parts]
         return " ".join(pronounce(part, lookup) for part in spoken)
     return _compound(word, lookup) or _ended(word, lookup) or by_letters(word)
+
+
+def variants(phones: str) -> list[str]:
+    """How else a word may sound.
+
+    >>> variants("B OW L"), variants("K AH P")
+    (['B AH UH L'], [])
+    """
+    made = (re.sub(rf"\b{usual}\b", other, phones) for usual, other in _ALSO)
+    return [one for one in made if one != phones]
 
 
 def _compound(word: str, lookup: Lookup) -> str:

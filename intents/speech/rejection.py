@@ -70,7 +70,7 @@ def features(fits: list[Fit]) -> Features:
 
 
 WEIGHTS = Features(worst=0.619, mean=3.802, length=-2.759, chance=0.173, unsaid=-32.865)
-BIAS = 36.142
+BIAS = 37.142
 """Of a logistic regression over the sentences for tuning of `benchmarks.speech`."""
 
 

@@ -25,7 +25,7 @@ from intents.speech.automaton import Automaton
 from intents.speech.cepstra import HOP, Cepstra, centred, cepstra
 from intents.speech.frontend import prepared
 from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
-from intents.speech.pronunciation import pronounce
+from intents.speech.pronunciation import pronounce, variants
 from intents.speech.recogniser import Heard
 from intents.speech.rejection import Fit, doubt, features, mean_score
 from intents.speech.speaker import MOST, Speaker, whose
@@ -36,20 +36,18 @@ MODEL = Path(pocketsphinx.get_model_path()) / "en-us" / "en-us"
 OPTIONS: dict[str, Any] = {
     "hmm": str(MODEL), "featparams": str(Path(__file__).with_name("features.params")),
     "lm": None, "bestpath": False, "loglevel": "FATAL",
-    "compallsen": True, "beam": 1e-80, "pbeam": 1e-80, "wbeam": 1e-50, "wip": 0.05, "lw": 4.0,
+    "compallsen": True, "beam": 1e-80, "pbeam": 1e-80, "wbeam": 1e-60, "wip": 0.05, "lw": 4.0,
 }  # fmt: skip
 """Of the decoder: all senones scored, wide beams, few insertions; no lattice, which loses words."""
 USUAL = {
     "the": 15.0, "me": 80.0, "them": 0.3, "stop": 4.0, "halt": 2.0, "freeze": 2.0,
-    "emergency": 2.0,
+    "emergency": 2.0, "locate": 0.05, "drop": 0.1, "lead": 0.5, "both": 0.5, "everything": 0.5,
 }  # fmt: skip
 """How much likelier a word is than another that may stand in its place."""
 SAY_OF_GRAMMAR = 8.0
 """The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
-VARIANTS = (("halt", "HH AA L T"),)
-"""Pronunciations that the dictionary lacks: of those who say "cot" and "caught" alike."""
 KNOWN_FRAMES = 3000
 """After so much speech a voice is known: a second look at what it says brings no more."""
 SHORT_S = 1.7
@@ -104,11 +102,13 @@ class Sphinx:
         values = centred(cepstra(data))
         speaker = whose(values, self.speakers, self._acoustics)
         heard = Utterance(values, _power(data), speaker)
-        fits = self._found(heard, REPLY if replying else SPOKEN)
-        if len(data) < _SHORT_BYTES and not is_stop(_text(fits)):
-            cry = self._decoded(heard, CRY, speaker)
-            if cry and _is_cry(cry, fits, replying=replying):
-                fits = cry
+        root = REPLY if replying else SPOKEN
+        fits = self._decoded(heard, root, speaker) or self._decoded(heard, root, Speaker())
+        short = len(data) < _SHORT_BYTES
+        fits = self._cry(heard, fits, replying=replying) if short else fits
+        if fits and speaker.frames < KNOWN_FRAMES and not is_stop(_text(fits)):
+            fits = self._decoded(heard, root, self._used_to(heard, fits)) or fits
+            fits = self._cry(heard, fits, replying=replying, again=True) if short else fits
         self._last = (heard, fits)
         return Heard(
             text=_text(fits),
@@ -124,13 +124,16 @@ class Sphinx:
             self.speakers = (self._used_to(heard, fits), *others)[:MOST]
         self._last = None
 
-    def _found(self, heard: Utterance, root: str) -> list[Fit]:
-        """The words that fit best, of a known voice, or one that is got used to for this once."""
-        speaker = heard.speaker
-        fits = self._decoded(heard, root, speaker) or self._decoded(heard, root, Speaker())
-        if not fits or speaker.frames > KNOWN_FRAMES:
+    def _cry(
+        self, heard: Utterance, fits: list[Fit], *, replying: bool, again: bool = False
+    ) -> list[Fit]:
+        """A cry in place of the words that fit, if it may be one; `again`: used to it."""
+        if is_stop(_text(fits)):
             return fits
-        return self._decoded(heard, root, self._used_to(heard, fits)) or fits
+        cry = self._decoded(heard, CRY, heard.speaker)
+        if cry and again:
+            cry = self._decoded(heard, CRY, self._used_to(heard, cry))
+        return cry if cry and _is_cry(cry, fits, replying=replying) else fits
 
     def _used_to(self, heard: Utterance, fits: list[Fit]) -> Speaker:
         """The speaker, after words that fit an utterance."""
@@ -168,15 +171,25 @@ class Sphinx:
         if root not in self._compiled:
             automaton = grammar(self._vocabulary, root, wake_word=self._wake_word)
             for word in sorted(automaton.words):
-                if self._decoder.lookup_word(word) is None:
-                    phones = pronounce(word, self._decoder.lookup_word)
-                    self._decoder.add_word(word, phones, False)  # noqa: FBT003
-            for number, (word, phones) in enumerate(VARIANTS, start=2):
-                if self._decoder.lookup_word(f"{word}({number})") is None:
-                    self._decoder.add_word(f"{word}({number})", phones, False)  # noqa: FBT003
+                self._pronounce(word)
             self._decoder.add_fsg(root, _fsg(self._decoder, root, automaton))
             self._compiled.add(root)
         self._decoder.activate_search(root)
+
+    def _pronounce(self, word: str) -> None:
+        """Let the decoder know how a word sounds, and how else."""
+        lookup = self._decoder.lookup_word
+        phones = lookup(word)
+        if phones is None:
+            phones = pronounce(word, lookup)
+            self._decoder.add_word(word, phones, False)  # noqa: FBT003
+        known = [phones]
+        while (other := lookup(f"{word}({len(known) + 1})")) is not None:
+            known.append(other)
+        for other in variants(phones):
+            if other not in known:
+                known.append(other)
+                self._decoder.add_word(f"{word}({len(known)})", other, False)  # noqa: FBT003
 
 
 def _power(data: bytes) -> NDArray[np.float64]:

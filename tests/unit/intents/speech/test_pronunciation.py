@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from intents.english.lexicon import words
-from intents.speech.pronunciation import by_letters, pronounce
+from intents.speech.pronunciation import by_letters, pronounce, variants
 
 KNOWN = {
     "side": "S AY D", "board": "B AO R D", "work": "W ER K", "top": "T AA P", "cup": "K AH P",
@@ -57,3 +57,11 @@ def test_any_word_has_phones_of_the_dictionary(word):
     phones = pronounce(word, KNOWN.get).split()
     assert set(phones) <= PHONES
     assert phones or not any(c.isalnum() for c in word)
+
+
+@pytest.mark.parametrize(
+    ("phones", "others"),
+    [("B OW L", ["B AH UH L"]), ("HH AO L T", ["HH AA L T"]), ("B OW", []), ("S AO L", [])],
+)
+def test_what_others_say_otherwise(phones, others):
+    assert variants(phones) == others

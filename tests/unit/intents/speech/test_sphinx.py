@@ -154,6 +154,18 @@ def test_the_wake_word_is_recognised_with_the_rest(recogniser):
     assert "red cup" in called.recognise(in_noise(sound("command"), 40)).text
 
 
+def test_a_word_is_known_as_others_say_it():
+    bowls = Vocabulary.of(objects=["bowl", "fishbowl"], places=["table"], rooms=[], people=[])
+    decoder = Sphinx(bowls)._decoder
+    for word in ("bowl", "fishbowl", "bowls"):
+        spoken, number = [decoder.lookup_word(word)], 1
+        while spoken[-1] is not None:
+            number += 1
+            spoken.append(decoder.lookup_word(f"{word}({number})"))
+        assert len(set(spoken)) == len(spoken)
+        assert any("AH UH L" in one for one in spoken if one)
+
+
 # --- its parts -----------------------------------------------------------------------------------
 
 
