@@ -48,7 +48,7 @@ SAY_OF_GRAMMAR = 8.0
 """The weight of the grammar against the sound (`create_fsg` leaves the decoder's own out)."""
 _UNSCALED = 1024.0
 """Scores of segments come divided by two to the tenth (SENSCR_SHIFT)."""
-KNOWN_FRAMES = 3000
+KNOWN_FRAMES = 1500
 """After so much speech a voice is known: a second look at what it says brings no more."""
 SHORT_S = 1.7
 """What is no longer may be a cry to stop, whatever else it is like."""
