@@ -8,14 +8,13 @@ from __future__ import annotations
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import typer
 
 from executive.journal import Event
 from intents.speech.audio import AudioError
 from intents.speech.voice import Silence, Speaker, Voice, voice
+from robot.closing import Closing
 from robot.errors import ConfigError, Problem
 
 LAST_WORDS_S = 20.0
@@ -28,7 +27,7 @@ def _as_it_is(text: str) -> str:
     return text
 
 
-class Speech:
+class Speech(Closing):
     """What is for ears goes through here; a context manager, silent afterwards."""
 
     def __init__(
@@ -79,16 +78,7 @@ class Speech:
             self.hush()
         self._tell()
 
-    def __enter__(self) -> Self:
-        """Return the speech itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Be silent for good."""
         self._voice.close()
 

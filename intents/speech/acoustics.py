@@ -71,9 +71,14 @@ class Acoustics:
         return log_sum(_densities(values, means, precisions) + weights)
 
     @cached_property
+    def sounds(self) -> list[int]:
+        """The numbers of the phones that are sounds of speech: no silence, no noise."""
+        return [n for name, n in self.phones.items() if name != SILENCE and name[0] != "+"]
+
+    @cached_property
     def _pooled(self) -> tuple[NDArray[np.float64], ...]:
         """The Gaussians of the cepstra of all sounds of speech, and their weights."""
-        sounds = [n for name, n in self.phones.items() if name != SILENCE and name[0] != "+"]
+        sounds = self.sounds
         shares = np.exp(self.weights[sounds, :, 0]).mean(axis=1)
         return (
             self.means[sounds, 0].reshape(-1, COUNT),

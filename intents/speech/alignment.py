@@ -21,7 +21,7 @@ _NEVER = -1e30
 
 
 def aligned(values: Cepstra, words: Iterable[Sequence[str]], model: Acoustics) -> States:
-    """The state of each frame.
+    """The state of each frame; all silence, if there is not time enough for the words.
 
     Args:
         values: centred cepstra.
@@ -38,6 +38,8 @@ def aligned(values: Cepstra, words: Iterable[Sequence[str]], model: Acoustics) -
     for number in range(2, len(names)):
         if passed_over[number - 1]:
             from_before[STATES * number] = STATES * (number - 1) - 1
+    if len(values) < len(chain) - STATES * sum(passed_over):
+        return np.tile(chain[0], (len(values), 1))
     return chain[_best_path(_fitting(values, chain, model), from_before)]
 
 

@@ -24,7 +24,7 @@ PRIOR_FRAMES = 300.0
 """How many frames the prior is worth."""
 HALF_LIFE_FRAMES = 20_000.0
 """After so much speech of the same or another voice, what was heard counts half."""
-MOST = 4
+MOST_KNOWN = 4
 """Voices are known at a time; whoever was silent longest is forgotten."""
 UNLIKE = 2.0
 """So much worse than usual fits a voice that is not the speaker's [nat/frame]."""
@@ -145,9 +145,8 @@ def _with_one(values: Array, stream: int) -> Array:
 def _prior(model: Acoustics) -> _Sums:
     """The sums of a speaker whose every sound is as the model has it, each as often."""
     squares = np.zeros((COUNT, COUNT + 1, COUNT + 1))
-    spoken = [n for name, n in model.phones.items() if name != SILENCE and name[0] != "+"]
-    share = PRIOR_FRAMES / (len(spoken) * STATES)
-    for phone in spoken:
+    share = PRIOR_FRAMES / (len(model.sounds) * STATES)
+    for phone in model.sounds:
         for state in range(STATES):
             for stream in range(STREAMS):
                 weights = np.exp(model.weights[phone, state, stream])

@@ -1,5 +1,5 @@
 # pyright: basic
-# PocketSphinx has no types; this is the one file that knows it.
+# PocketSphinx has no types; this is the one file that imports it.
 """The embedded recogniser: PocketSphinx with its bundled English model and a grammar.
 
 Whatever it hears it forces onto the grammar, so every result comes with a doubt. It gets used to
@@ -28,7 +28,7 @@ from intents.speech.grammar import CRY, REPLY, SPOKEN, grammar
 from intents.speech.pronunciation import pronounce, variants
 from intents.speech.recogniser import Heard
 from intents.speech.rejection import Fit, doubt, features, mean_score
-from intents.speech.speaker import MOST, Speaker, whose
+from intents.speech.speaker import MOST_KNOWN, Speaker, whose
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
 
@@ -104,11 +104,13 @@ class Sphinx:
         heard = Utterance(values, _power(data), speaker)
         root = REPLY if replying else SPOKEN
         fits = self._decoded(heard, root, speaker) or self._decoded(heard, root, Speaker())
-        short = len(data) < _SHORT_BYTES
-        fits = self._cry(heard, fits, replying=replying) if short else fits
+        short = len(data) < _SHORT_BYTES and not is_stop(_text(fits))
+        cry = self._decoded(heard, CRY, speaker) if short else []
+        fits = _heeded(cry, fits, replying=replying)
         if fits and speaker.frames < KNOWN_FRAMES and not is_stop(_text(fits)):
             fits = self._decoded(heard, root, self._used_to(heard, fits)) or fits
-            fits = self._cry(heard, fits, replying=replying, again=True) if short else fits
+            cry = self._decoded(heard, CRY, self._used_to(heard, cry)) if cry else []
+            fits = _heeded(cry, fits, replying=replying)
         self._last = (heard, fits)
         return Heard(
             text=_text(fits),
@@ -121,19 +123,8 @@ class Sphinx:
         if self._last and self._last[1]:
             heard, fits = self._last
             others = (one for one in self.speakers if one is not heard.speaker)
-            self.speakers = (self._used_to(heard, fits), *others)[:MOST]
+            self.speakers = (self._used_to(heard, fits), *others)[:MOST_KNOWN]
         self._last = None
-
-    def _cry(
-        self, heard: Utterance, fits: list[Fit], *, replying: bool, again: bool = False
-    ) -> list[Fit]:
-        """A cry in place of the words that fit, if it may be one; `again`: used to it."""
-        if is_stop(_text(fits)):
-            return fits
-        cry = self._decoded(heard, CRY, heard.speaker)
-        if cry and again:
-            cry = self._decoded(heard, CRY, self._used_to(heard, cry))
-        return cry if cry and _is_cry(cry, fits, replying=replying) else fits
 
     def _used_to(self, heard: Utterance, fits: list[Fit]) -> Speaker:
         """The speaker, after words that fit an utterance."""
@@ -196,6 +187,12 @@ def _power(data: bytes) -> NDArray[np.float64]:
     """The mean square of each frame of an utterance for the decoder."""
     samples = np.frombuffer(data, "<i2").astype(np.float64)
     return np.mean(samples[: len(samples) // HOP * HOP].reshape(-1, HOP) ** 2, axis=1)
+
+
+def _heeded(cry: list[Fit], fits: list[Fit], *, replying: bool) -> list[Fit]:
+    """A cry in place of other words that fit, if it may be what was said."""
+    other = bool(cry) and not is_stop(_text(fits))
+    return cry if other and _is_cry(cry, fits, replying=replying) else fits
 
 
 def _is_cry(cry: list[Fit], fits: list[Fit], *, replying: bool) -> bool:

@@ -106,6 +106,14 @@ def test_silence_between_words_is_found_and_not_demanded(model):
     assert spoken.count(model.phones[SILENCE]) == 3
 
 
+@pytest.mark.parametrize("frames", [1, 10, 38])
+def test_words_that_take_longer_teach_nothing(model, frames):
+    values, _ = said(model)
+    found = aligned(values[:frames], WORDS, model)
+    assert len(found) == frames
+    assert Speaker().after(values[:frames], found, model).frames == 0
+
+
 def test_a_stranger_is_heard_as_is(data):
     values = centred(cepstra(data))
     np.testing.assert_array_equal(Speaker().adapted(values), values)
