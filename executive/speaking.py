@@ -13,7 +13,7 @@ import typer
 
 from executive.journal import Event
 from intents.speech.audio import AudioError
-from intents.speech.voice import Silence, Speaker, Voice, voice
+from intents.speech.voice import Silence, Synthesiser, Voice, voice
 from robot.closing import Closing
 from robot.errors import ConfigError, Problem
 
@@ -84,7 +84,7 @@ class Speech(Closing):
 
     def _tell(self) -> None:
         """Tell people once why they hear nothing."""
-        problem = self._voice.problem if isinstance(self._voice, Speaker) else ""
+        problem = self._voice.problem if isinstance(self._voice, Synthesiser) else ""
         if problem and not self._told:
             self._told = True
             typer.echo(f"Nothing is heard ({problem.splitlines()[-1]}).", err=True)

@@ -33,7 +33,15 @@ BLOCK = RATE_HZ // 20
 
 
 class Condition(NamedTuple):
-    """What is measured: a list of sentences, in a noise, and whether the voice is known."""
+    """What is measured: a list of sentences, in a noise, and whether the voice is known.
+
+    Attributes:
+        name: of the list.
+        noise: what sounds beside the voice.
+        snr_db: how much louder the voice is.
+        known: "alone", "among others" (of four voices), or "not": a stranger's.
+        asked: the share that has to be right; None if nothing was asked.
+    """
 
     name: str
     noise: Noise = "clean"
@@ -76,7 +84,6 @@ class Result(NamedTuple):
 
     take: Take
     good: bool
-    stopped: bool
     busy_s: float
     sound_s: float
     heard: str
@@ -136,7 +143,7 @@ class Listener:
             "stops": stopped,
         }[condition.name]
         heard = "; ".join(f"{one.kind} {one.text!r}" for one in found)
-        return Result(take, good, stopped, busy_s, len(sound) / RATE_HZ, heard)
+        return Result(take, good, busy_s, len(sound) / RATE_HZ, heard)
 
     @cache  # noqa: B019 - there is one in a process
     def meet(self, voices: tuple[str, ...]) -> tuple[Speaker, ...]:

@@ -84,9 +84,9 @@ def voice(program: Program = "auto", *, model: Path | None = None) -> Voice:
     if program == "none":
         return Silence()
     if program == "piper" or (program == "auto" and model is not None):
-        return Speaker(_piper(model))
+        return Synthesiser(_piper(model))
     if shutil.which("espeak-ng"):
-        return Speaker([["espeak-ng", "-v", "en-us", "--stdin"]])
+        return Synthesiser([["espeak-ng", "-v", "en-us", "--stdin"]])
     if program == "auto":
         return Silence()
     raise AudioError("espeak-ng is not installed", _INSTALL)
@@ -130,7 +130,7 @@ def _rate_hz(described: Path) -> int:
         ) from None
 
 
-class Speaker:
+class Synthesiser:
     """Speaks through other programs, in a thread of its own; a context manager."""
 
     def __init__(self, pipeline: list[list[str]]) -> None:

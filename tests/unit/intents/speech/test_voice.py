@@ -8,7 +8,7 @@ import pytest
 
 from intents.speech import voice as module
 from intents.speech.audio import AudioError
-from intents.speech.voice import Silence, Speaker, voice
+from intents.speech.voice import Silence, Synthesiser, voice
 
 NEVER_S = 20.0
 
@@ -105,7 +105,7 @@ def test_a_program_that_fails_is_a_problem_not_an_exception(on_path):
 
 
 def test_a_program_that_is_gone_is_a_problem_not_an_exception(on_path):
-    with Speaker([["not-there"]]) as speaker:
+    with Synthesiser([["not-there"]]) as speaker:
         speaker.say("hello")
         assert speaker.wait(NEVER_S)
         assert "not-there" in speaker.problem
