@@ -75,8 +75,8 @@ class Terminal:
     def text(self) -> str:
         return "\n".join(self.lines)
 
-    def shows(self, words: str, *, within_s: float = 30.0) -> bool:
-        return eventually(lambda: words in self.text, within_s=within_s)
+    def shows(self, words: str) -> bool:
+        return eventually(lambda: words in self.text)
 
     def __enter__(self) -> "Terminal":
         return self

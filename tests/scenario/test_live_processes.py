@@ -104,7 +104,7 @@ def test_without_a_spare_the_motors_damp_until_the_robot_is_told_to_stand(live: 
         configuration=fingerprint(robot),
         clock=WallClock(),
     ) as reader:
-        assert eventually(lambda: reader.read().watchdog, within_s=2.0)
+        assert eventually(lambda: reader.read().watchdog)
         state = reader.read()
         limits = [motor.torque_limit_nm for motor in robot.motors.values()]
         assert all(abs(tau) <= limit * 1.05 for tau, limit in zip(state.tau, limits, strict=True))
@@ -189,5 +189,5 @@ def test_a_killed_executive_leaves_no_process(tmp_path: Path):
     finally:
         parent.kill()
         parent.wait()
-    assert eventually(lambda: all(gone(pid) for pid in pids), within_s=2.0)
+    assert eventually(lambda: all(gone(pid) for pid in pids))
     shutil.rmtree(sockets)  # the one thing that nobody was left to take away

@@ -47,7 +47,7 @@ def ready(supervisor: Supervisor, tmp_path: Path, *names: str) -> dict[str, int]
     """Wait until the named children run; their process ids."""
     for name in names:
         log = tmp_path / "logs" / f"{name}.log"
-        assert eventually(lambda log=log: last_line(log) == "ready", within_s=20.0)
+        assert eventually(lambda log=log: last_line(log) == "ready")
     return {name: supervisor.pid(name) for name in names}
 
 
@@ -115,7 +115,7 @@ def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_pa
         assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1])
         second = supervisor.pid("b")
         log = tmp_path / "logs" / "b.log"
-        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        assert eventually(lambda: log.read_text().count("ready") == 2)
         assert alive(second)
         assert supervisor.check() is None
         os.kill(second, signal.SIGKILL)
@@ -131,7 +131,7 @@ def test_a_spare_goes_with_the_rest(supervise, tmp_path, monkeypatch):
     with supervise("stubborn", (spared,)) as supervisor:
         supervisor.check()
         log = tmp_path / "logs" / "b.log"
-        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        assert eventually(lambda: log.read_text().count("ready") == 2)
         both = children() - before
         assert len(both) == 2
         monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
@@ -146,7 +146,7 @@ def children() -> set[int]:
 
 def test_a_crash_says_what_the_process_said_last(supervise):
     with supervise("crash", THREE[:1]) as supervisor:
-        assert eventually(supervisor.check, within_s=20.0)
+        assert eventually(supervisor.check)
         failure = supervisor.check()
         assert "ended with status 3" in failure.cause
         assert "meant to crash" in failure.cause
@@ -194,13 +194,13 @@ def test_children_of_a_killed_parent_die_with_it(tmp_path, word):
     parent = subprocess.Popen([sys.executable, "-c", PARENT, str(tmp_path)])
     try:
         logs = [tmp_path / "logs" / f"{name}.log" for name in "ab"]
-        assert eventually(lambda: all(last_line(log) == "ready" for log in logs), within_s=20.0)
+        assert eventually(lambda: all(last_line(log) == "ready" for log in logs))
         pids = [int(log.with_suffix(".pid").read_text()) for log in logs]
         assert all(alive(pid) for pid in pids)
     finally:
         parent.kill()
         parent.wait()
-    assert eventually(lambda: not any(alive(pid) for pid in pids), within_s=2.0)
+    assert eventually(lambda: not any(alive(pid) for pid in pids))
 
 
 def test_the_table_is_sound():
