@@ -17,7 +17,6 @@ from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.remarks import asks_end
@@ -153,7 +152,7 @@ class Afterthoughts(Constructions, ABC):
             return None
         scope = self.scope
         old = scope.person if is_person(phrase, scope) else scope.object
-        if is_spot(phrase):
+        if phrase.is_spot:
             old, new = scope.place, to_place(phrase, scope)
         elif is_person(phrase, scope):
             new = to_person(phrase, scope)
@@ -219,7 +218,7 @@ class Afterthoughts(Constructions, ABC):
         located = self.text.lookup(lexicon.LOCATIVES, at)
         start = located[1] if located else self.text.phrase_end(lexicon.GOALWARDS, at)
         phrase = noun_phrase(self.text, start) if start else None
-        return phrase if phrase and is_spot(phrase) else None
+        return phrase if phrase and phrase.is_spot else None
 
     def _told_apart(self, at: int) -> int | None:
         """Where *the blue one* begins that tells which cup was meant a sentence before."""

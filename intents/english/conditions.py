@@ -2,9 +2,8 @@
 
 from intents.english.lexer import singular
 from intents.english.lexicon import LOCATIVES, phrases
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import read_postmodifiers
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import NotUnderstood

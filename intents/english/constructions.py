@@ -15,7 +15,6 @@ from intents.english.lexer import COMMA, singular
 from intents.english.measures import Measure, measure, number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import is_spot
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_person, to_place
 from intents.english.results import WISHES, Results
@@ -300,7 +299,7 @@ class Constructions(Results):
             return None
         complements, end = read_complements(text, start)
         there = complements[0] if len(complements) == 1 and complements[0].phrases else None
-        if there is None or there.role not in ("at", "to", "into", "") or not is_spot(there.phrase):
+        if there is None or there.role not in ("at", "to", "into", "") or not there.phrase.is_spot:
             return None
         place = to_place(there.phrase, self.scope)
         return [GoTo(place=place)], end + (text.word(end) == COMMA)

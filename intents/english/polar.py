@@ -2,9 +2,8 @@
 
 from intents.english import lexicon
 from intents.english.lexer import COMMA
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.text import Text
 from intents.goals import Find, Goal, Person, Tell
@@ -65,7 +64,7 @@ def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     phrase = noun_phrase(text, end)
     if phrase is None or text.word(end) == COMMA:
         return None
-    if text.word(phrase.end) == "empty" and is_spot(phrase):
+    if text.word(phrase.end) == "empty" and phrase.is_spot:
         thing = NounPhrase(start, start, noun="object", said="thing", count=1)
         thing.places.append(Locative(None, phrase))
         return [Find(object=to_object(thing, scope))], phrase.end + 1

@@ -3,10 +3,9 @@
 from intents.english import lexicon
 from intents.english.lexer import COMMA
 from intents.english.measures import number
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers, weight_at
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.polar import BE, Reading, read_on, skip_being, yes_or_no
-from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.properties import OF_ADJECTIVES, property_of
 from intents.english.referents import Scope, is_person, to_object, to_person
 from intents.english.self_talk import about_robot

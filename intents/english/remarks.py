@@ -9,9 +9,8 @@ from msgspec.structs import replace
 from intents.english import lexicon
 from intents.english.clauses import read_complements
 from intents.english.lexer import COMMA, FULL_STOP, singular
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import is_spot, read_postmodifiers
 from intents.english.questions import Reading, question
 from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.sentences import Clauses
@@ -253,7 +252,7 @@ class Remarks(Clauses):
         return phrase is not None and text.word(phrase.end) in ("is", "are")
 
     def _mention_phrase(self, phrase: NounPhrase, where: str | None = None) -> None:
-        if is_spot(phrase):
+        if phrase.is_spot:
             self.scope.mention(to_place(phrase, self.scope))
             return
         what = (to_person if is_person(phrase, self.scope) else to_object)(phrase, self.scope)

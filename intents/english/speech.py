@@ -6,9 +6,8 @@ from intents.english import lexicon
 from intents.english.clauses import connector_end, ends_clause
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.measures import measure
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import read_postmodifiers
 from intents.english.questions import Reading, property_question, question
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot, small_talk
