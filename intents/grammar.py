@@ -9,7 +9,7 @@ import re
 
 from intents.english import lexicon
 from intents.english.afterthoughts import OVER, Afterthoughts
-from intents.english.clauses import connector_end
+from intents.english.complements import connector_end
 from intents.english.conditions import IF, condition
 from intents.english.corrections import substitute
 from intents.english.joining import as_wished, joined, or_else, same_object

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import Complement, ends_clause
+from intents.english.complements import Complement, ends_clause
 from intents.english.conditions import IF, condition
 from intents.english.constructions import Constructions
 from intents.english.corrections import correction_end, substitute

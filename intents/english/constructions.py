@@ -9,7 +9,7 @@ from math import pi
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import Clause, Complement, ends_clause, read_complements
+from intents.english.complements import Clause, Complement, ends_clause, read_complements
 from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, singular
 from intents.english.measures import Measure, measure, number
@@ -18,8 +18,8 @@ from intents.english.phrase import NounPhrase
 from intents.english.questions import Reading
 from intents.english.referents import is_person, to_person, to_place
 from intents.english.results import WISHES, Results
+from intents.english.saying import content_end
 from intents.english.sentences import without_favours
-from intents.english.speech import content_end
 from intents.english.trouble import Unclear
 from intents.english.verbs import verbs_at
 from intents.goals import (

@@ -7,7 +7,7 @@
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import read_complements
+from intents.english.complements import read_complements
 from intents.english.lexer import COMMA, FULL_STOP, singular
 from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import NounPhrase

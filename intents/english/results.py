@@ -5,7 +5,7 @@ should be brought to me"; "the lamp should be on"; "see that Ada gets the pencil
 """
 
 from intents.english import lexicon
-from intents.english.clauses import Clause, Complement, ends_clause, read_complements
+from intents.english.complements import Clause, Complement, ends_clause, read_complements
 from intents.english.frames import FRAMES
 from intents.english.frames.devices import device_names, is_device
 from intents.english.noun_phrases import noun_phrase

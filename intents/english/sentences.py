@@ -1,15 +1,21 @@
 """Single clauses: a verb in one of its senses, a question, a statement, a fronted phrase."""
 
 from intents.english import lexicon
-from intents.english.clauses import Clause, Complement, connector_end, ends_clause, read_complements
+from intents.english.complements import (
+    Clause,
+    Complement,
+    connector_end,
+    ends_clause,
+    read_complements,
+)
 from intents.english.frames import FRAMES
 from intents.english.lexer import COMMA, FULL_STOP
 from intents.english.measures import number
 from intents.english.noun_phrases import noun_phrase
 from intents.english.questions import Reading, question
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.saying import answer, describe, inform, say, tell
 from intents.english.self_talk import about_robot
-from intents.english.speech import answer, describe, inform, say, tell
 from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.verbs import verbs_at

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement, connector_end
+from intents.english.complements import Clause, Complement, connector_end
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.phrase import Locative, NounPhrase

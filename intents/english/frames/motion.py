@@ -4,7 +4,7 @@ from math import pi
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
+from intents.english.complements import Clause, Complement
 from intents.english.frames.slots import Slots, need
 from intents.english.measures import STEP_M
 from intents.english.phrase import NounPhrase

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
+from intents.english.complements import Clause, Complement
 from intents.english.phrase import Locative, NounPhrase
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear

@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import connector_end, ends_clause
+from intents.english.complements import connector_end, ends_clause
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.measures import measure
 from intents.english.noun_phrases import noun_phrase, read_postmodifiers
