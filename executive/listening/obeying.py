@@ -18,8 +18,8 @@ from executive.repl import cli
 from executive.repl.shell import Shell
 from executive.speaking import Speech, able
 from intents import goals as g
-from intents.goals import Goal
-from intents.risks import each, risk
+from intents.goals import Goal, each
+from intents.risks import risk
 from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import voice
 from intents.stopping import is_stop

@@ -222,6 +222,13 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
     )
 
 
+def sought(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Find:
+    """To look for the object or the person that a phrase describes."""
+    if is_person(phrase, scope):
+        return Find(person=to_person(phrase, scope))
+    return Find(object=to_object(phrase, scope, spots=spots))
+
+
 def to_place(
     phrase: NounPhrase, scope: Scope, *, objects: bool = False, within: bool = False
 ) -> str:
