@@ -13,7 +13,7 @@ said are absent (``None`` in Python).
 
 import builtins
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Literal, cast
 
 import msgspec
@@ -373,6 +373,15 @@ Goal = (
     | Resume | Cancel | Report | Repeat | ForEach | If
 )  # fmt: skip
 """Any goal."""
+
+
+def each(goals: Iterable[Goal]) -> Iterator[Goal]:
+    """Every goal, those inside of others included."""
+    for goal in goals:
+        yield goal
+        for slot in ("goals", "then", "else_"):
+            yield from each(cast("tuple[Goal, ...]", getattr(goal, slot, ())))
+
 
 _PERSON_ONLY = frozenset({"who", "gender", "posture", "gesture", "wearing"})
 _PERSON_PROPERTIES = frozenset({"posture", "pose", "gesture", "gender", "age", "clothes"})

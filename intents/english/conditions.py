@@ -2,16 +2,16 @@
 
 from intents.english.lexer import singular
 from intents.english.lexicon import LOCATIVES, phrases
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import read_postmodifiers
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.text import Text
 from intents.english.trouble import NotUnderstood
-from intents.goals import Condition, Holding, ObjectQuery, Present, State
+from intents.goals import Condition, Find, Holding, ObjectQuery, Present, State
 
 IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
 """How a condition begins."""
+_WHEN = phrases("when,once,as soon as,whenever")
 _EMPTY_HANDED = phrases(
     "your hands are empty,your hand is empty,your gripper is empty,you hold nothing,"
     "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"
@@ -58,6 +58,15 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     if phrase is None or text.word(phrase.end) not in _IS:
         raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
     return _of_thing(text, phrase, scope, negated)
+
+
+def as_soon_as(text: Text, at: int, holds: Condition) -> Find | None:
+    """When you find a guest, ...: first find one."""
+    end = text.phrase_end(_WHEN, at)
+    when = end is not None and text.word(end) == "you"
+    if not when or not isinstance(holds, Present) or holds.negated:
+        return None
+    return Find(object=holds.object, person=holds.person)
 
 
 def _negation(text: Text, at: int) -> tuple[bool, int]:

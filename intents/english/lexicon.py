@@ -356,3 +356,5 @@ AKIN = tuple(
 """Groups of things that are taken for one another: asked about, never taken by themselves."""
 
 ELSE = phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")
+IN_ALL = phrases("over,in a row,in total,altogether,in all,each")
+"""What may follow "three times" and adds nothing."""

@@ -1,6 +1,6 @@
 """Numbers, and numbers with units: "two and a half metres" is 2.5 m."""
 
-from math import pi
+from math import isfinite, pi
 from typing import Literal, NamedTuple
 
 _ONES = {
@@ -91,9 +91,10 @@ def _whole(words: list[str], start: int) -> Number | None:
         return None
     if words[start][-1].isdecimal() and words[start].isascii():
         try:
-            return Number(float(words[start]), start + 1)
+            value = float(words[start])
         except ValueError:
             return None
+        return Number(value, start + 1) if isfinite(value) else None  # 1e999 is no figure
     total, value, end = 0.0, 0.0, start
     while end < len(words):
         word = words[end]

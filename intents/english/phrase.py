@@ -69,6 +69,13 @@ class NounPhrase:
         marked = self.gender or self.gesture or self.wearing
         return self.noun in ("person", "operator") or bool(marked) or self.name("person") != ""
 
+    @property
+    def is_spot(self) -> bool:
+        """It names a place or room and nothing else."""
+        if self.noun in ("here", "there", "place"):
+            return True
+        return self.noun == "name" and not self.name("object", "category", "person")
+
     def name(self, *kinds: str) -> str:
         """The first name of these kinds, or an empty string."""
         return next((n.name for kind in kinds for n in self.names if n.kind == kind), "")

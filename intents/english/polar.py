@@ -2,15 +2,13 @@
 
 from intents.english import lexicon
 from intents.english.lexer import COMMA
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot, read_postmodifiers
-from intents.english.referents import Scope, is_person, to_object, to_person
+from intents.english.reading import Found
+from intents.english.referents import Scope, is_person, sought, to_object, to_person
 from intents.english.text import Text
-from intents.goals import Find, Goal, Person, Tell
+from intents.goals import Find, Person, Tell
 
-Reading = tuple[list[Goal], int]
-"""Goals, and where what says them ends."""
 BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
                     "we got be being now it could seen counted available around")  # fmt: skip
 
@@ -52,7 +50,7 @@ _KINDS: dict[str, str] = dict.fromkeys(lexicon.GENDERS, "gender") | dict.fromkey
 """What is asked after where one of several is given to choose: a man or a woman, sitting or not."""
 
 
-def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """Is there a cup on the table? Do you see the bottle? Is the shelf empty?"""
     embedded = text.word(at) in ("if", "whether")
     start = at + embedded
@@ -65,7 +63,7 @@ def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     phrase = noun_phrase(text, end)
     if phrase is None or text.word(end) == COMMA:
         return None
-    if text.word(phrase.end) == "empty" and is_spot(phrase):
+    if text.word(phrase.end) == "empty" and phrase.is_spot:
         thing = NounPhrase(start, start, noun="object", said="thing", count=1)
         thing.places.append(Locative(None, phrase))
         return [Find(object=to_object(thing, scope))], phrase.end + 1
@@ -76,10 +74,10 @@ def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Reading |
     asked_there = text.word(start + 1) == "there" or text.word(start) not in ("is", "are")
     if not phrase.places and _HERE & {text.word(end), text.word(end - 1)}:
         asked_there, end = True, end + (text.word(end) in _HERE)
-    return _sought(phrase, scope, end) if phrase.places or asked_there else None
+    return ([sought(phrase, scope)], end) if phrase.places or asked_there else None
 
 
-def _stated(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _stated(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """Whether *the cup is on the table*; whether *Ada is standing*."""
     phrase = noun_phrase(text, at)
     if phrase is None:
@@ -89,17 +87,12 @@ def _stated(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | N
         return told
     end = read_on(text, phrase)
     if not phrase.places and text.word(end) in _HERE:
-        return _sought(phrase, scope, end + 1)
-    return _posed(phrase, scope, to) or (_sought(phrase, scope, end) if phrase.places else None)
+        return [sought(phrase, scope)], end + 1
+    posed = _posed(phrase, scope, to)
+    return posed or (([sought(phrase, scope)], end) if phrase.places else None)
 
 
-def _sought(phrase: NounPhrase, scope: Scope, end: int) -> Reading:
-    if is_person(phrase, scope):
-        return [Find(person=to_person(phrase, scope))], end
-    return [Find(object=to_object(phrase, scope))], end
-
-
-def _posed(phrase: NounPhrase, scope: Scope, to: Person | None) -> Reading | None:
+def _posed(phrase: NounPhrase, scope: Scope, to: Person | None) -> Found | None:
     """Is Ada standing? Of one that is named it is the posture that is asked after."""
     if not (phrase.posture and phrase.name("person")):
         return None
@@ -107,7 +100,7 @@ def _posed(phrase: NounPhrase, scope: Scope, to: Person | None) -> Reading | Non
     return [Tell(person=to_person(phrase, scope), property="posture", to=to)], phrase.end
 
 
-def _either(text: Text, phrase: NounPhrase, scope: Scope, to: Person | None) -> Reading | None:
+def _either(text: Text, phrase: NounPhrase, scope: Scope, to: Person | None) -> Found | None:
     """Is Ada *sitting or standing*? Whether the guest *is a man or a woman*."""
     end = phrase.end
     while text.word(end) in ("is", "are", "a", "an", "in", "currently"):

@@ -3,20 +3,21 @@
 from intents.english import lexicon
 from intents.english.lexer import COMMA
 from intents.english.measures import number
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers, weight_at
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.polar import BE, Reading, read_on, skip_being, yes_or_no
-from intents.english.postmodifiers import read_postmodifiers, weight_at
+from intents.english.polar import BE, read_on, skip_being, yes_or_no
 from intents.english.properties import OF_ADJECTIVES, property_of
-from intents.english.referents import Scope, is_person, to_object, to_person
+from intents.english.reading import Found
+from intents.english.referents import Scope, is_person, sought, to_object, to_person
 from intents.english.self_talk import about_robot
 from intents.english.text import Text
-from intents.goals import Count, Find, ObjectQuery, Person, Tell
+from intents.english.trouble import Unclear
+from intents.goals import Count, ObjectQuery, Person, Tell
 
 
 def question(
     text: Text, at: int, scope: Scope, to: Person | None = None, *, told: bool = False
-) -> Reading | None:
+) -> Found | None:
     """The question that begins at a word, as goals; None if there is none to be read.
 
     After tell (``told``) a noun phrase alone can be a question: "the largest object".
@@ -35,12 +36,32 @@ def question(
     )
 
 
-def property_question(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def property_question(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """A question after "give me", where a thing could stand as well: the number of, the pose."""
     return _how_many(text, at, scope, to) or _property(text, at, scope, to)
 
 
-def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def counted(text: Text, at: int, scope: Scope) -> Found:
+    """Count *the cups on the table*.
+
+    Raises:
+        Unclear: Nothing is named that could be counted.
+    """
+    for skipped in ("how", "many", "the", "number", "amount", "of"):
+        at += text.word(at) == skipped
+    phrase = noun_phrase(text, at)
+    if phrase is None:
+        raise Unclear("What shall I count?")
+    return [_count(phrase, scope)], phrase.end
+
+
+def _count(phrase: NounPhrase, scope: Scope, to: Person | None = None) -> Count:
+    if is_person(phrase, scope):
+        return Count(person=to_person(phrase, scope), to=to)
+    return Count(object=to_object(phrase, scope), to=to)
+
+
+def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """How many guests wear hats?"""
     start = at + 2 if text.words[at : at + 2] in (["what", "is"], ["what", "are"]) else at
     start += text.word(start) in ("the", "a", "what")
@@ -72,7 +93,7 @@ _LEFT = lexicon.phrases(
 )
 
 
-def _where(text: Text, at: int, scope: Scope) -> Reading | None:
+def _where(text: Text, at: int, scope: Scope) -> Found | None:
     """Where is the cup? Tell me where the cup is."""
     if text.word(at) != "where":
         return None
@@ -82,12 +103,10 @@ def _where(text: Text, at: int, scope: Scope) -> Reading | None:
         return None
     phrase.end = skip_being(text, phrase.end, _GONE)
     end = read_on(text, phrase)
-    if is_person(phrase, scope):
-        return [Find(person=to_person(phrase, scope))], end
-    return [Find(object=to_object(phrase, scope, spots=True))], end
+    return [sought(phrase, scope, spots=True)], end
 
 
-def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _property(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """What is Ada's pose? What colour is the cup?"""
     asked = text.word(at) in ("what", "which")
     start = skip_being(text, at + asked)
@@ -124,7 +143,7 @@ def _tell(phrase: NounPhrase | None, name: str, scope: Scope, to: Person | None)
     return Tell(object=to_object(phrase, scope, spots=True), property=name, to=to)
 
 
-def _how(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _how(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """How heavy is the box?"""
     name = OF_ADJECTIVES.get(text.word(at + 1)) if text.word(at) == "how" else None
     if name is None or text.word(at + 2) not in ("is", "are"):
@@ -136,7 +155,7 @@ def _how(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     return [_tell(phrase, name, scope, to)], read_on(text, phrase)
 
 
-def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Reading | None:
+def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> Found | None:
     """Which cup is lightest? What are the two tallest things here?"""
     asked = text.word(at) in ("what", "which")
     start = skip_being(text, at + 1) if asked else at
@@ -202,7 +221,7 @@ def _predicate_superlative(text: Text, phrase: NounPhrase, end: int) -> int:
     return phrase.end
 
 
-def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """Who is in the kitchen?"""
     if text.word(at) not in ("who", "whom"):
         return None
@@ -222,7 +241,7 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None
     return [Tell(person=to_person(phrase, scope), property="name", to=to)], phrase.end
 
 
-def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """What is Ada doing? How is she standing?"""
     if text.word(at) not in ("what", "how"):
         return None
@@ -242,7 +261,7 @@ def _doing(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | No
     return [Tell(person=to_person(phrase, scope), property="posture", to=to)], end
 
 
-def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | None:
+def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """Of the people in the hall, how many are men? Of the cups, which is the largest?"""
     if text.word(at) not in ("of", "among"):
         return None
@@ -254,9 +273,7 @@ def _of_all(text: Text, at: int, scope: Scope, to: Person | None) -> Reading | N
     if text.words[after : after + 2] == ["how", "many"]:
         phrase.end = after + 2
         end = read_on(text, phrase)
-        if is_person(phrase, scope):
-            return [Count(person=to_person(phrase, scope), to=to)], end
-        return [Count(object=to_object(phrase, scope), to=to)], end
+        return [_count(phrase, scope, to)], end
     if phrase.superlative and phrase.end >= len(text):
         return [Tell(object=to_object(phrase, scope), property="name", to=to)], phrase.end
     if text.word(after) not in ("which", "what"):

@@ -8,7 +8,6 @@ from msgspec.structs import replace
 from intents.english.lexicon import COLORS
 from intents.english.names import NameIndex
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
 from intents.goals import (
     OPERATOR,
@@ -121,7 +120,7 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
     name, category = _object_name(phrase, scope, spots)
     superlative = phrase.superlative
     for place in phrase.places:
-        if place.how in ("left", "right") and is_spot(place.of) and not superlative:
+        if place.how in ("left", "right") and place.of.is_spot and not superlative:
             superlative = "leftmost" if place.how == "left" else "rightmost"
     if phrase.side and superlative is None:
         superlative = "leftmost" if phrase.side == "left" else "rightmost"
@@ -221,6 +220,13 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
         count=phrase.count,
         at=at,
     )
+
+
+def sought(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Find:
+    """To look for the object or the person that a phrase describes."""
+    if is_person(phrase, scope):
+        return Find(person=to_person(phrase, scope))
+    return Find(object=to_object(phrase, scope, spots=spots))
 
 
 def to_place(

@@ -6,7 +6,7 @@ A frame is a function ``frame(clause, scope) -> goals``. It raises
 
 from collections.abc import Callable
 
-from intents.english.clauses import Clause
+from intents.english.complements import Clause
 from intents.english.frames import body, devices, handling, mission, motion, people
 from intents.english.referents import Scope
 from intents.goals import Goal

@@ -1,6 +1,6 @@
 """Postures, balance and gestures of the robot itself."""
 
-from intents.english.clauses import Clause
+from intents.english.complements import Clause
 from intents.english.frames.slots import Slots
 from intents.english.phrase import NounPhrase
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place

@@ -1,6 +1,6 @@
 """Opening, closing and switching."""
 
-from intents.english.clauses import Clause, Complement
+from intents.english.complements import Clause, Complement
 from intents.english.frames.slots import Slots
 from intents.english.lexer import singular
 from intents.english.lexicon import words

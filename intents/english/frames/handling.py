@@ -5,11 +5,10 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement, connector_end
+from intents.english.complements import Clause, Complement, connector_end
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot
 from intents.english.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
 from intents.english.verbs import verbs_at
@@ -180,7 +179,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)
-    if bare and clause.verb == "tidy" and is_spot(bare.phrase):
+    if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
     beside = bare and bare.phrases[-1].places[-1:]
     near = bool(beside and beside[0].how == "near" and beside[0].of.name("object"))
@@ -228,7 +227,7 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
     if bare is None or len(bare.phrases) > 1:
         raise Misfit("clear what?")
     spot = _destination(slots)
-    if is_spot(bare.phrase):
+    if bare.phrase.is_spot:
         slots.rest.remove(bare)
         objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
     else:
@@ -298,7 +297,7 @@ def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
     if place.how not in ("on", "in", None, "near", "above"):
         where = _HOW.get(place.how, place.how)
         raise NotUnderstood(f"I can put things on or in a place, not {where} something")
-    near_object = place.how == "near" and not is_spot(place.of)
+    near_object = place.how == "near" and not place.of.is_spot
     near_object = near_object and (place.of.name("object") or place.of.noun == "one")
     if near_object:
         raise NotUnderstood("I can put things on or in a place, not next to another object")

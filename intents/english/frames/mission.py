@@ -1,6 +1,6 @@
 """Stopping, pausing and reporting: about the mission and the robot, not about the world."""
 
-from intents.english.clauses import Clause
+from intents.english.complements import Clause
 from intents.english.frames.slots import Slots
 from intents.english.lexicon import words
 from intents.english.referents import ME, Scope

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause
+from intents.english.complements import Clause
 from intents.english.frames.slots import Slots, need
 from intents.english.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit

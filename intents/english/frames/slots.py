@@ -2,9 +2,8 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
+from intents.english.complements import Clause, Complement
 from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot
 from intents.english.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
@@ -120,6 +119,3 @@ def need(value: object, question: str) -> None:
     """
     if not value:
         raise Unclear(question)
-
-
-__all__ = ["Slots", "detach_place", "is_person", "is_spot", "need"]

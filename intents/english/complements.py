@@ -7,9 +7,8 @@ from intents.english import lexicon
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREPOSITIONS, phrases
 from intents.english.measures import Measure, measure, number
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers, weight_at
 from intents.english.phrase import Locative, NounPhrase, is_content
-from intents.english.postmodifiers import read_postmodifiers, weight_at
 from intents.english.text import Text
 from intents.english.verbs import verbs_at
 from intents.goals import How

@@ -3,13 +3,13 @@
 from msgspec.structs import replace
 
 from intents.english import lexicon
-from intents.english.clauses import connector_end, ends_clause
+from intents.english.complements import connector_end, ends_clause
 from intents.english.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.measures import measure
-from intents.english.noun_phrases import noun_phrase
+from intents.english.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrase import NounPhrase
-from intents.english.postmodifiers import read_postmodifiers
-from intents.english.questions import Reading, property_question, question
+from intents.english.questions import property_question, question
+from intents.english.reading import Found
 from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.self_talk import about_robot, small_talk
 from intents.english.text import Text
@@ -72,7 +72,7 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
     return None, end
 
 
-def say(text: Text, at: int, scope: Scope) -> Reading:
+def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
         end = content_end(text, at)
@@ -104,7 +104,7 @@ def say(text: Text, at: int, scope: Scope) -> Reading:
     return [Say(what=what, to=to)], end
 
 
-def _asked(text: Text, at: int, scope: Scope) -> Reading | None:
+def _asked(text: Text, at: int, scope: Scope) -> Found | None:
     """What is to be said as a question to be answered, if it is one."""
     try:
         return question(text, at, scope, told=True)
@@ -126,7 +126,7 @@ def _place_of_speech(text: Text, at: int, end: int, scope: Scope) -> tuple[int, 
     return end, None
 
 
-def _to_listener(text: Text, reading: Reading, scope: Scope) -> Reading:
+def _to_listener(text: Text, reading: Found, scope: Scope) -> Found:
     """Read on after a question: ... to the person at the sofa."""
     goals, end = reading
     if text.word(end) == "to":
@@ -141,7 +141,7 @@ def _addressed(goal: Goal, person: Person) -> Goal:
     return replace(goal, to=person) if isinstance(goal, Count | Tell | Say) else goal
 
 
-def tell(text: Text, at: int, scope: Scope) -> Reading:
+def tell(text: Text, at: int, scope: Scope) -> Found:
     """Tell Ada and Emil that lunch is ready: first the one, then the other."""
     first = _listener(text, at + (text.word(at) in _TO), scope)
     second = None
@@ -153,7 +153,7 @@ def tell(text: Text, at: int, scope: Scope) -> Reading:
     return [goal for goals, _ in told for goal in goals], told[0][1]
 
 
-def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Reading:
+def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
     to = listener
     if text.word(at) in _TO and text.word(at) != "for":
@@ -187,7 +187,7 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Reading
     return [Say(what=talk.what, to=to)], end
 
 
-def inform(text: Text, at: int, scope: Scope) -> Reading:
+def inform(text: Text, at: int, scope: Scope) -> Found:
     """Give me the number of cups; show me Emil's pose.
 
     Raises:
@@ -207,7 +207,7 @@ def inform(text: Text, at: int, scope: Scope) -> Reading:
     return _to_listener(text, asked, scope)
 
 
-def describe(text: Text, at: int, scope: Scope) -> Reading:
+def describe(text: Text, at: int, scope: Scope) -> Found:
     """Describe the person at the sofa to me.
 
     Raises:
@@ -237,7 +237,7 @@ _RESULT = lexicon.phrases(
 )
 
 
-def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:
+def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     """Tell Julia what day it is."""
     end = content_end(text, at)
     if end == at:
@@ -249,7 +249,7 @@ def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Reading:
     return [Say(what=what, to=to)], end
 
 
-def answer(text: Text, at: int, scope: Scope) -> Reading:
+def answer(text: Text, at: int, scope: Scope) -> Found:
     """Answer Emil; answer his quiz; answer "how old are you?"."""
     asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
     person = None
