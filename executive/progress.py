@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import TracebackType
 from typing import Protocol, Self
 
 from rich.console import Console, Group
@@ -15,6 +14,7 @@ from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
 from executive.dumps import words
 from executive.dumps.text import MARKS, Line, State, lines
 from executive.journal import Event
+from robot.closing import Closing
 
 REFRESH_S, SELDOM_S = 0.1, 1.0
 _STYLES: dict[State, str] = {
@@ -22,44 +22,22 @@ _STYLES: dict[State, str] = {
 }  # fmt: skip
 
 
-class Progress(Protocol):
+class Progress(Closing, Protocol):
     """Shows an executive at work; a context manager."""
 
     def update(self) -> None:
         """Called after every tick."""
         ...
 
-    def __enter__(self) -> Self:
-        """Begin to show."""
-        ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Leave the screen in order."""
-        ...
-
-
-class Silent:
+class Silent(Closing):
     """Shows nothing (`--json`)."""
 
     def update(self) -> None:
         """Show nothing."""
 
-    def __enter__(self) -> Self:
-        """Begin."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """End."""
+    def close(self) -> None:
+        """Leave the screen in order."""
 
 
 class Lines(Silent):
@@ -141,12 +119,7 @@ class LiveTree(Silent):
         self._live.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Leave the last picture standing."""
         self._live.update(self._picture(self._wall_s()), refresh=True)
         self._live.stop()

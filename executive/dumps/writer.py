@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Literal, Protocol, Self, get_args
 
 import typer
@@ -151,28 +150,15 @@ def parse_on(text: str) -> On:
     raise ConfigError([Problem(f"--dump-on is no {text!r}", suggestion=hint)])
 
 
-class Shows(Protocol):
+class Shows(Closing, Protocol):
     """What `executive.progress.Progress` is: told of every tick, open for as long as a run."""
 
     def update(self) -> None:
         """Called after every tick."""
         ...
 
-    def __enter__(self) -> Shows:
-        """Begin."""
-        ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """End."""
-        ...
-
-
-class Together:
+class Together(Closing):
     """Shows a run to people and dumps it."""
 
     def __init__(self, shown: Shows, dumper: Dumper) -> None:
@@ -190,14 +176,9 @@ class Together:
         self._shown.__enter__()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """End both; the screen comes first."""
-        self._shown.__exit__(kind, error, trace)
+        self._shown.close()
         self._dumper.close()
         if self._dumper.problem:
             typer.echo(f"warning: {self._dumper.problem}", err=True)
