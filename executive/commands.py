@@ -25,7 +25,7 @@ from executive.progress import Lines, LiveTree, Progress, Silent
 from executive.speaking import Speech
 from intents.goals import from_builtins, to_builtins
 from intents.outcomes import Question
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 from robot.errors import Failure
 from robot.messages import BodyState

@@ -15,7 +15,7 @@ from executive.history.recording import Recording
 from executive.history.resuming import CannotGoOn, Screen
 from executive.runs import Summary
 from robot.bringup import entry
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
 PROMPT = "executive.repl.cli:again"

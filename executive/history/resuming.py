@@ -27,7 +27,7 @@ from executive.overseeing import oversee
 from executive.request import Setting
 from executive.runs import Summary
 from executive.session import Session
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import Clock
 from robot.errors import ConfigError, Problem
 

@@ -15,7 +15,7 @@ from executive.missions.check import Checked, Options, check
 from executive.missions.keeping import digest, keep, kept
 from executive.overseeing import oversee
 from executive.request import Understood
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):

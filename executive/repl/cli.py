@@ -23,7 +23,7 @@ from executive.repl.plain import work_off
 from executive.repl.robot import Robot
 from executive.repl.shell import Shell
 from executive.speaking import Speech
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
