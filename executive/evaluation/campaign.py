@@ -16,7 +16,7 @@ import msgspec
 from executive.engine.jobs import UNLIMITED, Limits
 from executive.meaning import request
 from executive.missions import fault_plans
-from robot import config
+from robot import config, yaml_nodes
 from robot.bringup import entry
 from robot.errors import CATALOGUE, ConfigError, Problem
 
@@ -92,13 +92,11 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     Raises:
         ConfigError: with file, line and the nearest valid name.
     """
-    node = config.read_yaml(path)
-    cases = config.convert(node, Campaign, file=str(path)).cases
+    node = yaml_nodes.read(path)
+    cases = config.convert(node, Campaign).cases
     setting = settings(robot)
     problems = [
-        Problem(
-            f"{case.name}: {text}", file=str(path), line=config.line_of(node, f"$.cases[{index}]")
-        )
+        config.place(node, f"$.cases[{index}]").problem(f"{case.name}: {text}")
         for index, case in enumerate(cases)
         for text in problems_of(case, setting)
     ]

@@ -9,11 +9,11 @@ from executive.missions.check import Options, check
 from executive.missions.compiling import Compiler
 from executive.missions.load import Mission
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import ForEachStep
 from executive.missions.values import Bound, Scope
+from robot.yaml_nodes import Node, text_node
 
 
 def expanded(path: Path, options: Options) -> dict[str, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from types import TracebackType
 from typing import Any, Protocol, Self
 
 from robot.bringup import entry
@@ -12,6 +11,7 @@ from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
+from robot.closing import Closing
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.drivers.simulated import SimulatedMotors
 from robot.errors import ConfigError, DriverError, Failure, failure
@@ -69,7 +69,7 @@ class Perception(Protocol):
         ...
 
 
-class Lockstep:
+class Lockstep(Closing):
     """The `fast` order of events; the same parts and calls give the same run, bit for bit.
 
     Every 2 ms: commands, read, controller, write, physics. Every 20 ms, before the physics: body
@@ -113,14 +113,9 @@ class Lockstep:
         self._motors.__enter__()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Damp the motors and close the bus."""
-        self._motors.__exit__(kind, error, trace)
+        self._motors.close()
         self._bus.close()
 
     def failure(self) -> Failure | None:

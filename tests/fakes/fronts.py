@@ -1,4 +1,4 @@
-"""Front ends for the overseer's tests: an executive that does as its options say.
+"""Front ends for the launcher's tests: an executive that does as its options say.
 
 It appends what happens to `folder/told`, a line each, and asks for a robot of stub processes.
 """
@@ -10,7 +10,7 @@ import signal
 import time
 from pathlib import Path
 
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
 
 

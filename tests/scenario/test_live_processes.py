@@ -12,7 +12,7 @@ import msgspec
 import pytest
 
 from robot.bringup.live import LiveRuntime
-from robot.bringup.supervisor import SPARE_AFTER_S
+from robot.bringup.processes import CONTROLLER
 from robot.clock import WallClock
 from robot.drivers.fingerprint import fingerprint
 from robot.drivers.shared_memory import SharedMotors
@@ -80,7 +80,7 @@ def test_it_walks_and_reports_how_well_it_kept_time(live: LiveRuntime):
 
 def test_the_spare_holds_the_robot_up_when_the_controller_is_killed(live: LiveRuntime):
     """Standing, as a walk is caught nearly always only."""
-    while live.link.now_s() < SPARE_AFTER_S + 4.0:
+    while live.link.now_s() < CONTROLLER.spare_after_s + 4.0:
         live.advance(0.05)
     before = live.link.body()
     kill(live, "controller")

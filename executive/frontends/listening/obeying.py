@@ -23,7 +23,7 @@ from intents.risks import risk
 from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import voice
 from intents.stopping import is_stop
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 
 _SENTENCE = re.compile(r"(?<=[.!?;])\s+")
 HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)

@@ -1,9 +1,9 @@
-"""How the executive asks the process above it for a robot: through files in a private folder.
+"""How the executive asks the launcher above it for a robot: through files in a private folder.
 
 ===============  ==============================================================================
-``front.json``   written by the overseer: which front end the executive runs, with its options
+``front.json``   written by the launcher: which front end the executive runs, with its options
 ``run.json``     written by the executive: the robot and world it wants (`robot.bus.run.Run`)
-``state.json``   written by the overseer: how the processes are, after every change
+``state.json``   written by the launcher: how the processes are, after every change
 ===============  ==============================================================================
 
 The files outlive either process's death in the middle of anything: an executive that is started
@@ -55,7 +55,7 @@ class Handle:
     """
 
     def __init__(self, folder: Path, *, deaths: int = 0) -> None:
-        """Look at a folder that the overseer made."""
+        """Look at a folder that the launcher made."""
         self.folder = folder
         self.deaths = deaths
         self._state = State()
@@ -93,7 +93,7 @@ class Handle:
         return self._read().pids[name]
 
     def close(self) -> None:
-        """Leave the processes to the overseer, which stops them when this process ends."""
+        """Leave the processes to the launcher, which stops them when this process ends."""
 
     def _read(self) -> State:
         path = self.folder / STATE_FILE

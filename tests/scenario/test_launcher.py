@@ -16,22 +16,23 @@ PARENT = """
 import json, signal, sys
 from pathlib import Path
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup
-from robot.bringup import lowering, overseer
-from robot.bringup.processes import Process
+from dataclasses import replace
+from robot.bringup import launcher, lowering
+from robot.bringup.processes import EXECUTIVE, Process
 lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
-overseer.SPARE_AFTER_S = json.loads(sys.argv[2])
 STUB = "tests.fakes.stub_process"
 three = (Process("plant", STUB, "simulation", death="plant_lost"),
          Process("controller", STUB, "always", death="controller_lost"))
-ended = overseer.oversee("tests.fakes.fronts:front", json.loads(sys.argv[1]),
-                         tell=print, processes=three)
+executive = replace(EXECUTIVE, spare_after_s=json.loads(sys.argv[2]))
+ended = launcher.launch("tests.fakes.fronts:front", json.loads(sys.argv[1]),
+                        tell=print, executive=executive, processes=three)
 print("ended", ended.status, ended.reason)
 sys.exit(ended.status)
 """
 
 
 class Shell:
-    """A terminal's shell, with the overseer as its job."""
+    """A terminal's shell, with the launcher as its job."""
 
     def __init__(self, folder: Path, *, spare_after_s: float = 60.0, **options) -> None:
         self.folder = folder

@@ -1,5 +1,8 @@
 """YAML text as nodes that know where they stand; what explodes or deceives is refused at once.
 
+Every YAML file is read here: `robot.config` makes typed values of the nodes, and a mission's
+reader walks over them.
+
 The events of libyaml are read one by one, so that size, depth, anchors, tags and doubled keys are
 judged before anything is built of them.
 """
@@ -67,6 +70,10 @@ class Node:
         entry = self.entries.get(key)
         return entry[0] if entry else self
 
+    def problem(self, message: str, cure: str = "") -> Problem:
+        """Something wrong here."""
+        return Problem(message, self.file, self.line, self.column, cure or None)
+
     @property
     def plain_data(self) -> Any:
         """The same as ordinary dicts, lists and scalars."""
@@ -111,11 +118,7 @@ def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
     except OSError as error:
         raise _refusal(path, f"cannot be read: {error.strerror}", "name a file") from None
     if len(data) > limit:
-        raise _refusal(
-            path,
-            f"the file is larger than {limit / 1e6:g} MB",
-            "split it into missions that call one another",
-        )
+        raise _refusal(path, f"the file is larger than {limit / 1e6:g} MB", "split it up")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -135,14 +138,37 @@ def _must_be_file(path: Path) -> None:
         raise _refusal(path, "this is no ordinary file", "name a file")
 
 
-def parse(text: str, file: str) -> Node:
+def read(path: Path | str, *, begin_with: str = "") -> Node:
+    """The one document of a YAML file; raises ConfigError as `read_text` and `parse` do."""
+    return parse(read_text(path), str(path), begin_with=begin_with)
+
+
+def dump(data: Any) -> str:
+    """Plain data as YAML text, written out in full, keys in their order."""
+    return yaml.dump(data, Dumper=_Plain, sort_keys=False, allow_unicode=True, width=100)
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes everything out: no anchors."""
+
+    def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002, by PyYAML's contract
+        """Nothing is shared."""
+        return True
+
+
+def parse(text: str, file: str, *, begin_with: str = "") -> Node:
     """The one document of a YAML text.
+
+    Args:
+        text: all of it.
+        file: its name, for people.
+        begin_with: what somebody with an empty file is told.
 
     Raises:
         ConfigError: it is empty, no YAML, too deep, too large, or uses anchors, tags, double keys.
     """
     try:
-        return _Builder(file).build(_events(text))
+        root = _Builder(file).build(_events(text))
     except yaml.MarkedYAMLError as error:
         mark: Any = error.problem_mark or error.context_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (None, None)
@@ -153,6 +179,9 @@ def parse(text: str, file: str) -> Node:
     except yaml.YAMLError as error:
         what = str(error).splitlines()[0]
         raise _refusal(file, f"not a text file: {what}", "save it as plain text") from None
+    if root is None:
+        raise _refusal(file, "the file is empty", begin_with and f"begin with: {begin_with}")
+    return root
 
 
 def _events(text: str) -> Iterator[Any]:
@@ -179,8 +208,8 @@ class _Builder:
         self._keys: list[Node | None] = []
         self._count = 0
 
-    def build(self, events: Iterator[Any]) -> Node:
-        """The root of the one document."""
+    def build(self, events: Iterator[Any]) -> Node | None:
+        """The root of the one document; None if there is nothing in it."""
         for event in events:
             kind = cast("Any", type(event))
             if kind is yaml.ScalarEvent:
@@ -196,9 +225,9 @@ class _Builder:
             elif kind is yaml.AliasEvent:
                 self._refuse(event, "aliases (*name) are not allowed", "write it out")
             elif kind is yaml.DocumentStartEvent and self._root is not None:
-                self._refuse(event, "a second document begins here", "one mission a file")
+                self._refuse(event, "a second document begins here", "one document a file")
         if self._root is None or (self._root.kind == "text" and self._root.value is None):
-            raise _refusal(self._file, "the file is empty", "begin with: humanoid mission new NAME")
+            return None
         return self._root
 
     def _begin(self, kind: Kind, event: Any) -> Node:
@@ -209,15 +238,13 @@ class _Builder:
         if event.tag is not None and event.tag != "!":
             self._refuse(event, f"tags ({event.tag}) are not allowed", "leave it out")
         if self._count > MAX_NODES:
-            cure = "split it into missions that call one another"
-            self._refuse(event, f"more than {MAX_NODES} values", cure)
+            self._refuse(event, f"more than {MAX_NODES} values", "split it up")
         return Node(kind, self._file, mark.line + 1, mark.column + 1)
 
     def _open(self, event: Any, kind: Kind) -> None:
         node = self._begin(kind, event)
         if len(self._stack) >= MAX_DEPTH:
-            cure = "use missions that call one another"
-            self._refuse(event, f"nested deeper than {MAX_DEPTH} levels", cure)
+            self._refuse(event, f"nested deeper than {MAX_DEPTH} levels", "make it flatter")
         self._put(node)
         self._stack.append(node)
         self._keys.append(None)
@@ -242,17 +269,15 @@ class _Builder:
     def _check_key(self, parent: Node, key: Node) -> None:
         if key.kind != "text":
             cure = 'a parameter stands in quotes: "{{name}}"' if key.kind == "map" else ""
-            raise self._at(key, "a key must be a text", cure or "put it into quotes")
+            raise ConfigError([key.problem("a key must be a text", cure or "put it into quotes")])
         if key.text in parent.entries:
             line = parent.entries[key.text][0].line
-            raise self._at(key, f"the key {key.text!r} stands here twice", f"see line {line}")
+            text = f"the key {key.text!r} stands here twice"
+            raise ConfigError([key.problem(text, f"see line {line}")])
 
     def _refuse(self, event: Any, message: str, cure: str) -> None:
         mark = event.start_mark
         raise _refusal(self._file, message, cure, line=mark.line + 1, column=mark.column + 1)
-
-    def _at(self, node: Node, message: str, cure: str) -> ConfigError:
-        return _refusal(self._file, message, cure, line=node.line, column=node.column)
 
 
 def _refusal(
@@ -263,4 +288,4 @@ def _refusal(
     line: int | None = None,
     column: int | None = None,
 ) -> ConfigError:
-    return ConfigError([Problem(message, str(path), line, column, cure)])
+    return ConfigError([Problem(message, str(path), line, column, cure or None)])
