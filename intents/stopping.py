@@ -10,7 +10,7 @@ import unicodedata
 
 from rapidfuzz.distance import OSA
 
-from intents.english.lexicon import words
+from intents.english.words.lexicon import words
 
 _LOOKED_AT = 240
 _SHORT = 5

@@ -5,13 +5,13 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.complements import Clause, Complement, connector_end
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.referents import ME, Scope, is_person, to_person, to_place
+from intents.english.phrases.complements import Clause, Complement, connector_end
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
-from intents.english.verbs import verbs_at
+from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
     Balance,

@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace
 
-from intents.english.complements import Clause
 from intents.english.frames.slots import Slots, need
-from intents.english.referents import ME, Scope, to_place
+from intents.english.phrases.complements import Clause
+from intents.english.phrases.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit
 from intents.goals import OPERATOR, Find, Follow, Goal, GoTo, Greet, Guide, Meet, Person
 

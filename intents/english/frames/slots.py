@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace
 
-from intents.english.complements import Clause, Complement
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.phrases.complements import Clause, Complement
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
 

@@ -2,11 +2,11 @@
 
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.complements import read_complements
-from intents.english.noun_phrases import noun_phrase
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import is_person, to_person, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import is_person, to_person, to_place
+from intents.english.words import lexicon
 from intents.goals import OPERATOR, Guide
 
 _HELPS = lexicon.words("help assist let")

@@ -4,13 +4,13 @@
 question"; "I need you in the cellar".
 """
 
-from intents.english import lexicon
-from intents.english.complements import read_complements
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.clauses.wishes import WISHES, asks_end
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.referents import is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import is_person, sought, to_object, to_person, to_place
-from intents.english.verbs import verbs_at
-from intents.english.wishes import WISHES, asks_end
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Bring, GoTo, Guide
 
 _LOST = lexicon.phrases(

@@ -6,8 +6,8 @@ from typing import Literal, NamedTuple
 
 from rapidfuzz import fuzz, process
 
-from intents.english.lexer import singular, tokenize
-from intents.english.lexicon import AKIN, SYNONYMS
+from intents.english.words.lexer import singular, tokenize
+from intents.english.words.lexicon import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]

@@ -3,11 +3,18 @@
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
-from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
-from intents.english.lexicon import ADVERBS, DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
-from intents.english.names import Match, NameIndex, index_of
-from intents.english.spelling import KNOWN_WORDS, speller_of
-from intents.english.verbs import participle_base
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.words.lexicon import (
+    ADVERBS,
+    DETERMINERS,
+    FILLERS,
+    FUNCTION_WORDS,
+    Phrase,
+    words,
+)
+from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.verbs import participle_base
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")

@@ -7,11 +7,11 @@ from importlib.resources import files
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from intents.english import lexicon
-from intents.english.measures import NUMBER_WORDS, UNIT_WORDS
-from intents.english.names import NameIndex, index_of
-from intents.english.properties import PROPERTIES
-from intents.english.verbs import FIRST_WORDS, SENSES, base_form
+from intents.english.words import lexicon
+from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
+from intents.english.words.names import NameIndex, index_of
+from intents.english.words.properties import PROPERTIES
+from intents.english.words.verbs import FIRST_WORDS, SENSES, base_form
 from intents.vocabulary import Vocabulary
 
 _PHRASES = (
@@ -51,7 +51,7 @@ _MORE_VERBS = lexicon.words(
 _VERBS = sorted(w for w in FIRST_WORDS if len(w) > 3 and w in CORE | _MORE_VERBS)
 _SHORT_VERBS = ("put", "get", "lay", "set")
 COMMON_WORDS = frozenset(
-    (files("intents.english") / "common_words.txt").read_text(encoding="utf-8").split()
+    (files("intents.english.words") / "common_words.txt").read_text(encoding="utf-8").split()
 )
 """Words that mean themselves even where a name of the vocabulary is one letter away."""
 
