@@ -30,9 +30,7 @@ def _destination(slots: Slots) -> str | None:
     goal = slots.take("to", "into", "through")
     if goal:
         return to_place(goal.phrase, slots.scope)
-    here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
-    if here:
-        slots.rest.remove(here)
+    if slots.take_here():
         return OPERATOR
     return OPERATOR if slots.direction("backward") else None
 

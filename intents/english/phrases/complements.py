@@ -1,5 +1,6 @@
 """What follows a verb: noun phrases with their prepositions, quantities, directions, particles."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -82,6 +83,11 @@ class Complement:
     def phrase(self) -> NounPhrase:
         """The first noun phrase; only where there is one."""
         return self.phrases[0]
+
+
+def first_with(complements: Iterable[Complement], *roles: str) -> Complement | None:
+    """The first complement with one of these roles; "" is a bare noun phrase."""
+    return next((c for c in complements if c.phrases and c.role in roles), None)
 
 
 @dataclass(slots=True)
