@@ -19,6 +19,8 @@ from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
 _LONGEST_PHRASE = 7
+"""The longest phrase of any table that is looked up: "go on with what you were doing"."""
+_LONGEST_FILLER = max(map(len, FILLERS))
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
@@ -156,7 +158,7 @@ def _adverb_end(words: list[str], at: int) -> int | None:
 
 
 def _filler_end(words: list[str], at: int) -> int | None:
-    for end in range(min(len(words), at + _LONGEST_PHRASE), at, -1):
+    for end in range(min(len(words), at + _LONGEST_FILLER), at, -1):
         if tuple(words[at:end]) in FILLERS:
             checked = words[at] in ("if", "when") and words[end : end + 1] in _CHECKED
             return None if checked else end
