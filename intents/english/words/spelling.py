@@ -61,6 +61,9 @@ KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS | {"once", "twice", "thrice", "only"}
 
 
 _SHORTEST, _LONG = 4, 9
+"""A verb of fewer letters is a letter away from too many words; a long one may have two wrong."""
+_KEPT = 5000
+"""So many corrections are remembered: a bound on memory, far beyond what one conversation says."""
 
 
 def _slack(word: str) -> int:
@@ -106,7 +109,7 @@ class Speller:
         if verb:
             return [verb]
         if word not in self._corrected:
-            if len(self._corrected) > 5000:
+            if len(self._corrected) > _KEPT:
                 self._corrected.clear()
             self._corrected[word] = self._parts(word) or [self._nearest(word)]
         return self._corrected[word]
@@ -122,6 +125,8 @@ class Speller:
     def _nearest(self, word: str) -> str:
         slack = _slack(word)
         ranked: list[tuple[float, str]] = []
+        # Penalties under one edit: they only decide between words that are equally far. A name is
+        # likelier misspelt than a word of every day, a first letter is seldom wrong.
         for penalty, words in ((0.0, self._names), (0.25, self._grammar)) if slack else ():
             for known, distance, _ in process.extract(
                 word, words, scorer=OSA.distance, score_cutoff=slack, limit=4
