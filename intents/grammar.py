@@ -6,13 +6,13 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 
 from typing import NamedTuple
 
-from intents.english import lexicon
 from intents.english.order import RULES
+from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
-from intents.english.referents import ME, Scope
 from intents.english.sequences import sequence
-from intents.english.text import Text
 from intents.english.trouble import NotUnderstood, Partly, Unclear
+from intents.english.words import lexicon
+from intents.english.words.text import Text
 from intents.goals import Bring, Give, Goal, GoTo, Greet, Pick, Place
 
 _HELLO = lexicon.phrases(

@@ -11,13 +11,13 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
-from intents.english import lexicon
-from intents.english.lexer import singular, tokenize
-from intents.english.names import index_of
-from intents.english.referents import Scope
+from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
-from intents.english.text import Text
 from intents.english.trouble import Partly, ReadingError, Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import singular, tokenize
+from intents.english.words.names import index_of
+from intents.english.words.text import Text
 from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop
 from intents.grammar import read
 from intents.grounding import Ambiguous, Grounded, Unknown, ground, narrowed, queries

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 from intents import goals as g
-from intents.english.lexer import singular
-from intents.english.lexicon import words
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import words
 from intents.goals import Goal, ObjectQuery, each
 
 FAR_M = 3.0

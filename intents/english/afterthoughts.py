@@ -4,15 +4,15 @@
 :mod:`intents.english.corrections`.
 """
 
-from intents.english import lexicon
-from intents.english.conditions import IF, as_soon_as, condition
-from intents.english.lexer import COMMA, FULL_STOP
-from intents.english.measures import measure
-from intents.english.openings import begins_clause, skip_openings
+from intents.english.clauses.conditions import IF, as_soon_as, condition
+from intents.english.clauses.openings import begins_clause, skip_openings
+from intents.english.clauses.wishes import asks_end
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.trouble import ReadingError
-from intents.english.wishes import asks_end
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.measures import measure
 from intents.goals import Answer, Find, Goal, If, Repeat
 
 

@@ -1,15 +1,15 @@
 """Taking back what was just said: "the red cup, no wait, the blue one"."""
 
-from intents.english.lexer import COMMA, FULL_STOP
-from intents.english.lexicon import GOALWARDS, LOCATIVES, phrases
-from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import is_person, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
-from intents.english.referents import is_person, to_object, to_person, to_place
 from intents.english.substitution import substitute
-from intents.english.text import Text
 from intents.english.trouble import Misfit
-from intents.english.verbs import verbs_at
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.lexicon import GOALWARDS, LOCATIVES, phrases
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import Goal, ObjectQuery
 
 _MARKERS = phrases(

@@ -13,10 +13,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from intents.english.complements import Complement, ends_clause
-from intents.english.referents import Scope
-from intents.english.text import Text
+from intents.english.phrases.complements import Complement, ends_clause
+from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError
+from intents.english.words.text import Text
 from intents.goals import Goal
 
 Found = tuple[list[Goal], int]

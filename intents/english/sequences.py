@@ -2,15 +2,15 @@
 
 import re
 
-from intents.english import lexicon
+from intents.english.clauses.openings import skip_openings
 from intents.english.corrections import taken_back
 from intents.english.joining import as_wished, joined, or_else, same_object
-from intents.english.lexer import COMMA, FULL_STOP
-from intents.english.openings import skip_openings
 from intents.english.reading import Found, Sentence, clause
 from intents.english.substitution import substitute
-from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, Partly
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
 from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
 
 _NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")

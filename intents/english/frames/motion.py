@@ -4,12 +4,12 @@ from math import pi
 
 from msgspec.structs import replace
 
-from intents.english.complements import Clause, Complement
 from intents.english.frames.slots import Slots, need
-from intents.english.measures import STEP_M
-from intents.english.phrase import NounPhrase
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.phrases.complements import Clause, Complement
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
     Displacement,

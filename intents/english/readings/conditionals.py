@@ -1,12 +1,12 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
-from intents.english import lexicon
-from intents.english.conditions import IF, as_soon_as, condition
-from intents.english.lexer import COMMA, FULL_STOP
+from intents.english.clauses.conditions import IF, as_soon_as, condition
+from intents.english.phrases.referents import Scope
 from intents.english.reading import Found, Sentence
-from intents.english.referents import Scope
 from intents.english.sequences import sequence
 from intents.english.trouble import Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.goals import Condition, Goal, Holding, If, Person, Present
 
 

@@ -2,15 +2,15 @@
 
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.complements import Complement, ends_clause, read_complements
+from intents.english.clauses.verb_clauses import SPEECH, first_that_fits, framed, goes_on
 from intents.english.frames.devices import device_names
-from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
+from intents.english.phrases.complements import Complement, ends_clause, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person
 from intents.english.reading import Found, Sentence
-from intents.english.referents import Scope, is_person, to_object, to_person
-from intents.english.verb_clauses import SPEECH, first_that_fits, framed, goes_on
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Bring,
     Close,

@@ -4,19 +4,19 @@
 should be brought to me"; "the lamp should be on"; "see that Ada gets the pencil".
 """
 
-from intents.english import lexicon
-from intents.english.complements import Clause, Complement, read_complements
+from intents.english.clauses.results import brought_about, made_so
+from intents.english.clauses.verb_clauses import framed
+from intents.english.clauses.wishes import WISHES
 from intents.english.frames import FRAMES
 from intents.english.frames.devices import is_device
-from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
+from intents.english.phrases.complements import Clause, Complement, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import is_person, to_object, to_person, to_place
 from intents.english.reading import Found, SaidVerb, Sentence
-from intents.english.referents import is_person, to_object, to_person, to_place
-from intents.english.results import brought_about, made_so
 from intents.english.trouble import ReadingError
-from intents.english.verb_clauses import framed
-from intents.english.verbs import SENSES, participle_base, verbs_at
-from intents.english.wishes import WISHES
+from intents.english.words import lexicon
+from intents.english.words.verbs import SENSES, participle_base, verbs_at
 from intents.goals import Bring, Guide, Switch
 
 _RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "

@@ -2,17 +2,17 @@
 
 from msgspec.structs import replace
 
-from intents.english.complements import read_complements
-from intents.english.lexer import COMMA
-from intents.english.noun_phrases import noun_phrase
-from intents.english.openings import skip_openings
-from intents.english.questions import question
+from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.questions import question
+from intents.english.clauses.statements import IS, mention_phrase, stated
+from intents.english.clauses.verb_clauses import read_verb
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_object, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import to_object, to_place
-from intents.english.statements import IS, mention_phrase, stated
-from intents.english.text import Text
-from intents.english.verb_clauses import read_verb
-from intents.english.verbs import base_form, verbs_at
+from intents.english.words.lexer import COMMA
+from intents.english.words.text import Text
+from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import Bring, Find, Goal, GoTo, ObjectQuery, Pick, Place
 
 

@@ -2,11 +2,11 @@
 
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.complements import read_complements
-from intents.english.noun_phrases import noun_phrase
+from intents.english.phrases.complements import first_with, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import is_person, to_person, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import is_person, to_person, to_place
+from intents.english.words import lexicon
 from intents.goals import OPERATOR, Guide
 
 _HELPS = lexicon.words("help assist let")
@@ -33,8 +33,8 @@ def helped_there(sentence: Sentence, at: int) -> Found | None:
     if way is None:
         return None
     complements, stop = read_complements(text, way)
-    source = next((c for c in complements if c.phrases and c.role == "from"), None)
-    goal = next((c for c in complements if c.phrases and c.role in ("to", "into", "")), None)
+    source = first_with(complements, "from")
+    goal = first_with(complements, "to", "into", "")
     if goal is None:
         return None
     if source:
@@ -70,6 +70,6 @@ def made_to_follow(sentence: Sentence, at: int) -> Found | None:
     if text.words[end : end + 2] not in (["follow", "you"], ["come", "with"]):
         return None
     complements, stop = read_complements(text, end + 2)
-    goal = next((c for c in complements if c.phrases and c.role in ("to", "into")), None)
+    goal = first_with(complements, "to", "into")
     to = to_place(goal.phrase, scope) if goal else None
     return [Guide(person=to_person(phrase, scope), to=to)], stop

@@ -2,16 +2,16 @@
 
 from math import pi
 
-from intents.english import lexicon
-from intents.english.complements import Clause, Complement, read_complements
+from intents.english.clauses.verb_clauses import framed, without_favours
 from intents.english.frames import FRAMES
-from intents.english.lexer import singular
-from intents.english.measures import Measure, number
-from intents.english.noun_phrases import noun_phrase
+from intents.english.phrases.complements import Clause, Complement, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import is_person
 from intents.english.reading import Found, Sentence
-from intents.english.referents import is_person
-from intents.english.text import Text
-from intents.english.verb_clauses import framed, without_favours
+from intents.english.words import lexicon
+from intents.english.words.lexer import singular
+from intents.english.words.measures import Measure, number
+from intents.english.words.text import Text
 from intents.goals import Repeat
 
 _ACTS: dict[str, tuple[str, str]] = {

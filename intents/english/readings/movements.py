@@ -1,13 +1,13 @@
 """Movements in set phrases: "step aside", "patrol between table and shelf", "go to x = 1"."""
 
-from intents.english import lexicon
-from intents.english.complements import ends_clause
-from intents.english.measures import measure, number
-from intents.english.noun_phrases import noun_phrase
+from intents.english.phrases.complements import ends_clause
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import to_place
 from intents.english.trouble import Unclear
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.measures import measure, number
+from intents.english.words.verbs import verbs_at
 from intents.goals import GoTo, Pose2, Repeat
 
 _TO_AND_FRO = lexicon.phrases(

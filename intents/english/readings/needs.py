@@ -4,13 +4,13 @@
 question"; "I need you in the cellar".
 """
 
-from intents.english import lexicon
-from intents.english.complements import read_complements
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.clauses.wishes import WISHES, asks_end
+from intents.english.phrases.complements import first_with, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.referents import is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.referents import is_person, sought, to_object, to_person, to_place
-from intents.english.verbs import verbs_at
-from intents.english.wishes import WISHES, asks_end
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Bring, GoTo, Guide
 
 _LOST = lexicon.phrases(
@@ -57,7 +57,7 @@ def needed(sentence: Sentence, at: int) -> Found | None:
         needing = text.phrase_end(_NEEDS, phrase.end)
     complements, end = read_complements(text, going or needing or phrase.end)
     if going:
-        goal = next((c for c in complements if c.phrases and c.role in ("to", "into")), None)
+        goal = first_with(complements, "to", "into")
         if goal is None or len(complements) > 1:
             return None
         sentence.notes.wanted = True

@@ -1,8 +1,9 @@
 """What is asked: "what are you holding?", "how many cups are there?", "look whether ..."."""
 
-from intents.english import lexicon, self_talk
-from intents.english import questions as syntax
+from intents.english.clauses import questions as syntax
+from intents.english.clauses import self_talk
 from intents.english.reading import Found, Sentence
+from intents.english.words import lexicon
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
 

@@ -3,13 +3,13 @@
 "There is a cup on the table, ..."; "I left my comb on the bench, ..."; "I am thirsty, ...".
 """
 
-from intents.english import lexicon
-from intents.english.lexer import COMMA, FULL_STOP, singular
-from intents.english.noun_phrases import noun_phrase
+from intents.english.clauses.statements import IS, mention_phrase, stated
+from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence
-from intents.english.statements import IS, mention_phrase, stated
 from intents.english.substitution import substitute
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
+from intents.english.words.verbs import verbs_at
 
 _KNOWN = lexicon.phrases(
     "i left,i put,i placed,i forgot,i saw,i dropped,i have left,i have put,i have forgotten,"

@@ -1,15 +1,15 @@
 """How often: "three times, wave", "do that again", "for each cup on the table, ..."."""
 
-from intents.english import lexicon
-from intents.english.lexer import COMMA
-from intents.english.measures import measure
-from intents.english.noun_phrases import noun_phrase
-from intents.english.openings import begins_clause
+from intents.english.clauses.openings import begins_clause
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_object
 from intents.english.reading import Found, Sentence
-from intents.english.referents import to_object
 from intents.english.sequences import sequence
 from intents.english.trouble import Unclear
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
+from intents.english.words.measures import measure
+from intents.english.words.verbs import verbs_at
 from intents.goals import ForEach, Repeat
 
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")

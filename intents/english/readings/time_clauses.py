@@ -1,15 +1,15 @@
 """When: "before you go there, ...", "when you are in the lab, ...", "in ten seconds, ..."."""
 
-from intents.english import lexicon
-from intents.english.complements import Complement, ends_clause, read_complements
-from intents.english.lexer import COMMA
-from intents.english.measures import measure
-from intents.english.openings import begins_clause, skip_openings
+from intents.english.clauses.openings import begins_clause, skip_openings
+from intents.english.clauses.saying import content_end
+from intents.english.clauses.verb_clauses import framed, read_verb
+from intents.english.phrases.complements import Complement, ends_clause, read_complements
+from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
-from intents.english.referents import to_place
-from intents.english.saying import content_end
-from intents.english.verb_clauses import framed, read_verb
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
+from intents.english.words.measures import measure
+from intents.english.words.verbs import verbs_at
 from intents.goals import GoTo, Wait
 
 _TOLD = lexicon.phrases(

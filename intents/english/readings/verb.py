@@ -1,11 +1,11 @@
 """A verb with its complements: "put the cup on the shelf"."""
 
-from intents.english import lexicon
-from intents.english.complements import connector_end
+from intents.english.clauses.verb_clauses import read_verb
+from intents.english.phrases.complements import connector_end
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.trouble import Unclear
-from intents.english.verb_clauses import read_verb
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
 
 _TIDIES = lexicon.phrases("tidy by,tidy up by,clean up by,clear up by")
 

@@ -1,12 +1,12 @@
 """Commands without a verb that says it: "lights off", "three steps forward", "make a fist"."""
 
-from intents.english.complements import read_complements
-from intents.english.noun_phrases import noun_phrase
+from intents.english.clauses.results import brought_about
+from intents.english.clauses.verb_clauses import framed
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence
-from intents.english.results import brought_about
 from intents.english.trouble import Misfit, Unclear
-from intents.english.verb_clauses import framed
-from intents.english.verbs import verbs_at
+from intents.english.words.verbs import verbs_at
 from intents.goals import Close, LookAt, Switch
 
 _LIFTS = ("raise", "lift", "lower")

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from workshop_words import WORKSHOP
 
-from intents.english.names import index_of
 from intents.english.order import RULES
+from intents.english.phrases.referents import Scope
 from intents.english.reading import Found, Reading, Sentence
 from intents.english.readings import (
     conditionals,
@@ -20,10 +20,10 @@ from intents.english.readings import (
     verb,
 )
 from intents.english.readings.needs import lost
-from intents.english.referents import Scope
 from intents.english.sequences import sequence
-from intents.english.text import Text
 from intents.english.trouble import NotUnderstood, ReadingError
+from intents.english.words.names import index_of
+from intents.english.words.text import Text
 
 BOTH_READ = [
     (conditionals.conditional, time_clauses.one_before_the_other, "when you see Noor, nod"),

@@ -8,7 +8,7 @@ from test_constructions import CASES
 from test_grammar_table import BODY, FREE_SPEECH, HANDLING, MISSION, MOTION, PEOPLE, SEQUENCES
 from workshop_words import WORKSHOP
 
-from intents.english.spelling import COMMON_WORDS, GRAMMAR_WORDS
+from intents.english.words.spelling import COMMON_WORDS, GRAMMAR_WORDS
 from intents.goals import from_json, to_json
 from intents.outcomes import Goals, Question, Refusal
 from intents.parser import MAX_CHARACTERS, hear, parse

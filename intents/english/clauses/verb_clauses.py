@@ -2,17 +2,17 @@
 
 from collections.abc import Iterable
 
-from intents.english import lexicon
-from intents.english.complements import Clause, Complement, ends_clause, read_complements
+from intents.english.clauses.questions import counted
+from intents.english.clauses.saying import answer, describe, inform, say, tell
 from intents.english.frames import FRAMES
-from intents.english.lexer import COMMA, FULL_STOP
-from intents.english.questions import counted
+from intents.english.phrases.complements import Clause, Complement, ends_clause, read_complements
+from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, SaidVerb, Sentence, not_understood
-from intents.english.referents import to_place
-from intents.english.saying import answer, describe, inform, say, tell
-from intents.english.text import Text
 from intents.english.trouble import ReadingError
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import GoTo, Repeat
 
 SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}

@@ -1,17 +1,17 @@
 """Questions, asked outright ("how many cups are there?") or after tell ("... how many ...")."""
 
-from intents.english import lexicon
-from intents.english.lexer import COMMA
-from intents.english.measures import number
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers, weight_at
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.polar import BE, read_on, skip_being, yes_or_no
-from intents.english.properties import OF_ADJECTIVES, property_of
+from intents.english.clauses.polar import BE, read_on, skip_being, yes_or_no
+from intents.english.clauses.self_talk import about_robot
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers, weight_at
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import Scope, is_person, sought, to_object, to_person
 from intents.english.reading import Found
-from intents.english.referents import Scope, is_person, sought, to_object, to_person
-from intents.english.self_talk import about_robot
-from intents.english.text import Text
 from intents.english.trouble import Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
+from intents.english.words.measures import number
+from intents.english.words.properties import OF_ADJECTIVES, property_of
+from intents.english.words.text import Text
 from intents.goals import Count, ObjectQuery, Person, Tell
 
 

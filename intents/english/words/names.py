@@ -6,8 +6,8 @@ from typing import Literal, NamedTuple
 
 from rapidfuzz import fuzz, process
 
-from intents.english.lexer import singular, tokenize
-from intents.english.lexicon import AKIN, SYNONYMS
+from intents.english.words.lexer import singular, tokenize
+from intents.english.words.lexicon import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]
@@ -32,6 +32,8 @@ class Match(NamedTuple):
 
 
 _LIKE = 78.0
+"""How like a name has to be to be asked back for [%]: above it stand a word in common (90), a part
+of the name (85) and, as the likeness of letters, one letter of five."""
 
 
 def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> float:
@@ -47,6 +49,7 @@ def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> flo
 
 
 _PART = 2
+"""A part that is no longer than this, "of" or "a", tells nothing."""
 
 
 def _split(name: str) -> list[str]:
@@ -138,6 +141,7 @@ class NameIndex:
     def nearest(self, said: str, kinds: tuple[str, ...]) -> list[str]:
         """Up to three names of these kinds that are written most like what was said."""
         known = sorted({n.name for names in self._names.values() for n in names if n.kind in kinds})
+        # Only a hint behind a refusal, so it may be further off than what is asked back.
         found = process.extract(said, known, scorer=fuzz.WRatio, limit=3, score_cutoff=60)
         return [name for name, _, _ in found] or known[:3]
 

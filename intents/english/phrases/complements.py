@@ -1,16 +1,23 @@
 """What follows a verb: noun phrases with their prepositions, quantities, directions, particles."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
-from intents.english import lexicon
-from intents.english.lexer import COMMA, FULL_STOP, QUOTE
-from intents.english.lexicon import CONNECTORS, GOALWARDS, LOCATIVES, OTHER_PREPOSITIONS, phrases
-from intents.english.measures import Measure, measure, number
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers, weight_at
-from intents.english.phrase import Locative, NounPhrase, is_content
-from intents.english.text import Text
-from intents.english.verbs import verbs_at
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers, weight_at
+from intents.english.phrases.phrase import Locative, NounPhrase, is_content
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.lexicon import (
+    CONNECTORS,
+    GOALWARDS,
+    LOCATIVES,
+    OTHER_PREPOSITIONS,
+    phrases,
+)
+from intents.english.words.measures import Measure, measure, number
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import How
 
 Role = Literal["", "to", "into", "from", "at", "for", "with", "of", "about", "through"]
@@ -76,6 +83,11 @@ class Complement:
     def phrase(self) -> NounPhrase:
         """The first noun phrase; only where there is one."""
         return self.phrases[0]
+
+
+def first_with(complements: Iterable[Complement], *roles: str) -> Complement | None:
+    """The first complement with one of these roles; "" is a bare noun phrase."""
+    return next((c for c in complements if c.phrases and c.role in roles), None)
 
 
 @dataclass(slots=True)

@@ -2,11 +2,11 @@
 
 from typing import Literal
 
-from intents.english import lexicon
-from intents.english.lexer import singular
-from intents.english.lexicon import COLORS, DETERMINERS, POSTURES
-from intents.english.phrase import NounPhrase
-from intents.english.text import Text
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.words import lexicon
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import COLORS, DETERMINERS, POSTURES
+from intents.english.words.text import Text
 from intents.goals import Clothing
 
 _POINTED_AT = lexicon.phrases(

@@ -1,7 +1,7 @@
 """How wishes begin, and how it is said that somebody has a question."""
 
-from intents.english import lexicon
-from intents.english.text import Text
+from intents.english.words import lexicon
+from intents.english.words.text import Text
 
 WISHES = lexicon.phrases("i want,i need,i would like,we want,we need,we would like")
 """How a wish begins."""

@@ -1,12 +1,12 @@
 """Conditions: "the cup is not there", "you see a person", "the door is open"."""
 
-from intents.english.lexer import singular
-from intents.english.lexicon import LOCATIVES, phrases
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.text import Text
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import NotUnderstood
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import LOCATIVES, phrases
+from intents.english.words.text import Text
 from intents.goals import Condition, Find, Holding, ObjectQuery, Present, State
 
 IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")

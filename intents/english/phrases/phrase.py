@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
-from intents.english import lexicon
-from intents.english.measures import NUMBER_WORDS, UNIT_WORDS
-from intents.english.names import Name
-from intents.english.text import Text
+from intents.english.words import lexicon
+from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
+from intents.english.words.names import Name
+from intents.english.words.text import Text
 from intents.goals import Clothing, How, Superlative
 
 Noun = Literal[

@@ -1,12 +1,12 @@
 """Noun phrases up to their noun: "the three largest red cups", "Julia's cup", "whatever", "it"."""
 
-from intents.english import lexicon
-from intents.english.nouns import read_noun
-from intents.english.phrase import Locative, NounPhrase, is_content
-from intents.english.premodifiers import read_adjectives, read_quantity
-from intents.english.pronouns import free_relative, pronoun
-from intents.english.properties import property_of
-from intents.english.text import Text
+from intents.english.phrases.nouns import read_noun
+from intents.english.phrases.phrase import Locative, NounPhrase, is_content
+from intents.english.phrases.premodifiers import read_adjectives, read_quantity
+from intents.english.phrases.pronouns import free_relative, pronoun
+from intents.english.words import lexicon
+from intents.english.words.properties import property_of
+from intents.english.words.text import Text
 
 _STANDS = lexicon.words("is are am was were stands stood sits sat lies lay belongs goes")
 

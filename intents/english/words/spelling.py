@@ -7,11 +7,11 @@ from importlib.resources import files
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from intents.english import lexicon
-from intents.english.measures import NUMBER_WORDS, UNIT_WORDS
-from intents.english.names import NameIndex, index_of
-from intents.english.properties import PROPERTIES
-from intents.english.verbs import FIRST_WORDS, SENSES, base_form
+from intents.english.words import lexicon
+from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
+from intents.english.words.names import NameIndex, index_of
+from intents.english.words.properties import PROPERTIES
+from intents.english.words.verbs import FIRST_WORDS, SENSES, base_form
 from intents.vocabulary import Vocabulary
 
 _PHRASES = (
@@ -51,7 +51,7 @@ _MORE_VERBS = lexicon.words(
 _VERBS = sorted(w for w in FIRST_WORDS if len(w) > 3 and w in CORE | _MORE_VERBS)
 _SHORT_VERBS = ("put", "get", "lay", "set")
 COMMON_WORDS = frozenset(
-    (files("intents.english") / "common_words.txt").read_text(encoding="utf-8").split()
+    (files("intents.english.words") / "common_words.txt").read_text(encoding="utf-8").split()
 )
 """Words that mean themselves even where a name of the vocabulary is one letter away."""
 
@@ -61,6 +61,9 @@ KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS | {"once", "twice", "thrice", "only"}
 
 
 _SHORTEST, _LONG = 4, 9
+"""A verb of fewer letters is a letter away from too many words; a long one may have two wrong."""
+_KEPT = 5000
+"""So many corrections are remembered: a bound on memory, far beyond what one conversation says."""
 
 
 def _slack(word: str) -> int:
@@ -106,7 +109,7 @@ class Speller:
         if verb:
             return [verb]
         if word not in self._corrected:
-            if len(self._corrected) > 5000:
+            if len(self._corrected) > _KEPT:
                 self._corrected.clear()
             self._corrected[word] = self._parts(word) or [self._nearest(word)]
         return self._corrected[word]
@@ -122,6 +125,8 @@ class Speller:
     def _nearest(self, word: str) -> str:
         slack = _slack(word)
         ranked: list[tuple[float, str]] = []
+        # Penalties under one edit: they only decide between words that are equally far. A name is
+        # likelier misspelt than a word of every day, a first letter is seldom wrong.
         for penalty, words in ((0.0, self._names), (0.25, self._grammar)) if slack else ():
             for known, distance, _ in process.extract(
                 word, words, scorer=OSA.distance, score_cutoff=slack, limit=4

@@ -2,19 +2,19 @@
 
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.complements import connector_end, ends_clause
-from intents.english.lexer import COMMA, FULL_STOP, QUOTE
-from intents.english.measures import measure
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
-from intents.english.phrase import NounPhrase
-from intents.english.questions import property_question, question
+from intents.english.clauses.questions import property_question, question
+from intents.english.clauses.self_talk import about_robot, small_talk
+from intents.english.phrases.complements import connector_end, ends_clause
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.reading import Found
-from intents.english.referents import ME, Scope, is_person, to_object, to_person, to_place
-from intents.english.self_talk import about_robot, small_talk
-from intents.english.text import Text
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
-from intents.english.verbs import verbs_at
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.measures import measure
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 
 _TO = lexicon.words("to for with")

@@ -1,7 +1,7 @@
 """Verbs, of one or more words, and what sense each has before its complements are known."""
 
-from intents.english.lexer import singular
-from intents.english.lexicon import Phrase
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import Phrase
 
 SPELLINGS: dict[str, str] = {
     "go": (

@@ -5,10 +5,10 @@ from typing import cast
 
 from msgspec.structs import replace
 
-from intents.english.lexicon import COLORS
-from intents.english.names import NameIndex
-from intents.english.phrase import Locative, NounPhrase
+from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
+from intents.english.words.lexicon import COLORS
+from intents.english.words.names import NameIndex
 from intents.goals import (
     OPERATOR,
     Bring,

@@ -1,11 +1,11 @@
 """What stands before the noun: how many, which, what colour, what size."""
 
-from intents.english import lexicon
-from intents.english.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
-from intents.english.measures import UNIT_WORDS, number
-from intents.english.phrase import NounPhrase, is_content
-from intents.english.text import Text
-from intents.english.verbs import verbs_at
+from intents.english.phrases.phrase import NounPhrase, is_content
+from intents.english.words import lexicon
+from intents.english.words.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
+from intents.english.words.measures import UNIT_WORDS, number
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 
 _APART = ("different", "separate")
 

@@ -1,11 +1,11 @@
 """What stands before a clause and asks for nothing: "and then", "could you", "step 1:"."""
 
-from intents.english import lexicon
-from intents.english.complements import connector_end
-from intents.english.lexer import COMMA, FULL_STOP
-from intents.english.self_talk import about_robot
-from intents.english.text import Text
-from intents.english.verbs import verbs_at
+from intents.english.clauses.self_talk import about_robot
+from intents.english.phrases.complements import connector_end
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 
 _SEEN = lexicon.words(
     "a an any the my some anyone anybody someone somebody anything it them him her"

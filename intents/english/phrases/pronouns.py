@@ -1,11 +1,11 @@
 """Phrases without a noun of their own: "it", "here", "me", "what is on the table"."""
 
-from intents.english import lexicon
-from intents.english.lexicon import DETERMINERS
-from intents.english.measures import number
-from intents.english.phrase import SOMETHING, Noun, NounPhrase, is_content
-from intents.english.text import Text
-from intents.english.verbs import verbs_at
+from intents.english.phrases.phrase import SOMETHING, Noun, NounPhrase, is_content
+from intents.english.words import lexicon
+from intents.english.words.lexicon import DETERMINERS
+from intents.english.words.measures import number
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 
 _PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
                        "left right rest")  # fmt: skip

@@ -1,12 +1,12 @@
 """The noun of a phrase: a name of the vocabulary, a word like "thing", or a word not known."""
 
-from intents.english import lexicon
-from intents.english.lexer import QUOTE
-from intents.english.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS
-from intents.english.names import Match
-from intents.english.phrase import SOMETHING, Locative, NounPhrase, is_content
-from intents.english.text import Text
-from intents.english.verbs import verbs_at
+from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
+from intents.english.words import lexicon
+from intents.english.words.lexer import QUOTE
+from intents.english.words.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS
+from intents.english.words.names import Match
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 
 _PARTS = lexicon.words("door doors lid flap")
 """Parts of furniture that stand for the whole: the cabinet door."""

@@ -3,15 +3,24 @@
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
-from intents.english.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
-from intents.english.lexicon import ADVERBS, DETERMINERS, FILLERS, FUNCTION_WORDS, Phrase, words
-from intents.english.names import Match, NameIndex, index_of
-from intents.english.spelling import KNOWN_WORDS, speller_of
-from intents.english.verbs import participle_base
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.words.lexicon import (
+    ADVERBS,
+    DETERMINERS,
+    FILLERS,
+    FUNCTION_WORDS,
+    Phrase,
+    words,
+)
+from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.verbs import participle_base
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
 _LONGEST_PHRASE = 7
+"""The longest phrase of any table that is looked up: "go on with what you were doing"."""
+_LONGEST_FILLER = max(map(len, FILLERS))
 _REPEATED = words("that no stop bye her had wait")
 _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
@@ -149,7 +158,7 @@ def _adverb_end(words: list[str], at: int) -> int | None:
 
 
 def _filler_end(words: list[str], at: int) -> int | None:
-    for end in range(min(len(words), at + _LONGEST_PHRASE), at, -1):
+    for end in range(min(len(words), at + _LONGEST_FILLER), at, -1):
         if tuple(words[at:end]) in FILLERS:
             checked = words[at] in ("if", "when") and words[end : end + 1] in _CHECKED
             return None if checked else end

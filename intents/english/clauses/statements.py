@@ -2,11 +2,11 @@
 
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
-from intents.english.phrase import NounPhrase
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.text import Text
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.words import lexicon
+from intents.english.words.text import Text
 
 IS = lexicon.phrases(
     "is,are,was,were,should be,might be,must be,may be,could be,ought to be,has to be,will be,"

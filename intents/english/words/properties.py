@@ -1,6 +1,6 @@
 """Properties that can be asked after: the pose of a person, the colour of a cup."""
 
-from intents.english.lexer import singular
+from intents.english.words.lexer import singular
 
 PROPERTIES = {
     "name": "name", "pose": "posture", "posture": "posture", "position": "posture",

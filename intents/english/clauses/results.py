@@ -1,12 +1,12 @@
 """What is brought about: "the drawer open", "the lamp on"."""
 
-from intents.english.complements import Complement, ends_clause
 from intents.english.frames.devices import device_names
-from intents.english.noun_phrases import noun_phrase
-from intents.english.phrase import NounPhrase
+from intents.english.phrases.complements import Complement, ends_clause
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope
 from intents.english.reading import Found
-from intents.english.referents import Scope
-from intents.english.text import Text
+from intents.english.words.text import Text
 from intents.goals import Close, Goal, Open, Switch
 
 _RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {

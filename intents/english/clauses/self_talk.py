@@ -3,8 +3,8 @@
 import re
 from functools import lru_cache
 
-from intents.english import lexicon
-from intents.english.text import Text
+from intents.english.words import lexicon
+from intents.english.words.text import Text
 from intents.goals import Goal, Report, ReportTopic, Say
 
 _NOW = (

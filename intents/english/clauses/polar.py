@@ -1,12 +1,12 @@
 """Questions of yes or no: "is there a cup on the table?", "is Ada sitting or standing?"."""
 
-from intents.english import lexicon
-from intents.english.lexer import COMMA
-from intents.english.noun_phrases import noun_phrase, read_postmodifiers
-from intents.english.phrase import Locative, NounPhrase
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import Scope, is_person, sought, to_object, to_person
 from intents.english.reading import Found
-from intents.english.referents import Scope, is_person, sought, to_object, to_person
-from intents.english.text import Text
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
+from intents.english.words.text import Text
 from intents.goals import Find, Person, Tell
 
 BE = lexicon.words("is are was were do does did can there you see find currently has have i am "

@@ -1,20 +1,19 @@
 """Noun phrases: "the three largest red cups on the table in the kitchen".
 
 A noun phrase is read in three parts: what stands before the noun (how many, which, what colour;
-:mod:`intents.english.premodifiers`), the noun (:mod:`intents.english.nouns`), and what follows it,
-in this file, since it holds noun phrases in turn: where the thing is, relative clauses. Nothing is
-decided here about what the phrase is for; :mod:`intents.english.referents` turns it into an object,
-a person or a place.
+`premodifiers.py`), the noun (`nouns.py`), and what follows it, in this file, since it holds noun
+phrases in turn: where the thing is, relative clauses. Nothing is decided here about what the phrase
+is for; `referents.py` turns it into an object, a person or a place.
 """
 
-from intents.english import lexicon
-from intents.english.appearance import read_appearance
-from intents.english.bare_phrases import bare_phrase
-from intents.english.lexer import COMMA, singular
-from intents.english.lexicon import COLORS, DETERMINERS, LOCATIVES
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.pronouns import part_of
-from intents.english.text import Text
+from intents.english.phrases.appearance import read_appearance
+from intents.english.phrases.bare_phrases import bare_phrase
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.pronouns import part_of
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, singular
+from intents.english.words.lexicon import COLORS, DETERMINERS, LOCATIVES
+from intents.english.words.text import Text
 from intents.goals import Superlative
 
 _RELATIVE = lexicon.words("that which who whose")
