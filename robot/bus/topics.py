@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
-from robot.errors import BusError
 from robot.messages import (
     BodyCommand,
     BodyState,
@@ -71,17 +70,17 @@ BODY_STATE: Topic[BodyState] = Topic(
     ),
 )  # fmt: skip
 LIDAR: Topic[LidarScan] = Topic(
-    "sensors/lidar", LidarScan, 10.0, "plant",
+    "sensors/lidar", LidarScan, 10.0, "perception",
     silence=Silence(code="sensor_silent", level="HOLD", text="the lidar is silent"),
 )  # fmt: skip
 DEPTH: Topic[DepthImage] = Topic(
-    "sensors/depth", DepthImage, 10.0, "plant",
+    "sensors/depth", DepthImage, 10.0, "perception",
     silence=Silence(code="sensor_silent", level="HOLD", text="the camera is silent"),
 )  # fmt: skip
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
-POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "plant")
+POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "controller")
 WORLD_STATE: Topic[WorldState] = Topic(
     "world/state", WorldState, 10.0, "perception",
     silence=Silence(code="localisation_lost", level="HOLD", text="the world model is silent"),
@@ -103,14 +102,3 @@ TOPICS: tuple[Topic[Any], ...] = (
     PLANT_TIMING,
 )
 BY_NAME: dict[str, Topic[Any]] = {topic.name: topic for topic in TOPICS}
-
-
-def named(name: str) -> Topic[Any]:
-    """The topic of that name.
-
-    Raises:
-        BusError: if the table has no such topic.
-    """
-    if name not in BY_NAME:
-        raise BusError(f"no topic {name!r}; the table has {', '.join(sorted(BY_NAME))}")
-    return BY_NAME[name]
