@@ -91,13 +91,13 @@ PLANT_TIMING: Topic[LoopTiming] = Topic("plant/timing", LoopTiming, 1.0, "plant"
 TOPICS: tuple[Topic[Any], ...] = (
     BODY_COMMAND,
     BODY_STATE,
+    WORLD_STATE,  # before camera and lidar: when perception dies, that is what is told first
     LIDAR,
     DEPTH,
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,
     POWER,
-    WORLD_STATE,
     CONTROLLER_TIMING,
     PLANT_TIMING,
 )
