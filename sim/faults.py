@@ -15,6 +15,7 @@ import msgspec
 
 from robot.bus.topics import TOPICS
 from robot.config import nearest
+from robot.drivers.registry import SENSES
 from robot.errors import ConfigError, Problem
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Vector3
@@ -30,6 +31,11 @@ SENSORS: dict[str, tuple[str, ...]] = {
     "localisation": ("oracle/fix",),
 }
 """A sensor to the topics that fall silent with it."""
+SENT = [
+    *(topic.name for topic in TOPICS if topic.source == "plant"),
+    *(sense.topic.name for sense in SENSES),
+]
+"""What a plant sends, or the drivers of its sensors publish."""
 
 
 def _name(kind: str) -> str:
@@ -202,7 +208,7 @@ def verify(data: Mapping[str, Any], world: World, robot: RobotDescription) -> Fa
         "target": objects if isinstance(fault, KnockOver | Occupy) else bodies,
         "place": list(atlas.places(world)),
         "motor": list(robot.motor_names),
-        "topic": [*SENSORS, *(topic.name for topic in TOPICS if topic.source == "plant")],
+        "topic": [*SENSORS, *SENT],
     }
     for field, valid in known.items():
         name = getattr(fault, field, None)

@@ -7,7 +7,10 @@ from typing import Any
 from robot.bringup import entry
 from robot.bringup.lockstep import Lockstep
 from robot.bus.bus import LocalBus
-from robot.control.loop import ControlLoop
+from robot.clock import SimulatedClock
+from robot.control.loop import NEEDS, ControlLoop
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.wiring import Wiring
 from robot.model import description
 from robot.perception.node import PerceptionNode
 
@@ -42,9 +45,14 @@ class FastRuntime(Lockstep):
         bus = bus or LocalBus()
         body = description.load(robot)
         loaded = entry.world(world) if isinstance(world, str) else world
+        made = entry.attribute(plant)(loaded, body, seed=seed, physics_ms=PHYSICS_MS)
+        clock = SimulatedClock()
+        wiring = Wiring(robot=body, clock=clock, bus=bus, plant=made)
         super().__init__(
-            entry.attribute(plant)(loaded, body, seed=seed, physics_ms=PHYSICS_MS),
+            made,
             lambda: ControlLoop(body),
-            PerceptionNode(bus, body),
+            PerceptionNode(wiring),
+            body=BodyDevices(wiring, needs=NEEDS),
             bus=bus,
+            clock=clock,
         )

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, ExitStack
 from typing import Any, Protocol, Self
 
 from robot.bringup import entry
 from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
+from robot.bus.topics import Topic
 from robot.clock import SimulatedClock
 from robot.closing import Closing
-from robot.drivers.motors import MotorCommand, MotorState
-from robot.drivers.simulated import SimulatedMotors
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.wiring import SimulatedPlant
 from robot.errors import ConfigError, DriverError, Failure, failure
 from robot.link import BusLink
 from robot.messages import BodyCommand, BodyState, Message
@@ -25,23 +29,15 @@ TAKE_OVER_MS = 10
 PARSE, APPLY = "sim.faults:parse", "sim.faults:apply"
 
 
-class Plant(Protocol):
+class Plant(SimulatedPlant, Protocol):
     """Reality's stand-in: `step` advances whole milliseconds, `sense` gives what is due."""
-
-    def read(self) -> MotorState:
-        """Measure the motors and the body's own sensors."""
-        ...
-
-    def write(self, command: MotorCommand) -> MotorCommand:
-        """Command every motor."""
-        ...
 
     def step(self, count: int = 1) -> None:
         """Advance; raises DriverError if the physics diverged."""
         ...
 
-    def sense(self, now_s: float) -> Iterable[tuple[str, Message]]:
-        """Names of topics and messages of the sensors that are due."""
+    def sense(self, now_s: float) -> Iterable[tuple[Topic[Any], Message]]:
+        """Topics and messages of the sensors that are due."""
         ...
 
 
@@ -52,7 +48,7 @@ class Controller(Protocol):
         """Take one command."""
         ...
 
-    def tick(self, state: MotorState) -> MotorCommand:
+    def tick(self, sample: BodySample) -> MotorCommand:
         """One period of the motor bus."""
         ...
 
@@ -61,8 +57,8 @@ class Controller(Protocol):
         ...
 
 
-class Perception(Protocol):
-    """Reads its topics from the bus and publishes the world state."""
+class Perception(AbstractContextManager[object], Protocol):
+    """Opens its sensors, reads them and the bus, and publishes the world state."""
 
     def step(self) -> None:
         """Work off what came."""
@@ -88,19 +84,25 @@ class Lockstep(Closing):
         control: Callable[[], Controller],
         perception: Perception,
         *,
+        body: BodyDevices,
         bus: LocalBus,
+        clock: SimulatedClock,
     ) -> None:
-        """Put the parts together; `control` makes a controller, and another when one was killed."""
+        """Put the parts together; `control` makes a controller, and another when one was killed.
+
+        `body` is what the controller has of the plant; `clock` is moved on from here.
+        """
         self.restarted: list[str] = []
         self.plant: Any = plant
-        self.clock = SimulatedClock()
+        self.clock = clock
         self.link = BusLink(bus, self.clock)
         self._bus = bus
         self._control = control
         self._controller: Controller | None = control()
         self._perception = perception
         self._commands = bus.subscribe(topics.BODY_COMMAND)
-        self._motors = SimulatedMotors(plant)
+        self._body = body
+        self._opened = ExitStack()
         self._plant = plant
         self._time_ms = 0
         self._failure: Failure | None = None
@@ -109,13 +111,16 @@ class Lockstep(Closing):
         self._back_ms = math.inf
 
     def __enter__(self) -> Self:
-        """Open the motors."""
-        self._motors.__enter__()
+        """Open motors and sensors."""
+        with ExitStack() as stack:
+            stack.enter_context(self._perception)
+            stack.enter_context(self._body)
+            self._opened = stack.pop_all()
         return self
 
     def close(self) -> None:
         """Damp the motors and close the bus."""
-        self._motors.close()
+        self._opened.close()
         self._bus.close()
 
     def failure(self) -> Failure | None:
@@ -164,7 +169,7 @@ class Lockstep(Closing):
             self._failure = failure("controller_lost", "the controller was killed")
 
     def _run_until(self, end_ms: int) -> None:
-        commands, motors = self._commands, self._motors
+        commands, body = self._commands, self._body
         step = self._plant.step
         while self._time_ms < end_ms:
             if self._controller is None and self._time_ms >= self._back_ms:
@@ -172,7 +177,7 @@ class Lockstep(Closing):
             if (controller := self._controller) is not None:
                 for command in commands.take():
                     controller.handle(command)
-                motors.write(controller.tick(motors.read()))
+                body.write(controller.tick(body.read()))
             if self._time_ms % STATE_PERIOD_MS == 0:
                 self._report()
             step(CONTROL_PERIOD_MS)
@@ -185,7 +190,8 @@ class Lockstep(Closing):
         if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
         sensed = list(self._plant.sense(now_s))
-        for name, message in sensed:
-            self._bus.publish(topics.named(name), message)
+        for topic, message in sensed:
+            self._bus.publish(topic, message)
+        self._body.relay()
         if sensed:
             self._perception.step()

@@ -29,6 +29,7 @@ class Seqlock:
     def __init__(self, memory: mmap, offset: int, *, size: int) -> None:
         """Look at `size` numbers from `offset` (a multiple of 8) on."""
         self.torn = 0
+        self._seen = 0
         self._header: NDArray[np.uint64] = np.frombuffer(memory, np.uint64, 2, offset)
         self._values: Array = np.frombuffer(memory, np.float64, size, offset + HEADER_BYTES)
 
@@ -71,3 +72,13 @@ class Seqlock:
                 return before, values
         self.torn += 1
         return None
+
+    def news(self) -> Array | None:
+        """The newest whole record, if the last call did not give it already."""
+        if int(self._header[0]) == self._seen:
+            return None
+        record = self.read()
+        if record is None:
+            return None
+        self._seen, values = record
+        return values

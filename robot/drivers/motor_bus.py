@@ -1,21 +1,33 @@
-"""The one interface to motors and body sensors, simulated or real.
+"""The one interface to motors, simulated or real.
 
 A motor here is a MIT-mode actuator: its firmware applies, at its own rate,
 
     tau = kp (q_des - q) + kd (qd_des - qd) + tau_ff, clamped to its torque limit
 
-and damps (kp = 0, qd_des = 0) when no command has come for its watchdog time.
+and damps (kp = 0, qd_des = 0) when no command has come for its watchdog time. Motors that are less
+than that say so in their driver's `capabilities`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Literal, Protocol, Self, get_args
 
 import numpy as np
 
 from robot.closing import Closing
 from robot.se3 import Array
+
+Capability = Literal["position", "torque", "temperature", "gains"]
+"""What motors may be able to do.
+
+position: measures q and qd; else they are those of the last command (hobby servos).
+torque: takes tau_ff and measures tau, in N m; else tau is NaN (position servos).
+temperature: measures temperature_c; else it is NaN.
+gains: takes kp and kd with every command; else the firmware has its own (Dynamixel).
+"""
+MIT_MODE: frozenset[Capability] = frozenset(get_args(Capability))
+"""What a MIT-mode actuator can do: all of it."""
 
 
 @dataclass(slots=True)
@@ -45,17 +57,14 @@ class MotorCommand:
 
 @dataclass(slots=True)
 class MotorState:
-    """What the motors and the body's own sensors measured, at one instant.
+    """What the motors measured, at one instant.
 
     Attributes:
         stamp_s: clock of the plant.
         q, qd, tau: joint positions, velocities, applied torques, shape (n,), motor order.
         temperature_c: winding temperatures, shape (n,).
-        gyro_rad_s, accel_m_s2: IMU, shape (3,), in the IMU frame; accel includes gravity
-            (at rest it reads +9.81 upwards).
-        ankle_wrench: force [N] and torque [N m] at the left then right ankle, shape (2, 6), in the
-            sensor's frame, as the foot acts on the leg.
-        wrist_wrench: the same for the left and right wrist, as the hand acts on the arm.
+        age_s: how old each motor's feedback was at the stamp, shape (n,); where replies come one
+            by one, a lost one is seen here. Not to be written to.
         watchdog: True where the firmware damps because commands stopped coming.
         command_stamp_s: stamp of the last command the firmware took, -inf if none.
     """
@@ -65,10 +74,7 @@ class MotorState:
     qd: Array
     tau: Array
     temperature_c: Array
-    gyro_rad_s: Array
-    accel_m_s2: Array
-    ankle_wrench: Array
-    wrist_wrench: Array
+    age_s: Array
     watchdog: bool
     command_stamp_s: float
 
@@ -76,15 +82,28 @@ class MotorState:
 class MotorBus(Closing, Protocol):
     """A driver of all motors: a context manager that leaves the motors damped.
 
-    `__init__` opens nothing. Reading never blocks longer than one period.
+    `__init__` opens nothing. Reading never blocks longer than one period. One driver at a time
+    commands; any number may read.
     """
+
+    @property
+    def capabilities(self) -> frozenset[Capability]:
+        """What these motors can do; known before they are opened."""
+        ...
 
     def __enter__(self) -> Self:
         """Open the device. Raises DriverError if it is not there."""
         ...
 
     def close(self) -> None:
-        """Leave every motor damped and close; safe to call twice."""
+        """Leave every motor damped, unless another driver commands them, and close. Idempotent."""
+        ...
+
+    def claim(self) -> bool:
+        """Become the one that commands the motors, until closed; False while another one is.
+
+        The claim of a process that dies is free at once. Raises DriverError if it is not open.
+        """
         ...
 
     def read(self) -> MotorState:
@@ -92,9 +111,10 @@ class MotorBus(Closing, Protocol):
         ...
 
     def write(self, command: MotorCommand) -> MotorCommand:
-        """Send a command and return what was really sent.
+        """Send a command and return what was really sent; claims the motors if they are free.
 
         Raises:
-            DriverError: if a value is not finite or a shape is wrong (nothing is sent).
+            DriverError: if a value is not finite or a shape is wrong (nothing is sent), or another
+                driver commands.
         """
         ...
