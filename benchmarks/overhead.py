@@ -31,8 +31,8 @@ from executive.journal.journal import Journal
 from executive.runs.session import RATES_HZ
 from executive.skills.context import SkillContext
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import WaitParams
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.wait import WaitParams
 from tests.fakes.oracle_planner import RulePlanner
 from tests.fakes.worlds import JUNO, puppet
 
@@ -42,7 +42,7 @@ WARM_UP, BLOCKS, BLOCK = 40, 60, 10
 MOST = 1.3
 
 
-class Still(ScriptedSkill):
+class Still(ScriptedSkill[WaitParams]):
     """Waits for ever."""
 
     def script(self) -> Script[None]:
@@ -103,7 +103,7 @@ class Bench:
         self.body = puppet()
         context = SkillContext(link=self.body, planner=RulePlanner(), description=JUNO)
         self.executive = Executive(
-            context, Journal(), rates_hz=RATES_HZ, make=lambda _, given: Still(given)
+            context, Journal(), rates_hz=RATES_HZ, make=lambda _, given: Still(WaitParams(), given)
         )
         self.recorder = Recorder(self.executive) if recorded else None
         self.executive.submit(lambda stage: build(own(stage)), text="benchmark")

@@ -9,7 +9,7 @@ from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import HEALTH, HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge, full_name, stands_on
-from executive.skills.parameters import SayParams
+from executive.skills.say import SayParams
 from robot.errors import Failure, failure
 from robot.messages import Place, Track
 

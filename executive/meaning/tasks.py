@@ -16,24 +16,19 @@ from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.identify import Scene, cannot
 from executive.meaning.knowledge import full_name
-from executive.skills.parameters import (
-    BalanceParams,
-    FloorPose,
-    FollowParams,
-    GestureKind,
-    GestureParams,
-    GiveParams,
-    LookParams,
-    NavigateParams,
-    PickParams,
-    PlaceParams,
-    SayParams,
-    SearchParams,
-    SkillParams,
-    Step,
-    StopParams,
-    WaitParams,
-)
+from executive.skills.balance import BalanceParams
+from executive.skills.follow import FollowParams
+from executive.skills.gesture import GestureKind, GestureParams
+from executive.skills.give import GiveParams
+from executive.skills.look import LookParams
+from executive.skills.navigate import FloorPose, NavigateParams, Step
+from executive.skills.parameters import SkillParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.say import SayParams
+from executive.skills.search import SearchParams
+from executive.skills.stop import StopParams
+from executive.skills.wait import WaitParams
 from executive.trees.parts import Branch, Errand, Part, Series, errands
 from intents import goals
 from robot.messages import ObjectInfo, Place

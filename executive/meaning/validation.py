@@ -7,13 +7,11 @@ out by the planners. Below it stand the limits in the controller.
 from __future__ import annotations
 
 from executive.meaning.knowledge import Knowledge, full_name
-from executive.skills.parameters import (
-    BalanceParams,
-    NavigateParams,
-    Parameters,
-    PickParams,
-    PlaceParams,
-)
+from executive.skills.balance import BalanceParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.parameters import SkillParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from executive.trees.parts import Part, errands
 from robot.errors import Failure, failure
 from robot.model.description import RobotDescription
@@ -31,7 +29,7 @@ def check(part: Part, knowledge: Knowledge, description: RobotDescription) -> Fa
     The reach is that of a hand from a shoulder, by `ARM_REACH_M`, from `SQUAT_M` lower at best.
     """
     for errand in errands(part):
-        if isinstance(errand.params, Parameters):
+        if isinstance(errand.params, SkillParams):
             refusal = _check(errand.params, knowledge, description)
             if refusal is not None:
                 return refusal
@@ -39,7 +37,7 @@ def check(part: Part, knowledge: Knowledge, description: RobotDescription) -> Fa
 
 
 def _check(
-    params: Parameters, knowledge: Knowledge, description: RobotDescription
+    params: SkillParams, knowledge: Knowledge, description: RobotDescription
 ) -> Failure | None:
     if isinstance(params, PickParams):
         return _check_pick(params, knowledge, description)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from executive.meaning.request import Setting
-from executive.skills.parameters import PickParams, PlaceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import Place, Side

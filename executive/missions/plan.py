@@ -18,10 +18,16 @@ import msgspec
 from executive.meaning.request import Setting
 from executive.missions.hands import Hands
 from executive.missions.pacing import walking_s
-from executive.skills import parameters as k
+from executive.skills.balance import BalanceParams
+from executive.skills.look import LookParams
 from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.standpoints import AT_PERSON_M, ROOM_M, stances_around, stances_at
 from executive.skills.motions.walk import CLEARANCE_M
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.search import SearchParams
+from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from robot.bringup import entry
 from robot.errors import Failure
@@ -187,23 +193,23 @@ class _Forecaster:
         """How long a step takes [s], and why it would fail."""
         params = errand.params
         match params:
-            case k.NavigateParams():
+            case NavigateParams():
                 return self._navigate(params)
-            case k.PickParams():
+            case PickParams():
                 place = self._place_of(params.object_id)
                 self._on.pop(params.object_id, None)
                 return self._handle(self._hands.pick(params, self._at), place, PICK_S)
-            case k.PlaceParams():
+            case PlaceParams():
                 place = self._knowledge.place(params.place_id or "")
                 self._on[params.object_id] = params.place_id or ""
                 return self._handle(self._hands.place(params, place, self._at), place, PLACE_S)
-            case k.SearchParams():
+            case SearchParams():
                 return self._search(params)
-            case k.LookParams():
+            case LookParams():
                 return LOOK_S, ""
-            case k.BalanceParams():
+            case BalanceParams():
                 return params.duration_s + BALANCE_S[params.mode], ""
-            case k.WaitParams():
+            case WaitParams():
                 return params.duration_s or 0.0, ""
             case _:
                 return SAY_S, ""
@@ -217,7 +223,7 @@ class _Forecaster:
         walked_s, problem = self._walk([plan.standoff]) if plan else self._go(place)
         return walked_s + span_s, problem
 
-    def _search(self, params: k.SearchParams) -> tuple[float, str]:
+    def _search(self, params: SearchParams) -> tuple[float, str]:
         asked = [self._knowledge.place(place_id) for place_id in params.place_ids]
         span_s, problem = self._go(next(iter(asked), None) or self._place_of(params.object_id))
         return span_s + SEARCH_S, problem
@@ -225,7 +231,7 @@ class _Forecaster:
     def _place_of(self, object_id: str) -> Place | None:
         return self._knowledge.place(self._on.get(object_id, ""))
 
-    def _navigate(self, params: k.NavigateParams) -> tuple[float, str]:
+    def _navigate(self, params: NavigateParams) -> tuple[float, str]:
         if params.by is not None:
             by = params.by
             X_SG = SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0))

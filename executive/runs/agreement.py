@@ -18,7 +18,8 @@ from executive.journal.journal import Event
 from executive.meaning.knowledge import Knowledge, full_name, stands_on
 from executive.skills.holding import Held
 from executive.skills.motions.fingers import LEAST_GAP_M
-from executive.skills.parameters import PickParams, PlaceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from executive.trees.build import finished
 from executive.trees.parts import Errand, Part, of_any_attempt, walk
 from robot.link import BodyLink

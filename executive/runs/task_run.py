@@ -22,7 +22,7 @@ from executive.runs import run_folder
 from executive.runs.faults import Injector, SlowPlanner
 from executive.runs.run_folder import Expected, Placed, Summary
 from executive.runs.session import Session
-from executive.skills.parameters import PlaceParams
+from executive.skills.place import PlaceParams
 from executive.trees.parts import errands
 from robot.clock import Clock
 from robot.errors import CATALOGUE, Failure

@@ -7,11 +7,11 @@ import math
 from executive.skills.context import SkillContext
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.standpoints import stances_around
 from executive.skills.motions.stow import stow_arms
 from executive.skills.motions.walk import follow, plan_path, stand_still
-from executive.skills.parameters import FollowParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from robot.messages import PersonInfo, Place
 from robot.se3 import SE3
 
@@ -27,15 +27,24 @@ LOOK_EVERY_S = 0.5
 NO_WAY = ("no_path", "goal_in_collision", "start_in_collision", "planner_timeout")
 
 
-class Follow(ScriptedSkill):
+class FollowParams(SkillParams, frozen=True, kw_only=True):
+    """Walk behind a person, until they stop or, if one is given, until they are at a place."""
+
+    person_id: str
+    place_id: str | None = None
+
+
+class Follow(ScriptedSkill[FollowParams]):
     """Stay a step behind a person; ends when they have stood still for a while, or are there."""
 
+    name = "follow"
+    summary = "walk behind a person until they stop"
+    takes = FollowParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
     def __init__(self, parameters: FollowParams, context: SkillContext) -> None:
         """Whom, and where to."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._looked_s = self._moved_s = self._begin_s = -math.inf
         self._at = SE3()
 

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
-from executive.skills.context import SkillContext
 from executive.skills.motions.gaze import look_at, turn_head
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arm
 from executive.skills.motions.walk import stand_still, turn_by
-from executive.skills.parameters import GestureParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
 from robot.messages import Side
 from robot.planning.requests import Joints
 from robot.se3 import SE3, Array, Vector3, wrap_angle
+
+GestureKind = Literal[
+    "wave", "point", "nod", "shake_head", "bow",
+    "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
+]  # fmt: skip
 
 BOW_RAD, BOW_S = 0.35, 0.8
 NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
@@ -36,15 +41,34 @@ ARMS: dict[str, tuple[Side, ...]] = {
 HEAD_ONLY = ("nod", "shake_head")
 
 
-class Gesture(ScriptedSkill):
+class GestureParams(SkillParams, frozen=True, kw_only=True):
+    """Make a sign, towards an object, a place or a person if one is given."""
+
+    kind: GestureKind
+    object_id: str | None = None
+    place_id: str | None = None
+    person_id: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is at most one target, and one to point at."""
+        targets = [self.object_id, self.place_id, self.person_id]
+        given = sum(target is not None for target in targets)
+        if given > 1 or (self.kind == "point" and not given):
+            raise ValueError(f"a gesture ({self.kind}) is towards one thing, not {given}")
+
+
+class Gesture(ScriptedSkill[GestureParams]):
     """Make a sign and come back to how the body stood."""
 
-    def __init__(self, parameters: GestureParams, context: SkillContext) -> None:
-        """Which, towards what."""
-        super().__init__(context)
-        self.parameters = parameters
-        arms: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
-        self.resources = frozenset({"head"}) if parameters.kind in HEAD_ONLY else arms
+    name = "gesture"
+    summary = "wave, point, nod, shake the head, bow, raise an arm"
+    takes = GestureParams
+    resources = frozenset({"legs", "left_arm", "right_arm", "head"})
+
+    @classmethod
+    def needs(cls, wanted: GestureParams) -> frozenset[Resource]:
+        """The head alone for what it does alone."""
+        return frozenset({"head"}) if wanted.kind in HEAD_ONLY else cls.resources
 
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""

@@ -11,10 +11,10 @@ from executive.skills.motions.fingers import LEAST_GAP_M, open_fingers, set_payl
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.standpoints import stances_around, walk_to_any
 from executive.skills.motions.stow import HOME, stow_arms
-from executive.skills.parameters import GiveParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from robot.messages import PersonInfo, Side
 from robot.se3 import SE3
 
@@ -29,15 +29,24 @@ CLEAR_S = 0.8
 NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
 
 
-class Give(ScriptedSkill):
+class GiveParams(SkillParams, frozen=True, kw_only=True):
+    """Hand what is held to a person."""
+
+    object_id: str
+    person_id: str
+
+
+class Give(ScriptedSkill[GiveParams]):
     """Give a held object to a person; ends with the hand empty, or the object back in it."""
 
+    name = "give"
+    summary = "hand what a hand holds to a person, who pulls it out"
+    takes = GiveParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm", "voice"})
 
     def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
         """What to whom."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._given = False
 
     def script(self) -> Script[None]:

@@ -22,10 +22,10 @@ from executive.skills.motions.object_search import find
 from executive.skills.motions.planning import ask, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import UPRIGHT_RAD, surroundings, tilt
-from executive.skills.parameters import PickParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from robot.messages import ObjectInfo, Side
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
@@ -43,15 +43,24 @@ LEAST_LOAD = 0.3
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
 
 
-class Pick(ScriptedSkill):
+class PickParams(SkillParams, frozen=True, kw_only=True):
+    """Take an object; without a side the planner chooses the hand."""
+
+    object_id: str
+    side: Side | None = None
+
+
+class Pick(ScriptedSkill[PickParams]):
     """Take an object off a surface with one hand; ends in the carry posture, clear of it."""
 
+    name = "pick"
+    summary = "find a thing, take it with one hand, and step back with it"
+    takes = PickParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
     def __init__(self, parameters: PickParams, context: SkillContext) -> None:
         """What to take."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._tare_n = 0.0
         self._begin_s = 0.0
         self._X_WG_pre: SE3 | None = None

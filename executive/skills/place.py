@@ -16,10 +16,10 @@ from executive.skills.motions.gaze import look_at, see
 from executive.skills.motions.planning import ask, held_in, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import occupant, surroundings, tilt
-from executive.skills.parameters import PlaceParams
+from executive.skills.parameters import SkillParams, exactly_one, finite
+from executive.skills.scripted import ScriptedSkill
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place, Side
 from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
@@ -45,6 +45,20 @@ UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
 
 
+class PlaceParams(SkillParams, frozen=True, kw_only=True):
+    """Put what is held on a place of the map, or at an exact pose X_WO of its own."""
+
+    object_id: str
+    place_id: str | None = None
+    X_WO: SE3 | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is one target."""
+        exactly_one(self, "place_id", "X_WO")
+        if self.X_WO is not None:
+            finite(*self.X_WO.p)
+
+
 class Release(msgspec.Struct, frozen=True, kw_only=True):
     """How a hand lets go: how far the fingers open, and where the hand is drawn back to."""
 
@@ -53,15 +67,17 @@ class Release(msgspec.Struct, frozen=True, kw_only=True):
     X_WG_back: SE3
 
 
-class PutDown(ScriptedSkill):
+class PutDown(ScriptedSkill[PlaceParams]):
     """Put an object down; ends with the arm home, clear of the place, the object seen there."""
 
+    name = "place"
+    summary = "put what a hand holds on a place, and look whether it stands"
+    takes = PlaceParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
     def __init__(self, parameters: PlaceParams, context: SkillContext) -> None:
         """What to put where."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._release: Release | None = None
         self._released = False
 

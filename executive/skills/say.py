@@ -4,19 +4,34 @@ from __future__ import annotations
 
 from executive.skills.context import SkillContext
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import SayParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
+
+MAX_TEXT = 1000
 
 
-class Say(ScriptedSkill):
+class SayParams(SkillParams, frozen=True, kw_only=True):
+    """Say a text."""
+
+    text: str
+
+    def __post_init__(self) -> None:
+        """Check the length."""
+        if len(self.text) > MAX_TEXT:
+            raise ValueError(f"text of {len(self.text)} characters: at most {MAX_TEXT}")
+
+
+class Say(ScriptedSkill[SayParams]):
     """Hand a text to the voice."""
 
+    name = "say"
+    summary = "say something aloud"
+    takes = SayParams
     resources = frozenset({"voice"})
 
     def __init__(self, parameters: SayParams, context: SkillContext) -> None:
         """What to say."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._said = False
 
     def script(self) -> Script[None]:

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from executive.skills.context import SkillContext
 from executive.skills.motions.rest import come_to_rest
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import StopParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 
 
-class Stop(ScriptedSkill):
+class StopParams(SkillParams, frozen=True, kw_only=True):
+    """Come to rest: finish the step, stand, hold the arms where they are."""
+
+
+class Stop(ScriptedSkill[StopParams]):
     """Finish the step, stand, and hold the arms where they are."""
 
+    name = "stop"
+    summary = "finish the step, stand, and hold the arms where they are"
+    takes = StopParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
-
-    def __init__(self, parameters: StopParams, context: SkillContext) -> None:
-        """Nothing to choose."""
-        super().__init__(context)
-        self.parameters = parameters
 
     def script(self) -> Script[None]:
         """The same as what ends every skill."""

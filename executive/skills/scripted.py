@@ -8,36 +8,56 @@ from __future__ import annotations
 
 import logging
 from abc import ABC, abstractmethod
+from typing import Generic, TypeVar
 
 from executive.skills.context import SkillContext
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.rest import come_to_rest
 from executive.skills.motions.script import GaveUp, Script
+from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.errors import Failure, failure
 
 BEYOND_HELP = ("fallen", "lost_balance", "sensor_silent")
 """Failures after which the body cannot be brought to rest by commands."""
 
+P = TypeVar("P", bound=SkillParams)
+
 log = logging.getLogger(__name__)
 
 
-class ScriptedSkill(ABC):
+class ScriptedSkill(ABC, Generic[P]):
     """The skill contract (`executive.skills.skill.Skill`) on top of two scripts.
 
     Subclasses write `script` (what to do) and may write `halt` (how to come to rest).
+
+    Attributes:
+        name: what the skill is called, as its file.
+        summary: what it does, in one line for people.
+        takes: its parameters.
+        resources: the parts of the body that it takes at most.
     """
 
-    resources: frozenset[Resource] = frozenset()
+    name: str
+    summary: str
+    takes: type[P]
+    resources: frozenset[Resource]
 
-    def __init__(self, context: SkillContext) -> None:
+    def __init__(self, parameters: P, context: SkillContext) -> None:
         """Prepare; nothing moves before `start`."""
+        self.parameters = parameters
         self.context = context
+        self.resources = self.needs(parameters)
         self.body = Body(context)
         self._running: Script[None] | None = None
         self._ended: Failure | None = None
         self._halting = False
         self._report = SkillReport(status="running", phase="not started")
+
+    @classmethod
+    def needs(cls, wanted: P) -> frozenset[Resource]:  # noqa: ARG003, for those that override it
+        """The parts of the body that it takes for these parameters."""
+        return cls.resources
 
     @abstractmethod
     def script(self) -> Script[None]:
