@@ -30,6 +30,7 @@ from executive.engine.recorder import Recorder
 from executive.journal.journal import Journal
 from executive.runs.session import RATES_HZ
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.wait import WaitParams
@@ -44,6 +45,13 @@ MOST = 1.3
 
 class Still(ScriptedSkill[WaitParams]):
     """Waits for ever."""
+
+    resources = frozenset()
+
+    @classmethod
+    def forecast(cls, wanted: WaitParams, outlook: Outlook) -> Forecast:  # noqa: ARG003
+        """Nobody asks."""
+        return Forecast(0.0)
 
     def script(self) -> Script[None]:
         """Wait."""

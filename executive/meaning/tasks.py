@@ -15,7 +15,6 @@ import msgspec
 from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.identify import Scene, cannot
-from executive.meaning.knowledge import full_name
 from executive.skills.balance import BalanceParams
 from executive.skills.follow import FollowParams
 from executive.skills.gesture import GestureKind, GestureParams
@@ -147,7 +146,7 @@ def _look_at(goal: goals.LookAt, scene: Scene) -> Part:
     if goal.object is not None:
         info = scene.object(goal.object)
         params = SearchParams(object_id=info.id)  # it ends with the object in sight
-        return _about(info, f"look at {full_name(info)}", params)
+        return _about(info, f"look at {info.full_name}", params)
     if goal.person is not None:
         found = scene.person(goal.person)
         return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
@@ -185,7 +184,7 @@ def _stop(_goal: goals.Goal, _scene: Scene) -> Part:
 def _about(info: ObjectInfo, name: str, params: SkillParams, *, carries: bool = False) -> Errand:
     """A step that is about an object."""
     return Errand(
-        name=name, params=params, object_id=info.id, object_name=full_name(info), carries=carries
+        name=name, params=params, object_id=info.id, object_name=info.full_name, carries=carries
     )
 
 
@@ -203,7 +202,7 @@ def _search(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Errand:
     """Look for an object, at the place that was said."""
     places = _surfaces(scene.places(query.at)) if query.at else ()
     params = SearchParams(object_id=info.id, place_ids=tuple(place.id for place in places))
-    return _about(info, f"find {full_name(info)}", params)
+    return _about(info, f"find {info.full_name}", params)
 
 
 def _surfaces(places: tuple[Place, ...]) -> tuple[Place, ...]:
@@ -221,7 +220,7 @@ def _pick(goal: goals.Pick, scene: Scene) -> Part:
 
 def _pick_one(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
     scene.take(info.id)
-    name = full_name(info)
+    name = info.full_name
     pick = _about(info, f"pick up {name}", PickParams(object_id=info.id))
     if query.at is None:  # picking begins with looking for it everywhere
         return pick
@@ -232,7 +231,7 @@ def _place(goal: goals.Place, scene: Scene) -> Part:
     info = scene.object(goal.object)
     target = goal.on or goal.in_
     if target is None:
-        raise cannot("invalid_goal", f"put {full_name(info)} where?", suggestion="name a place")
+        raise cannot("invalid_goal", f"put {info.full_name} where?", suggestion="name a place")
     return _put(info, goal.object, target, scene)
 
 
@@ -243,7 +242,7 @@ def _give(goal: goals.Give, scene: Scene) -> Part:
 def _hand_over(query: goals.ObjectQuery, to: goals.Person, scene: Scene) -> Part:
     """Give an object to a person, after fetching it unless it is in the hand by then."""
     info, person = scene.object(query), scene.person(to)
-    name, in_hand = full_name(info), info.id in scene.held
+    name, in_hand = info.full_name, info.id in scene.held
     fetch = None if in_hand else _pick_one(info, query, scene)
     scene.put_down(info.id)
     params = GiveParams(object_id=info.id, person_id=person.id)
@@ -266,7 +265,7 @@ def _bring(goal: goals.Bring, scene: Scene) -> Part:
 def _put(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene) -> Part:
     """Put an object on a place, after fetching it unless it is in the hand by then."""
     place = _best_surface(info, target, scene)
-    name = full_name(info)
+    name = info.full_name
     params = PlaceParams(object_id=info.id, place_id=place.id)
     put = _about(info, f"put {name} on the {place.name}", params, carries=True)
     if info.id in scene.held:
@@ -289,7 +288,7 @@ def _best_surface(info: ObjectInfo, target: str, scene: Scene) -> Place:
     height_m = info.shape.size_m[2]
     free = [place for place in surfaces if place.clearance_m > height_m + 0.03]
     if not free:
-        text = f"{full_name(info)} is {height_m:.2f} m high and does not fit there"
+        text = f"{info.full_name} is {height_m:.2f} m high and does not fit there"
         raise cannot("no_free_spot", text, clearance_m=surfaces[0].clearance_m)
     return min(free, key=lambda place: abs(place.X_WP.p[2] - COMFORTABLE_HEIGHT_M))
 
@@ -361,7 +360,7 @@ def _for_each(goal: goals.ForEach, scene: Scene) -> Part:
     for info in found:
         scene.spoken_of = info.id
         parts = tuple(part_of(_with_id(child, info), scene) for child in goal.goals)
-        rounds.append(Series(name=f"with {full_name(info)}", parts=parts))
+        rounds.append(Series(name=f"with {info.full_name}", parts=parts))
     return Series(name="for each", parts=tuple(rounds))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.standpoints import stances_around
@@ -41,6 +42,11 @@ class Follow(ScriptedSkill[FollowParams]):
     summary = "walk behind a person until they stop"
     takes = FollowParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def forecast(cls, wanted: FollowParams, outlook: Outlook) -> Forecast:
+        """X."""
+        return Forecast(0.05)
 
     def __init__(self, parameters: FollowParams, context: SkillContext) -> None:
         """Whom, and where to."""

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at, turn_head
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, posture_rad
@@ -69,6 +70,11 @@ class Gesture(ScriptedSkill[GestureParams]):
     def needs(cls, wanted: GestureParams) -> frozenset[Resource]:
         """The head alone for what it does alone."""
         return frozenset({"head"}) if wanted.kind in HEAD_ONLY else cls.resources
+
+    @classmethod
+    def forecast(cls, wanted: GestureParams, outlook: Outlook) -> Forecast:
+        """X."""
+        return Forecast(0.05)
 
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""

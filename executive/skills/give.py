@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import LEAST_GAP_M, open_fingers, set_payload
@@ -43,6 +44,11 @@ class Give(ScriptedSkill[GiveParams]):
     summary = "hand what a hand holds to a person, who pulls it out"
     takes = GiveParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm", "voice"})
+
+    @classmethod
+    def forecast(cls, wanted: GiveParams, outlook: Outlook) -> Forecast:
+        """X."""
+        return Forecast(0.05)
 
     def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
         """What to whom."""

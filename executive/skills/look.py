@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.gaze import see, turn_head
 from executive.skills.motions.planning import stance_of
@@ -17,6 +18,8 @@ FACE_HEIGHT_M = 1.5
 GAZE_S = 0.5
 AROUND_RAD = (0.0, 0.9, -0.9, 0.0)
 AROUND_M, AROUND_HEIGHT_M = 2.0, 0.8
+LOOK_S = 1.1
+"""Of turning the head and looking: for the forecast."""
 
 
 class LookParams(SkillParams, frozen=True, kw_only=True):
@@ -42,6 +45,11 @@ class Look(ScriptedSkill[LookParams]):
     summary = "turn the head towards something, or to all sides"
     takes = LookParams
     resources = frozenset({"head"})
+
+    @classmethod
+    def forecast(cls, wanted: LookParams, outlook: Outlook) -> Forecast:
+        """A moment."""
+        return Forecast(LOOK_S)
 
     def script(self) -> Script[None]:
         """Turn the head; the body stays."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 
 MAX_TEXT = 1000
+SPEAK_S = 0.05
+"""Handing a text to the voice, which then speaks while the robot goes on."""
 
 
 class SayParams(SkillParams, frozen=True, kw_only=True):
@@ -28,6 +31,11 @@ class Say(ScriptedSkill[SayParams]):
     summary = "say something aloud"
     takes = SayParams
     resources = frozenset({"voice"})
+
+    @classmethod
+    def forecast(cls, wanted: SayParams, outlook: Outlook) -> Forecast:
+        """A moment."""
+        return Forecast(SPEAK_S)
 
     def __init__(self, parameters: SayParams, context: SkillContext) -> None:
         """What to say."""

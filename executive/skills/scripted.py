@@ -11,12 +11,15 @@ from abc import ABC, abstractmethod
 from typing import Generic, TypeVar
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.rest import come_to_rest
 from executive.skills.motions.script import GaveUp, Script
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.errors import Failure, failure
+from robot.messages import WorldMap
+from robot.model.description import RobotDescription
 
 BEYOND_HELP = ("fallen", "lost_balance", "sensor_silent")
 """Failures after which the body cannot be brought to rest by commands."""
@@ -55,9 +58,28 @@ class ScriptedSkill(ABC, Generic[P]):
         self._report = SkillReport(status="running", phase="not started")
 
     @classmethod
-    def needs(cls, wanted: P) -> frozenset[Resource]:  # noqa: ARG003, for those that override it
+    def needs(cls, wanted: P) -> frozenset[Resource]:
         """The parts of the body that it takes for these parameters."""
         return cls.resources
+
+    @classmethod
+    def refusal(
+        cls,
+        wanted: P,
+        world_map: WorldMap,
+        robot: RobotDescription,
+    ) -> Failure | None:
+        """Why this cannot work wherever things turn out to stand; None: nothing speaks against it.
+
+        What depends on where they stand is found out by the planners. Below it stand the limits in
+        the controller.
+        """
+        return None
+
+    @classmethod
+    @abstractmethod
+    def forecast(cls, wanted: P, outlook: Outlook) -> Forecast:
+        """What this would take; leaves the outlook as the step leaves the world."""
 
     @abstractmethod
     def script(self) -> Script[None]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.object_search import find
 from executive.skills.motions.script import Script
 from executive.skills.motions.stow import stow_arms
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
+
+SEARCH_S = 4.0
+"""Of looking around, the walk there left out: for the forecast."""
 
 
 class SearchParams(SkillParams, frozen=True, kw_only=True):
@@ -23,6 +27,13 @@ class Search(ScriptedSkill[SearchParams]):
     summary = "look for a thing, here and then from place to place"
     takes = SearchParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def forecast(cls, wanted: SearchParams, outlook: Outlook) -> Forecast:
+        """As if it were at the first place asked for, or where it stands."""
+        asked = [outlook.map.place(place_id) for place_id in wanted.place_ids]
+        at = next(iter(asked), None) or outlook.place_of(wanted.object_id)
+        return outlook.walk_to_place(at).then(SEARCH_S)
 
     def script(self) -> Script[None]:
         """Find it with the eyes, wherever it is believed to be."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
 from executive.skills.parameters import SkillParams, lasting
 from executive.skills.scripted import ScriptedSkill
@@ -26,6 +27,11 @@ class Wait(ScriptedSkill[WaitParams]):
     summary = "do nothing for a while"
     takes = WaitParams
     resources = frozenset()
+
+    @classmethod
+    def forecast(cls, wanted: WaitParams, outlook: Outlook) -> Forecast:
+        """The span; nothing if it is until told."""
+        return Forecast(wanted.duration_s or 0.0)
 
     def __init__(self, parameters: WaitParams, context: SkillContext) -> None:
         """How long."""

@@ -4,8 +4,8 @@ import pytest
 from msgspec.structs import replace
 
 from executive.meaning import request
-from executive.missions.pacing import walking_s
 from executive.missions.plan import forecast
+from executive.skills.motions.pacing import walking_s
 from robot.model.description import load
 from robot.planning.requests import BasePath
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from executive.skills.forecast import Forecast
 from executive.skills.motions.script import Script, give_up
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.wait import WaitParams
@@ -15,6 +16,10 @@ class Counting(ScriptedSkill):
     def __init__(self, context, ticks, end=None):
         super().__init__(WaitParams(), context)
         self.ticks, self.end, self.closed = ticks, end, False
+
+    @classmethod
+    def forecast(cls, wanted, outlook):
+        return Forecast(0.0)
 
     def script(self) -> Script[None]:
         self.body.phase = "counting"
