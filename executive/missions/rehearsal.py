@@ -34,7 +34,12 @@ class Rehearsal:
         self._ways: dict[tuple[Stance, Stance, bool], float | Failure] = {}
         self._on: dict[str, str] = {item.id: item.on for item in where.world.objects}
         self._hands = Hands(where)
-        self.X_WS: SE3 = where.world_map.start_X_WS
+        self._stance = where.world_map.start_X_WS
+
+    @property
+    def X_WS(self) -> SE3:
+        """Where the robot stands."""
+        return self._stance
 
     @property
     def map(self) -> WorldMap:
@@ -45,6 +50,10 @@ class Rehearsal:
         """Where a thing stands by then; None if nobody knows, or in a hand."""
         return self.map.place(self._on.get(object_id, ""))
 
+    def move(self, X_SG: SE3) -> None:
+        """Have the robot stand elsewhere, relative to where it stands."""
+        self._stance = self._stance @ X_SG
+
     def walk(self, stances: Sequence[Stance]) -> Forecast:
         """Walk to the first of some stances that a way leads to."""
         start, problem = self._at, ""
@@ -53,7 +62,7 @@ class Rehearsal:
             if isinstance(way, Failure):
                 problem = problem or way.cause
                 continue
-            self.X_WS = SE3.from_xy_yaw(*goal)
+            self._stance = SE3.from_xy_yaw(*goal)
             return Forecast(way)
         return Forecast(BEGIN_S, problem or "no way leads there")
 

@@ -28,13 +28,12 @@ class Forecast(msgspec.Struct, frozen=True):
 
 
 class Outlook(Protocol):
-    """Robot and world as a dry run has them by then, asked step by step.
+    """Robot and world as a dry run has them by then, asked step by step."""
 
-    Attributes:
-        X_WS: where the robot stands.
-    """
-
-    X_WS: SE3
+    @property
+    def X_WS(self) -> SE3:
+        """Where the robot stands."""
+        ...
 
     @property
     def map(self) -> WorldMap:
@@ -43,6 +42,10 @@ class Outlook(Protocol):
 
     def place_of(self, object_id: str) -> Place | None:
         """Where a thing stands by then; None if nobody knows, or in a hand."""
+        ...
+
+    def move(self, X_SG: SE3) -> None:
+        """Have the robot stand elsewhere, relative to where it stands."""
         ...
 
     def walk(self, stances: Sequence[Stance]) -> Forecast:

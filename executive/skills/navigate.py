@@ -209,7 +209,6 @@ def _walk_straight(body: Body, goal: Stance) -> Script[None]:
 
 
 def _forecast_step(by: Step, outlook: Outlook) -> Forecast:
-    X_SG = SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0))
-    outlook.X_WS = outlook.X_WS @ X_SG
+    outlook.move(SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0)))
     walked_s = math.hypot(by.forward_m, by.left_m) / WALK_M_S
     return Forecast(BEGIN_S + walked_s + turning_s(by.turn_rad))
