@@ -46,6 +46,11 @@ class Rehearsal:
         """The prior map."""
         return self._where.world_map
 
+    @property
+    def carrying(self) -> bool:
+        """Whether anything is in a hand."""
+        return self._hands.carrying
+
     def place_of(self, object_id: str) -> Place | None:
         """Where a thing stands by then; None if nobody knows, or in a hand."""
         return self.map.place(self._on.get(object_id, ""))

@@ -45,8 +45,21 @@ class Follow(ScriptedSkill[FollowParams]):
 
     @classmethod
     def forecast(cls, wanted: FollowParams, outlook: Outlook) -> Forecast:
-        """X."""
-        return Forecast(0.05)
+        """The way to where the map has them; to a place, on from there to it if they are not there.
+
+        How far they lead when no place is said nobody knows: they are taken to stand.
+        """
+        person = outlook.map.person(wanted.person_id)
+        place = outlook.map.place(wanted.place_id or "")
+        if person is None:
+            return Forecast(STOPPED_S)
+        told = _forecast_closing_up(person, outlook)
+        if place is None:
+            return told if told.takes_s > STOPPED_S else told.then(STOPPED_S - told.takes_s)
+        if not told.problem and not _is_at(person.X_WO, place):
+            onwards = outlook.walk_to_place(place)
+            told = Forecast(told.takes_s + onwards.takes_s, onwards.problem)
+        return told.then(SEEN_S)
 
     def __init__(self, parameters: FollowParams, context: SkillContext) -> None:
         """Whom, and where to."""
@@ -120,6 +133,12 @@ class Follow(ScriptedSkill[FollowParams]):
         if place is None:
             return near and still >= STOPPED_S
         return near and still >= SEEN_S and _is_at(self._at, place)
+
+
+def _forecast_closing_up(person: PersonInfo, outlook: Outlook) -> Forecast:
+    if math.dist(person.X_WO.p[:2], outlook.X_WS.p[:2]) <= NEAR_M:
+        return Forecast(0.0)
+    return outlook.walk(stances_around(person.X_WO.p, outlook.X_WS, distance_m=DISTANCE_M)[:1])
 
 
 def _is_at(X_WO: SE3, place: Place) -> bool:

@@ -27,6 +27,8 @@ SETTLE_S = 0.6
 PULL_N, PULLED_M, PULL_S = 3.0, 0.02, 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
 CLEAR_S = 0.8
+GIVE_S = 8.0
+"""Of holding out, letting go and drawing back, the walk there left out: for the forecast."""
 NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
 
 
@@ -47,8 +49,13 @@ class Give(ScriptedSkill[GiveParams]):
 
     @classmethod
     def forecast(cls, wanted: GiveParams, outlook: Outlook) -> Forecast:
-        """X."""
-        return Forecast(0.05)
+        """The way, holding it out, and letting go of it; they are taken to pull at once."""
+        person = outlook.map.person(wanted.person_id)
+        outlook.hand_over(wanted.object_id)
+        if person is None:
+            return Forecast(GIVE_S)
+        stances = stances_around(person.X_WO.p, outlook.X_WS, distance_m=BEFORE_PERSON_M)
+        return outlook.walk(stances).then(GIVE_S)
 
     def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
         """What to whom."""
