@@ -31,7 +31,8 @@ from executive.behaviours.stage import Stage
 from executive.blackboard import HOME, Blackboard
 from executive.engine.job_tree import Jobs
 from executive.engine.sense import Sense, WindDown
-from executive.skills.parameters import FloorPose, NavigateParams, StopParams
+from executive.skills.navigate import FloorPose, NavigateParams
+from executive.skills.stop import StopParams
 from robot.errors import Failure, failure
 
 REST_LIMIT_S = 15.0

@@ -14,14 +14,13 @@ from executive.engine import loop
 from executive.engine.executive import Executive, Outcome
 from executive.engine.jobs import UNLIMITED, Limits
 from executive.journal.journal import FILE, Event
-from executive.meaning.knowledge import full_name
 from executive.meaning.request import Setting, Understood
 from executive.missions.fault_plans import FaultPlan
 from executive.runs import run_folder
 from executive.runs.faults import Injector, SlowPlanner
 from executive.runs.run_folder import Expected, Placed, Summary
 from executive.runs.session import Session
-from executive.skills.parameters import PlaceParams
+from executive.skills.place import PlaceParams
 from executive.trees.parts import errands
 from robot.clock import Clock
 from robot.closing import Closing
@@ -206,7 +205,7 @@ def _placed(job: Job, world: WorldState | None) -> tuple[Placed, ...]:
         on = knowledge.surface_under(X_WO)
         where = f"on the {on.name}" if on else "on no known place"
         found.append(
-            Placed(object=full_name(info), where=where, x_m=round(x, 3), y_m=round(y, 3),
+            Placed(object=info.full_name, where=where, x_m=round(x, 3), y_m=round(y, 3),
                    z_m=round(z, 3))
         )  # fmt: skip
     return tuple({placed.object: placed for placed in found}.values())

@@ -17,6 +17,7 @@ from executive.journal import past_runs
 from executive.journal.journal import read
 from executive.journal.why import why
 from executive.missions import fault_plans
+from executive.skills.catalogue import SKILLS
 from robot.errors import ConfigError
 
 KEY_NAMES = tuple(key.name for key in KEYS)
@@ -117,9 +118,10 @@ def table(shell: Shell) -> tuple[Command, ...]:
             run=keeping.save, accepts=_begins("mission", bare=False), choices=lambda: ("mission",),
         ),
         Command(
-            name="help", usage="help [COMMAND]", summary="this list, or one command",
-            run=seeing.help, accepts=lambda rest: not rest or rest in shell.commands,
-            choices=lambda: tuple(shell.commands),
+            name="help", usage="help [COMMAND | skills]",
+            summary="this list, or one command, or what the robot can do",
+            run=seeing.help, accepts=lambda rest: rest in ("", "skills", *shell.commands),
+            choices=lambda: ("skills", *shell.commands),
         ),
         Command(
             name="quit", usage="quit", summary="stop, and leave (also Ctrl-D)", run=keeping.quit
@@ -226,6 +228,10 @@ class _Seeing:
 
     def help(self, rest: str) -> None:
         commands = self._shell.commands
+        if rest == "skills":
+            for skill in SKILLS:
+                self._shell.out(f"  {skill.name:10} {skill.summary}")
+            return
         if rest:
             self._shell.out(f"{commands[rest].usage}\n  {commands[rest].summary}")
             return

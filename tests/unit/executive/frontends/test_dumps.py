@@ -7,7 +7,7 @@ from py_trees.common import Status
 from executive.frontends.reference.failures import page
 from executive.frontends.tree_lines import lines, text
 from executive.journal.pages.text import ASCII_MARKS
-from executive.skills.parameters import PickParams
+from executive.skills.pick import PickParams
 from executive.trees.build import build
 from executive.trees.parts import Series
 from tests.fakes.rig import PICK, WAIT, Rig

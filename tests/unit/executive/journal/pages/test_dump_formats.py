@@ -18,7 +18,8 @@ from executive.journal.pages.formats import FORMATS, Wish, render
 from executive.journal.pages.model import Run
 from executive.journal.pages.snapshot import Shown, snapshot
 from executive.journal.pages.text import picture
-from executive.skills.parameters import NavigateParams, PickParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
 from executive.trees.build import build
 from executive.trees.parts import Always, Branch, Loop, Retry, Series, Timeout
 from tests.fakes.long_run import LongRun

@@ -17,7 +17,7 @@ import pytest
 from executive.journal.pages.html import Page, embedded, page
 from executive.journal.pages.model import Run
 from executive.journal.pages.snapshot import inner
-from executive.skills.parameters import PickParams
+from executive.skills.pick import PickParams
 from tests.fakes.long_run import LongRun
 from tests.fakes.recorded import Recorded, read
 from tests.fakes.rig import PICK, WAIT

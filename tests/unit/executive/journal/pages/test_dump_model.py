@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from executive.journal.pages.model import Run
-from executive.skills.parameters import NavigateParams, PickParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
 from tests.fakes.recorded import Recorded, read
 from tests.fakes.rig import PICK, PUT, WAIT, WALK
 from tests.fakes.scripted_skills import Script

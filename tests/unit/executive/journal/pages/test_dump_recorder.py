@@ -11,7 +11,8 @@ from py_trees.composites import Selector, Sequence
 
 from executive.engine.recorder import TreeWatch, kind
 from executive.engine.surroundings import Whereabouts, drawing
-from executive.skills.parameters import NavigateParams, PickParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
 from robot.messages import Obstacle, Shape, Track, WorldState
 from robot.se3 import SE3
 from tests.fakes.recorded import Recorded

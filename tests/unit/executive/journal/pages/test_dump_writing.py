@@ -13,7 +13,7 @@ from executive.frontends.dump.writer import Together, along, attach, parse_forma
 from executive.frontends.progress import Silent
 from executive.journal.journal import Journal
 from executive.journal.pages.model import Run
-from executive.skills.parameters import PickParams
+from executive.skills.pick import PickParams
 from robot.errors import ConfigError
 from tests.fakes.recorded import Recorded
 from tests.fakes.rig import PICK, WAIT

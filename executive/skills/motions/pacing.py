@@ -7,6 +7,8 @@ none then took 11 % longer or shorter; other ways may be further off.
 
 from __future__ import annotations
 
+import math
+
 from executive.skills.motions.path_follower import Follower, turn_towards
 from executive.skills.motions.planning import pose_of
 from executive.skills.motions.walk import cruise_m_s, facing_the_way, is_there
@@ -14,8 +16,12 @@ from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle
 
+WALK_M_S, TURN_RAD_S = 0.23, 0.38
+"""Where no way is planned: a step by so much, or one too many."""
+BEGIN_S = 1.5
+"""Of such a step: getting under way, coming to a stand."""
 PERIOD_S = 0.05
-BEGIN_S, STEP_IN_S, SWAY = 1.0, 4.0, 1.08
+SET_OFF_S, STEP_IN_S, SWAY = 1.0, 4.0, 1.08
 LONGEST_S = 600.0
 
 
@@ -35,4 +41,14 @@ def walking_s(
         forward_m, left_m = twist.forward_m_s * PERIOD_S, twist.left_m_s * PERIOD_S
         at = at @ SE3.from_xy_yaw(forward_m, left_m, twist.turn_rad_s * PERIOD_S)
         spent_s += PERIOD_S
-    return SWAY * (BEGIN_S + spent_s + STEP_IN_S)
+    return SWAY * (SET_OFF_S + spent_s + STEP_IN_S)
+
+
+def straight_s(start: Stance, goal: Stance) -> float:
+    """About how long the straight line takes, where no way is planned [s]."""
+    return BEGIN_S + math.dist(start[:2], goal[:2]) / WALK_M_S
+
+
+def turning_s(angle_rad: float) -> float:
+    """About how long turning on the spot takes, getting under way left out [s]."""
+    return abs(angle_rad) / TURN_RAD_S

@@ -8,36 +8,78 @@ from __future__ import annotations
 
 import logging
 from abc import ABC, abstractmethod
+from typing import Generic, TypeVar
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.rest import come_to_rest
 from executive.skills.motions.script import GaveUp, Script
+from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.errors import Failure, failure
+from robot.messages import WorldMap
+from robot.model.description import RobotDescription
 
 BEYOND_HELP = ("fallen", "lost_balance", "sensor_silent")
 """Failures after which the body cannot be brought to rest by commands."""
 
+P = TypeVar("P", bound=SkillParams)
+
 log = logging.getLogger(__name__)
 
 
-class ScriptedSkill(ABC):
+class ScriptedSkill(ABC, Generic[P]):
     """The skill contract (`executive.skills.skill.Skill`) on top of two scripts.
 
     Subclasses write `script` (what to do) and may write `halt` (how to come to rest).
+
+    Attributes:
+        name: what the skill is called, as its file.
+        summary: what it does, in one line for people.
+        takes: its parameters.
+        resources: the parts of the body that it takes at most.
     """
 
-    resources: frozenset[Resource] = frozenset()
+    name: str
+    summary: str
+    takes: type[P]
+    resources: frozenset[Resource]
 
-    def __init__(self, context: SkillContext) -> None:
+    def __init__(self, parameters: P, context: SkillContext) -> None:
         """Prepare; nothing moves before `start`."""
+        self.parameters = parameters
         self.context = context
+        self.resources = self.needs(parameters)
         self.body = Body(context)
         self._running: Script[None] | None = None
         self._ended: Failure | None = None
         self._halting = False
         self._report = SkillReport(status="running", phase="not started")
+
+    @classmethod
+    def needs(cls, wanted: P) -> frozenset[Resource]:
+        """The parts of the body that it takes for these parameters."""
+        return cls.resources
+
+    @classmethod
+    def refusal(
+        cls,
+        wanted: P,
+        world_map: WorldMap,
+        robot: RobotDescription,
+    ) -> Failure | None:
+        """Why this cannot work wherever things turn out to stand; None: nothing speaks against it.
+
+        What depends on where they stand is found out by the planners. Below it stand the limits in
+        the controller.
+        """
+        return None
+
+    @classmethod
+    @abstractmethod
+    def forecast(cls, wanted: P, outlook: Outlook) -> Forecast:
+        """What this would take; leaves the outlook as the step leaves the world."""
 
     @abstractmethod
     def script(self) -> Script[None]:
