@@ -8,7 +8,7 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.journal.pages.model import Run
+from executive.journal.run import Run
 from executive.skills.parameters import NavigateParams, PickParams
 from tests.fakes.recorded import Recorded, read
 from tests.fakes.rig import PICK, PUT, WAIT, WALK
