@@ -45,6 +45,11 @@ def advice(cure: str, *, end: str = "") -> list[str]:
     return [f"What to do: {cure}{end}"] if cure else []
 
 
-def confessed(cause: str | None) -> str:
-    """How a job ended, in the robot's own words; no cause: well."""
-    return f"I could not do that: {cause}." if cause else "Done."
+def in_first_person(what: str, cause: str, *, stopped: bool = False) -> str:
+    """What the robot says of something that it did not do, or stopped doing."""
+    return f"I {'stopped' if stopped else 'could not do'} {what}: {cause}."
+
+
+def because(cause: str | None) -> str:
+    """What stands behind something that has failed; nothing behind what has not."""
+    return f": {cause}" if cause else ""

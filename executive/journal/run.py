@@ -7,6 +7,7 @@ Most of it is also the JSON of `humanoid dump --format json` and the data inside
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal
 
@@ -210,12 +211,21 @@ class Run(msgspec.Struct, kw_only=True):
         """Whether somebody was there and asked for nothing."""
         return bool(self.about.get("attended")) and not self.task.attempts and not self.task.state
 
-    def walk(self, roots: Sequence[int] | None = None) -> Iterator[tuple[int, Node]]:
-        """Every node that ever was (below some roots), parents first, with its depth."""
+    def walk(
+        self, roots: Sequence[int] | None = None, *, t_s: float = math.inf
+    ) -> Iterator[tuple[int, Node]]:
+        """Nodes, parents first, with their depths.
+
+        Args:
+            roots: they and what is below them; None: every tree there was.
+            t_s: only what is in view at that time; without it, every node that ever was.
+        """
         stack = [(0, root) for root in reversed(self.roots if roots is None else roots)]
         while stack:
             depth, number = stack.pop()
             node = self.nodes[number]
+            if t_s < math.inf and not node.in_view(t_s):
+                continue  # nor is anything below it
             yield depth, node
             stack.extend((depth + 1, child) for child in reversed(node.children))
 

@@ -10,7 +10,7 @@ from executive.journal.run import Run
 from executive.journal.tree import Change, Node, State
 
 _GUARDS = frozenset({"sequence", "selector"})
-WORKINGS = frozenset({"round", "again", "caught", "as_it_ended", "matches"})
+_WORKINGS = frozenset({"round", "again", "caught", "as_it_ended", "matches"})
 """Kinds of nodes by which loops, attempts and handlers do their work (`executive.trees.flow`)."""
 
 
@@ -47,7 +47,7 @@ def snapshot(run: Run, t_s: float | None = None, *, everything: bool = False) ->
     """
     when_s = run.end_s if t_s is None else t_s
     hidden: set[int] = set() if everything else inner(run) | _idle(run, when_s)
-    return _tree(run.walk(), hidden, lambda node: _shown(node, when_s), when_s)
+    return _tree(run.walk(t_s=when_s), hidden, lambda node: _shown(node, when_s))
 
 
 def at_work(run: Run) -> list[Shown]:
@@ -58,10 +58,10 @@ def at_work(run: Run) -> list[Shown]:
     """
     jobs = next((node for _, node in run.walk(run.roots[-1:]) if node.kind == "jobs"), None)
     there = [number for number in jobs.children if run.nodes[number].gone_s is None] if jobs else []
-    part = list(run.walk(there[-1:]))
+    part = list(run.walk(there[-1:], t_s=run.end_s))
     hidden = {node.id for _, node in part if node.kind == "recover" and not _last(node).note}
     _hide_what_holds_together(run, part, hidden, titles=False)
-    return _tree(part, hidden, _as_it_works, run.end_s)
+    return _tree(part, hidden, _as_it_works)
 
 
 def in_order(roots: Iterable[Shown]) -> list[tuple[int, Shown]]:
@@ -78,18 +78,15 @@ def window(lines: Sequence[tuple[int, Shown]], rows: int) -> Sequence[tuple[int,
 
 
 def _tree(
-    nodes: Iterable[tuple[int, Node]],
-    hidden: set[int],
-    make: Callable[[Node], Shown],
-    t_s: float,
+    nodes: Iterable[tuple[int, Node]], hidden: set[int], make: Callable[[Node], Shown]
 ) -> list[Shown]:
-    """What is in view of some nodes in reading order, each below the nearest that is shown."""
+    """Some nodes, given in reading order, each below the nearest that is shown."""
     roots: list[Shown] = []
     above: list[tuple[int, list[Shown]]] = []
     for depth, node in nodes:
         while above and above[-1][0] >= depth:
             above.pop()
-        if node.id in hidden or not node.in_view(t_s):
+        if node.id in hidden:
             continue
         shown = make(node)
         (above[-1][1] if above else roots).append(shown)
@@ -139,7 +136,7 @@ def _idle(run: Run, t_s: float) -> set[int]:
 def _is_working(node: Node) -> bool:
     if node.kind == "deadline":
         return all(change.state != "failed" for change in node.changes)
-    return node.kind in WORKINGS or (node.kind == "recover" and not node.changes)
+    return node.kind in _WORKINGS or (node.kind == "recover" and not node.changes)
 
 
 def _visible_below(run: Run, node: Node, hidden: set[int]) -> list[int]:

@@ -12,7 +12,7 @@ from executive.frontends.prompt import saving
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.shell import Shell, number_of
 from executive.frontends.prompt.watch import Watch
-from executive.journal import past_runs, reader
+from executive.journal import failures, past_runs, reader
 from executive.journal.dumps.text import picture
 from executive.journal.snapshot import at_work
 from executive.journal.why import why
@@ -378,6 +378,6 @@ class _Keeping:
 
 def _row(job: Job) -> str:
     took = f"{job.took_s:.1f} s" if job.took_s is not None else ""
-    reason = f": {job.failure.cause}" if job.failure else ""
+    reason = failures.because(job.failure.cause if job.failure else None)
     urgent = " (urgent)" if job.urgent else ""
     return f"{job.number:3} {job.state:11} {job.text}{urgent}  {took}{reason}".rstrip()
