@@ -89,11 +89,6 @@ class Tree:
         check = Check("has to go back?", predicate, board=self._stage.board)
         return InOrder("return", memory=False, children=[check, _then("go back", home, last)])
 
-    @property
-    def shown(self) -> Behaviour | None:
-        """The newest job's part, also when it is over: for people to look at."""
-        return self.jobs.children[-1] if self.jobs.children else None
-
     def at(self, now_s: float) -> None:
         """Set the time of the tick that comes."""
         self._sense.at(now_s)

@@ -12,9 +12,9 @@ from executive.frontends.prompt import saving
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.shell import Shell, number_of
 from executive.frontends.prompt.watch import Watch
-from executive.frontends.tree_lines import text as tree_text
-from executive.journal import past_runs
-from executive.journal.journal import read
+from executive.journal import failures, past_runs, reader
+from executive.journal.dumps.text import picture
+from executive.journal.snapshot import at_work
 from executive.journal.why import why
 from executive.missions import fault_plans
 from executive.skills.catalogue import SKILLS
@@ -180,8 +180,8 @@ class _Seeing:
         if rest:
             observer.tree_wanted = rest == "on"
             return
-        shown = self._shell.robot.executive.tree.shown
-        self._shell.out(tree_text(shown) if shown is not None else "There is no task.")
+        shown = at_work(self._shell.robot.executive.so_far)
+        self._shell.out(picture(shown) if shown else "There is no task.")
 
     def watch(self, rest: str) -> None:
         if not rest:
@@ -200,7 +200,7 @@ class _Seeing:
         return tuple(self._watches)
 
     def why(self, _rest: str) -> None:
-        self._shell.out(why(read(self._shell.folder), live=True).text)
+        self._shell.out(why(reader.read(self._shell.folder), live=True).text)
 
     def history(self, _rest: str) -> None:
         jobs = self._shell.robot.executive.jobs
@@ -384,6 +384,6 @@ class _Keeping:
 
 def _row(job: Job) -> str:
     took = f"{job.took_s:.1f} s" if job.took_s is not None else ""
-    reason = f": {job.failure.cause}" if job.failure else ""
+    reason = failures.because(job.failure.cause if job.failure else None)
     urgent = " (urgent)" if job.urgent else ""
     return f"{job.number:3} {job.state:11} {job.text}{urgent}  {took}{reason}".rstrip()

@@ -1,4 +1,4 @@
-"""How a tree grows and changes over a run: the `tree`, `node` and `phase` events of a journal."""
+"""Trees of a run, as they grow and change: the `tree`, `node` and `phase` events of a journal."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from typing import Any, Literal
 
 import msgspec
 
-from executive.journal.pages.model import Change, Node, Run, State
+from executive.journal.run import Run
+from executive.journal.tree import Change, Node, State
 
 Status = Literal["invalid", "running", "success", "failure"]
 
+INTERRUPTED = "interrupted"
 _STATES: dict[Status, State] = {"running": "running", "success": "done", "failure": "failed"}
 
 
@@ -33,7 +35,7 @@ class _Status(msgspec.Struct):
     note: str = ""
 
 
-class Growth:
+class TreeReader:
     """Puts nodes and their changes into a run.
 
     Every recorder counts its nodes from 0, so a run that was gone on with has several trees: a new
@@ -41,7 +43,7 @@ class Growth:
     """
 
     def __init__(self, run: Run) -> None:
-        """Grow the trees of `run`."""
+        """Tell of the trees of `run`."""
         self._nodes = run.nodes
         self._roots = run.roots
         self._offset = 0
@@ -85,6 +87,8 @@ class Growth:
         if node.kind == "check" and told.status in ("success", "failure"):
             self._answer(t_s, node, told.status)
             return node.id
+        if node.changes and node.changes[-1] == Change(t_s, "running", INTERRUPTED):
+            node.changes.pop()  # for good: what it is now says more
         state = self._state(t_s, node, told.status)
         if state is not None:
             node.changes.append(Change(t_s, state, told.note))
@@ -106,8 +110,15 @@ class Growth:
 
     def phase(self, t_s: float, data: Mapping[str, Any]) -> None:
         """Take a ``phase`` event: a running skill says something else of itself."""
-        step, text, path = str(data["step"]), str(data["phase"]), str(data.get("id", ""))
-        for number in self._at_work.get(step, ()):
+        self._say(t_s, data, str(data["phase"]))
+
+    def stopping(self, t_s: float, data: Mapping[str, Any]) -> None:
+        """Take a ``stopping`` event: a skill is interrupted, be it for a while or for good."""
+        self._say(t_s, data, INTERRUPTED)
+
+    def _say(self, t_s: float, data: Mapping[str, Any], text: str) -> None:
+        path = str(data.get("id", ""))
+        for number in self._at_work.get(str(data["step"]), ()):
             node = self._nodes[number]
             if not path or not node.step or node.step == path:
                 node.changes.append(Change(t_s, "running", text))

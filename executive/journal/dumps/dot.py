@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from executive.journal.pages.layout import LOOKS, NAME_CHARS, cut
-from executive.journal.pages.snapshot import Shown
-from executive.journal.pages.text import ASCII_MARKS
+from executive.journal.dumps.layout import LOOKS, NAME_CHARS, cut
+from executive.journal.dumps.text import ASCII_MARKS
+from executive.journal.snapshot import Shown
 
 _SHAPES = {"sequence": "box", "selector": "octagon", "parallel": "parallelogram"}
 

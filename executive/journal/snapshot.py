@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import msgspec
 
-from executive.journal.pages.model import Node, Run, State
+from executive.journal.run import Run
+from executive.journal.tree import Change, Node, State
 
 _GUARDS = frozenset({"sequence", "selector"})
-WORKINGS = frozenset({"round", "again", "caught", "as_it_ended", "matches"})
+_WORKINGS = frozenset({"round", "again", "caught", "as_it_ended", "matches"})
 """Kinds of nodes by which loops, attempts and handlers do their work (`executive.trees.flow`)."""
 
 
@@ -46,14 +47,48 @@ def snapshot(run: Run, t_s: float | None = None, *, everything: bool = False) ->
     """
     when_s = run.end_s if t_s is None else t_s
     hidden: set[int] = set() if everything else inner(run) | _idle(run, when_s)
+    return _tree(run.walk(t_s=when_s), hidden, lambda node: _shown(node, when_s))
+
+
+def at_work(run: Run) -> list[Shown]:
+    """The newest job as it stands now, for those who watch the robot; nothing if there is none.
+
+    They see the same nodes as in a snapshot, but its root by its own name, since what was asked for
+    stands above it, and what every leaf says of itself in place of how long it took.
+    """
+    jobs = next((node for _, node in run.walk(run.roots[-1:]) if node.kind == "jobs"), None)
+    there = [number for number in jobs.children if run.nodes[number].gone_s is None] if jobs else []
+    part = list(run.walk(there[-1:], t_s=run.end_s))
+    hidden = {node.id for _, node in part if node.kind == "recover" and not _last(node).note}
+    _hide_what_holds_together(run, part, hidden, titles=False)
+    return _tree(part, hidden, _as_it_works)
+
+
+def in_order(roots: Iterable[Shown]) -> list[tuple[int, Shown]]:
+    """A picture in reading order, with depths."""
+    return [one for root in roots for one in root.walk()]
+
+
+def window(lines: Sequence[tuple[int, Shown]], rows: int) -> Sequence[tuple[int, Shown]]:
+    """The lines of a picture around what runs now, `rows` at most."""
+    running = [index for index, (_, shown) in enumerate(lines) if shown.state == "running"]
+    middle = running[-1] if running else 0
+    first = max(0, min(len(lines) - rows, middle - rows // 2))
+    return lines[first : first + rows]
+
+
+def _tree(
+    nodes: Iterable[tuple[int, Node]], hidden: set[int], make: Callable[[Node], Shown]
+) -> list[Shown]:
+    """Some nodes, given in reading order, each below the nearest that is shown."""
     roots: list[Shown] = []
     above: list[tuple[int, list[Shown]]] = []
-    for depth, node in run.walk():
+    for depth, node in nodes:
         while above and above[-1][0] >= depth:
             above.pop()
-        if node.id in hidden or not node.in_view(when_s):
+        if node.id in hidden:
             continue
-        shown = _shown(node, when_s)
+        shown = make(node)
         (above[-1][1] if above else roots).append(shown)
         above.append((depth, shown.children))
     return roots
@@ -64,19 +99,26 @@ def inner(run: Run) -> set[int]:
 
     Those are: what stands around the jobs, save guards that had something to do; the workings of
     loops and attempts; deadlines that were kept; choices of a remedy that were never made; and
-    nodes around a single one of the same name.
+    nodes around a single one of the same name, or whose name says no more than "task".
     """
     hidden = _around_jobs(run)
-    for _, node in reversed(list(run.walk())):
+    _hide_what_holds_together(run, list(run.walk()), hidden, titles=True)
+    return hidden
+
+
+def _hide_what_holds_together(
+    run: Run, nodes: Sequence[tuple[int, Node]], hidden: set[int], *, titles: bool
+) -> None:
+    """Add to `hidden`, children first; with `titles` the root of a job has what was asked for."""
+    for _, node in reversed(nodes):
         if node.id in hidden:
             continue
         if _is_working(node):
             hidden.add(node.id)
         elif len(below := _visible_below(run, node, hidden)) == 1:
-            child = run.nodes[below[0]]
-            if child.name == node.name and not node.title:
+            alike = node.name in ("task", run.nodes[below[0]].name)
+            if alike and not (titles and node.title):
                 hidden.add(node.id)
-    return hidden
 
 
 def _idle(run: Run, t_s: float) -> set[int]:
@@ -94,7 +136,7 @@ def _idle(run: Run, t_s: float) -> set[int]:
 def _is_working(node: Node) -> bool:
     if node.kind == "deadline":
         return all(change.state != "failed" for change in node.changes)
-    return node.kind in WORKINGS or (node.kind == "recover" and not node.changes)
+    return node.kind in _WORKINGS or (node.kind == "recover" and not node.changes)
 
 
 def _visible_below(run: Run, node: Node, hidden: set[int]) -> list[int]:
@@ -139,6 +181,17 @@ def _shown(node: Node, t_s: float) -> Shown:
         id=node.id, kind=node.kind, name=name, state=change.state, note=note,
         took_s=_took_s(node, t_s), children=[],
     )  # fmt: skip
+
+
+def _as_it_works(node: Node) -> Shown:
+    """A node as people see it while it is at work."""
+    last = _last(node)
+    note = last.note if not node.children else ""
+    return Shown(id=node.id, kind=node.kind, name=node.name, state=last.state, note=note)
+
+
+def _last(node: Node) -> Change:
+    return node.changes[-1] if node.changes else Change(node.born_s, "waiting")
 
 
 def _took_s(node: Node, t_s: float) -> float | None:

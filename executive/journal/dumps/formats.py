@@ -7,12 +7,12 @@ from typing import Literal
 
 import msgspec
 
-from executive.journal.pages.dot import dot
-from executive.journal.pages.html import page
-from executive.journal.pages.model import Run
-from executive.journal.pages.snapshot import snapshot
-from executive.journal.pages.svg import svg
-from executive.journal.pages.text import Style, picture
+from executive.journal.dumps.dot import dot
+from executive.journal.dumps.html import page
+from executive.journal.dumps.svg import svg
+from executive.journal.dumps.text import Style, picture
+from executive.journal.run import Run
+from executive.journal.snapshot import snapshot
 
 Format = Literal["html", "svg", "png", "dot", "json", "text"]
 
@@ -46,7 +46,7 @@ def _svg(run: Run, wish: Wish) -> bytes:
 
 
 def _png(run: Run, wish: Wish) -> bytes:
-    from executive.journal.pages.png import png  # Pillow is only loaded where it is needed
+    from executive.journal.dumps.png import png  # Pillow is only loaded where it is needed
 
     return png(snapshot(run, wish.t_s, everything=wish.everything))
 
@@ -57,7 +57,7 @@ def _dot(run: Run, wish: Wish) -> bytes:
 
 
 def _json(run: Run, _wish: Wish) -> bytes:
-    return msgspec.json.encode(run) + b"\n"
+    return msgspec.json.encode(run.dumped()) + b"\n"
 
 
 def _text(run: Run, wish: Wish) -> bytes:

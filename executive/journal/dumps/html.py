@@ -12,11 +12,13 @@ import hashlib
 import html
 from importlib import resources
 from string import Template
+from typing import Any
 
 import msgspec
 
-from executive.journal.pages.model import Run
-from executive.journal.pages.snapshot import inner
+from executive.journal.failures import verdict
+from executive.journal.run import Run
+from executive.journal.snapshot import inner
 
 _SCRIPTS = (
     "1_run.js", "2_tools.js", "3_timeline.js", "4_lanes.js", "5_map.js", "6_panels.js", "7_main.js",
@@ -26,18 +28,18 @@ _SCRIPTS = (
 class Page(msgspec.Struct, kw_only=True):
     """The data inside a page: the run, the nodes that only hold the tree together, and `why`."""
 
-    run: Run
+    run: dict[str, Any]
     inner: list[int]
     why: list[str] = []
 
 
 def page(run: Run, *, why: list[str] | None = None) -> str:
     """The page of a run; `why` are the lines of its explanation."""
-    files = resources.files("executive.journal.pages") / "viewer"
+    files = resources.files("executive.journal.dumps") / "viewer"
     script = "\n".join((files / name).read_text(encoding="utf-8") for name in _SCRIPTS)
     style = (files / "viewer.css").read_text(encoding="utf-8")
     template = Template((files / "page.html").read_text(encoding="utf-8"))
-    data = msgspec.json.encode(Page(run=run, inner=sorted(inner(run)), why=why or []))
+    data = msgspec.json.encode(Page(run=run.dumped(), inner=sorted(inner(run)), why=why or []))
     policy = (
         f"default-src 'none'; script-src {_hash(script)}; style-src {_hash(style)}; "
         "base-uri 'none'; form-action 'none'"
@@ -64,7 +66,7 @@ def fallback(run: Run) -> str:
     ending = run.outcome
     if ending is None:
         return "The run has no outcome yet. This page needs JavaScript to show it."
-    how = "Done." if ending.code == "done" else f"Failed: {ending.cause} ({ending.code})."
+    how = verdict(None) if ending.code == "done" else f"{verdict(ending)}."
     return f"{how} This page needs JavaScript to show the rest."
 
 

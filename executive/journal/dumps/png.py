@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from PIL import Image, ImageDraw, ImageFont
 
-from executive.journal.pages.layout import (
+from executive.journal.dumps.layout import (
     LINE_HEIGHT,
     LOOKS,
     MARK_WIDTH,
@@ -19,8 +19,8 @@ from executive.journal.pages.layout import (
     Picture,
     arrange,
 )
-from executive.journal.pages.snapshot import Shown
-from executive.journal.pages.svg import mark
+from executive.journal.dumps.svg import mark
+from executive.journal.snapshot import Shown
 
 MAX_PIXELS = 16_000_000
 """A larger picture is drawn smaller."""

@@ -8,7 +8,7 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.journal.pages.model import Run
+from executive.journal.run import Run
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from tests.fakes.recorded import Recorded, read

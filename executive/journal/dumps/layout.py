@@ -13,8 +13,8 @@ from itertools import pairwise
 
 import msgspec
 
-from executive.journal.pages.model import State
-from executive.journal.pages.snapshot import Shown
+from executive.journal.snapshot import Shown
+from executive.journal.tree import State
 
 MARGIN, GAP_X, GAP_Y = 16.0, 34.0, 8.0
 PAD_X, MARK_WIDTH = 10.0, 22.0

@@ -12,7 +12,7 @@ from executive.frontends.dump.command import Asked, dump
 from executive.frontends.dump.writer import Together, along, attach, parse_formats, parse_on
 from executive.frontends.progress import Silent
 from executive.journal.journal import Journal
-from executive.journal.pages.model import Run
+from executive.journal.run import Run
 from executive.skills.pick import PickParams
 from robot.errors import ConfigError
 from tests.fakes.recorded import Recorded

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
-from executive.journal.pages.layout import (
+from executive.journal.dumps.layout import (
     LINE_HEIGHT,
     LOOKS,
     MARK_WIDTH,
@@ -18,7 +18,7 @@ from executive.journal.pages.layout import (
     Picture,
     arrange,
 )
-from executive.journal.pages.snapshot import Shown
+from executive.journal.snapshot import Shown
 
 FONT = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif"
 _NARROW, _WIDE = frozenset("fijlrtI.,:;'|!()[] "), frozenset("mwMW@%…")

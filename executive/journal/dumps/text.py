@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal
 
-from executive.journal.pages.model import State
-from executive.journal.pages.snapshot import Shown
+from executive.journal.snapshot import Shown
+from executive.journal.tree import State
 
 Style = Literal["unicode", "ascii", "colour"]
 
