@@ -28,8 +28,8 @@ PULL_N, PULLED_M, PULL_S = 3.0, 0.02, 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
 CLEAR_S = 0.8
 GIVE_S = 5.2
-"""There, for the forecast: holding out 2.2 s and drawing in 1.6 s, as measured in a `--fast` run,
-and between them the shortest pull, opening the fingers, and `CLEAR_S`."""
+"""There, for the forecast: holding out 2.2 s, drawing in 1.6 s (measured in a `--fast` run), and
+between them the shortest pull, opening the fingers, and `CLEAR_S`."""
 NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
 
 
