@@ -16,8 +16,7 @@ from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import Record, Results, fingerprint
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
-
-DONE, FAILED = 0, 1
+from robot.exit_status import ExitStatus
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):
@@ -60,7 +59,8 @@ def evaluate(options: Options) -> int:
     else:
         Console().print(report.table(found))
         typer.echo(f"results: {results.path}; go on with: --resume {folder}")
-    return DONE if found.worst >= options.require and not found.without_code else FAILED
+    well = found.worst >= options.require and not found.without_code
+    return ExitStatus.DONE if well else ExitStatus.FAILED
 
 
 def save(folder: Path, found: report.Report) -> None:

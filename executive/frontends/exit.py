@@ -8,8 +8,7 @@ import msgspec
 import typer
 
 from robot.errors import ConfigError, RobotError
-
-DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
+from robot.exit_status import ExitStatus
 
 
 def ended_by(error: BaseException, *, as_json: bool) -> int:
@@ -17,21 +16,21 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
     if isinstance(error, ConfigError):
         problems = [str(problem) for problem in error.problems]
         cure = "correct that, then try again"
-        return last_words("Not done:", problems, cure, status=INVALID, as_json=as_json)
+        return last_words("Not done:", problems, cure, status=ExitStatus.INVALID, as_json=as_json)
     if isinstance(error, RobotError):
         cure = "try again; humanoid doctor says whether something is missing"
-        return last_words("Broken:", [str(error)], cure, status=BROKEN, as_json=as_json)
+        return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, KeyboardInterrupt):
-        return last_words("Stopped on request.", [], "", status=FAILED, as_json=as_json)
+        return last_words("Stopped on request.", [], "", status=ExitStatus.FAILED, as_json=as_json)
     lines = "".join(traceback.format_exception(error)).splitlines()
     cure = "that is a mistake in this software: report the lines above, with the run folder"
-    return last_words("Broken:", lines, cure, status=BROKEN, as_json=as_json)
+    return last_words("Broken:", lines, cure, status=ExitStatus.BROKEN, as_json=as_json)
 
 
 def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_json: bool) -> int:
     """Print why nothing comes of it; returns the status."""
     if as_json:
-        outcome = "invalid" if status == INVALID else "failed"
+        outcome = "invalid" if status == ExitStatus.INVALID else "failed"
         record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
         typer.echo(msgspec.json.encode(record))
         return status

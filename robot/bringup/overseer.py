@@ -28,14 +28,12 @@ from robot.bringup.supervisor import Supervisor, command, describe_exit, environ
 from robot.bus import run
 from robot.clock import Clock, WallClock
 from robot.errors import Failure, RobotError
+from robot.exit_status import ExitStatus
 
 POLL_S = 0.01
 STOP_S = 8.0
 SPARE_AFTER_S = 6.0
 """How long after an executive's start a spare is loaded: it would compete for the processor."""
-CRASHED = 70
-"""Exit status of an executive that ends by an exception nobody expected (EX_SOFTWARE)."""
-BROKEN, STOPPED = 3, 1
 WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that mean that somebody wants it to end."""
 
@@ -157,12 +155,12 @@ class Overseer:
     def _judge(self, code: int) -> Ended | None:
         """What an executive's end means."""
         if code < 0 and (self._wished or -code in WISHED):
-            return Ended(STOPPED)
-        if code >= 0 and code != CRASHED:
+            return Ended(ExitStatus.FAILED)
+        if code >= 0 and code != ExitStatus.CRASHED:
             return Ended(code)
-        died = "ended by a mistake" if code == CRASHED else describe_exit(code)
+        died = "ended by a mistake" if code == ExitStatus.CRASHED else describe_exit(code)
         if self._crew is None or self._state.failure is not None:
-            return Ended(BROKEN, f"the executive {died}")
+            return Ended(ExitStatus.BROKEN, f"the executive {died}")
         if not EXECUTIVE.may_start_again(self._starts_s, self._clock.now_s()):
             often = EXECUTIVE.restarts + 1
             return self._give_up(f"the executive {died}, {often} times within a minute")
@@ -178,7 +176,7 @@ class Overseer:
             lowered = lowering.lower(run.load(self._private / RUN_FILE), clock=self._clock)
         except RobotError as error:
             lowered = f"the robot could not be lowered: {error}"
-        return Ended(BROKEN, f"{why}; {lowered}")
+        return Ended(ExitStatus.BROKEN, f"{why}; {lowered}")
 
     # --- the robot ---
 

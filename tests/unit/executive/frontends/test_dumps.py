@@ -1,10 +1,7 @@
-"""Pages and pictures of trees say what is there."""
-
-from pathlib import Path
+"""Pictures of trees say what is there."""
 
 from py_trees.common import Status
 
-from executive.frontends.reference.failures import page
 from executive.frontends.tree_lines import lines, text
 from executive.journal.pages.text import ASCII_MARKS
 from executive.skills.parameters import PickParams
@@ -12,15 +9,6 @@ from executive.trees.build import build
 from executive.trees.parts import Series
 from tests.fakes.rig import PICK, WAIT, Rig
 from tests.fakes.scripted_skills import Script
-
-ROOT = Path(__file__).parents[4]
-
-
-def test_the_page_of_failures_is_current():
-    current = (ROOT / "docs" / "failures.md").read_text(encoding="utf-8")
-    assert current == page(), (
-        "run: python -m executive.frontends.reference.failures docs/failures.md"
-    )
 
 
 def test_a_tree_is_shown_without_the_nodes_that_mean_nothing():
