@@ -22,8 +22,8 @@ class ExitStatus(IntEnum):
 MEANINGS: dict[ExitStatus, str] = {
     ExitStatus.DONE: "done",
     ExitStatus.FAILED: "failed, or stopped on request: the last lines say why and what to do",
-    ExitStatus.INVALID: "not understood, not possible here, or a file or an option is wrong; "
-    "nothing was started",
+    ExitStatus.INVALID: "not understood or invalid: not possible here, or a file or an option is "
+    "wrong; nothing was started",
     ExitStatus.BROKEN: "the system broke: a process died, or this software has a mistake",
 }
 """What people see of them."""

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import traceback
+from typing import TYPE_CHECKING
 
 import msgspec
 import typer
 
 from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
+
+if TYPE_CHECKING:
+    from executive.meaning.request import Refused
 
 
 def ended_by(error: BaseException, *, as_json: bool) -> int:
@@ -38,3 +42,21 @@ def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_jso
     if cure:
         typer.echo(f"What to do: {cure}", err=True)
     return status
+
+
+def refuse(refused: Refused, *, as_json: bool) -> int:
+    """Say why nothing is done; returns the status."""
+    if as_json:
+        status = int(ExitStatus.INVALID)
+        echo_json({"status": "invalid", "exit_status": status, **msgspec.to_builtins(refused)})
+        return status
+    heading = "Question" if refused.outcome == "question" else "Not done"
+    typer.echo(f"{heading}: {refused.reason}")
+    if refused.suggestion:
+        typer.echo(f"What to do: {refused.suggestion}")
+    return ExitStatus.INVALID
+
+
+def echo_json(value: object) -> None:
+    """Print a value as one line of JSON."""
+    typer.echo(msgspec.json.encode(value, order="deterministic"))
