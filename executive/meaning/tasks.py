@@ -344,7 +344,8 @@ def _visit(place: Place) -> Series:
 
 
 def _report(goal: goals.Report, scene: Scene) -> Part:
-    return Errand(name=f"report {goal.topic}", params=answers.report(goal.topic, scene.knowledge))
+    says = answers.report(goal.topic, scene.knowledge, skills=SKILLS)
+    return Errand(name=f"report {goal.topic}", params=says)
 
 
 # --- structure ----------------------------------------------------------------------------------
@@ -433,6 +434,9 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.If: _if,
 }
 """What each kind of goal takes. One that is not here is refused as unsupported."""
+
+SKILLS: frozenset[str] = frozenset(kind.__struct_config__.tag for kind in HANDLERS)
+"""The types of goals that there are handlers for."""
 
 _MISSING: dict[type[Any], str] = {
     goals.Guide: "this robot cannot guide people yet",
