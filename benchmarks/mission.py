@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.campaign import UNFINISHED, Job
+from benchmarks.campaign import UNFINISHED, Trial
 from benchmarks.markdown import share, table
 from executive.engine.executive import Executive
 from executive.frontends.progress import Silent
@@ -33,14 +33,14 @@ UPRIGHT_RAD = math.radians(15.0)
 STANDING_M = 0.45
 
 
-def jobs(*, quick: bool) -> list[Job]:
+def jobs(*, quick: bool) -> list[Trial]:
     """50 `fast` missions and 5 `live` ones; quick, 4 and none."""
     fast = [
-        Job(f"fast/{seed}", "benchmarks.mission:do", {"seed": seed})
+        Trial(f"fast/{seed}", "benchmarks.mission:do", {"seed": seed})
         for seed in range(4 if quick else 50)
     ]
     live = [
-        Job(f"live/{seed}", "benchmarks.mission:do", {"seed": seed, "live": True}, alone=True)
+        Trial(f"live/{seed}", "benchmarks.mission:do", {"seed": seed, "live": True}, alone=True)
         for seed in range(0 if quick else 5)
     ]
     return fast + live
