@@ -20,10 +20,10 @@ from executive.frontends import streams
 from executive.frontends.exit import ended_by
 from robot.bringup import entry
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
-from robot.bringup.processes import CRASHED
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
 from robot.errors import RobotError
+from robot.exit_status import ExitStatus
 
 POLL_S = 0.02
 LIVE = ("robot.bringup.live:LiveRuntime", "robot.planning.process:ProcessPlanner")
@@ -44,7 +44,7 @@ def main(private: str, parent_pid: str, number: str) -> int:
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
     except Exception:  # the launcher starts another one, which goes on where this one was
         traceback.print_exc()
-        return CRASHED
+        return ExitStatus.CRASHED
 
 
 def _turn(folder: Path, number: int) -> tuple[Run, Front]:
