@@ -11,9 +11,6 @@ from robot.messages import Activity, Look
 from robot.model.body import BodyModel, as_index
 from robot.se3 import Array
 
-RATE_RAD_S = 2.5
-DONE_RAD = 0.05
-
 
 class Head:
     """Reference of the head's yaw and pitch."""
@@ -21,6 +18,7 @@ class Head:
     def __init__(self, body: BodyModel, q_start: Array) -> None:
         """Hold the posture it starts in."""
         self.body = body
+        self._gaze = body.description.gaze
         self.motors = as_index(np.array(body.description.indices("head")))
         self._lower = body.lower_rad[self.motors].tolist()
         self._upper = body.upper_rad[self.motors].tolist()
@@ -41,11 +39,11 @@ class Head:
         data = dynamics.data
         rotation = data.xmat[self.body.torso_body].reshape(3, 3)
         x, y, z = ((self._point - data.site_xpos[self._camera]) @ rotation).tolist()
-        step, arrived = RATE_RAD_S * dt_s, True
+        step, arrived = self._gaze.rate_rad_s * dt_s, True
         for k, angle in enumerate((math.atan2(y, x), -math.atan2(z, math.hypot(x, y)))):
             wanted = max(self._lower[k], min(self._upper[k], angle))
             before = float(self.q[k])
             self.q[k] = before + max(-step, min(step, wanted - before))
-            arrived = arrived and abs(wanted - float(measured[k])) < DONE_RAD
+            arrived = arrived and abs(wanted - float(measured[k])) < self._gaze.done_rad
         if arrived and self.activity.status == "running":
             self.activity = Activity(id=self.activity.id, status="done")

@@ -122,7 +122,7 @@ class ControlLoop:
         """Take one command; `state().activities` answers with its id."""
         if not self._started:
             return
-        refusal = screening.problem(command)
+        refusal = screening.problem(command, self.description)
         if refusal:
             self._refuse(command, refusal)
         elif isinstance(command, Damp):

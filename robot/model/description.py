@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 
 from robot import config
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError, DescriptionError, Problem
 from robot.messages import Side
+from robot.model.gait import Balance, Walking
+from robot.model.handling import Arms, Handling, Signs
+from robot.model.keyframes import GettingUp, Keyframe
 
 
 class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -89,6 +91,26 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     rate_hz: float
 
 
+class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How fast the camera turns, and how near to a point its direction is to come."""
+
+    rate_rad_s: float
+    done_rad: float
+
+
+class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How the motors' windings warm up, first order (`sim.motors` emulates it).
+
+    A motor that gives `continuous_share` of its peak torque for ever ends up `rise_k` warmer than
+    the air.
+    """
+
+    rise_k: float
+    continuous_share: float
+    time_constant_s: float
+    source: str
+
+
 class Battery(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What the robot lives on: capacity, and what draws on it (`sim.battery` emulates it).
 
@@ -112,57 +134,6 @@ class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     encoder_noise_rad: float
 
 
-class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Gait of this body: see robot/control/walking."""
-
-    base_height_m: float
-    stance_width_m: float
-    min_stance_width_m: float
-    single_support_s: float
-    double_support_s: float
-    step_height_m: float
-    max_step_length_m: float
-    max_step_width_m: float
-    max_step_turn_rad: float
-    max_forward_m_s: float
-    max_backward_m_s: float
-    max_sideways_m_s: float
-    max_turn_rad_s: float
-
-
-class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One stage of a motion: the joints named move to their values, the others stay.
-
-    `duration_s` is the least it takes (the joints' speed may ask for more), `hold_s` how long it
-    then rests. With `needs` it begins only if the trunk is so by then; else the motion is missed.
-    """
-
-    name: str
-    duration_s: float
-    posture: dict[str, float]
-    hold_s: float = 0.0
-    needs: Literal["front", "upright"] | None = None
-
-
-class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What gets it up, by how it lies.
-
-    From the `front` into a squat on both soles; over its `left` or `right` side onto the front.
-    From the back it goes over the side that is lower.
-    """
-
-    front: tuple[Keyframe, ...]
-    left: tuple[Keyframe, ...]
-    right: tuple[Keyframe, ...]
-
-
-class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the robot gets up from the floor: with at most so many motions."""
-
-    tries: int
-    motions: Motions
-
-
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A humanoid: joint groups, limits, feet, hands, sensors, postures."""
 
@@ -176,9 +147,15 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     hands: dict[Side, Hand]
     sensors: Sensors
     walking: Walking
+    balance: Balance
+    arms: Arms
+    gaze: Gaze
     postures: dict[str, dict[str, float]]
     shoulder_height_m: float
     body_radius_m: float
+    heating: Heating
+    handling: Handling | None = None
+    signs: Signs | None = None
     battery: Battery | None = None
     getting_up: GettingUp | None = None
     folder: str = ""
@@ -192,6 +169,17 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Motor indices of a joint group, in the group's order."""
         names = self.motor_names
         return [names.index(name) for name in self.groups[group]]
+
+    @property
+    def handy(self) -> Handling:
+        """What the hands are good for.
+
+        Raises:
+            DescriptionError: if the robot has none.
+        """
+        if self.handling is None:
+            raise DescriptionError(f"{self.name} has no hands")
+        return self.handling
 
     def mjcf_path(self) -> Path:
         """Where the MJCF lies."""

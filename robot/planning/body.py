@@ -157,9 +157,9 @@ class Body:
         """Joints of an arm with its hand out level in front, above the height of the elbow."""
         standing = self.standing(UPRIGHT)
         sign = 1.0 if side == "left" else -1.0
-        height = 0.85 * self.description.shoulder_height_m
+        ahead, aside, height = self.description.handy.reaching.raised_hand_m
         arm = self.arms[side]
-        X_TG = standing.X_ST[side].inverse() @ SE3((0.32, sign * 0.2, height))
+        X_TG = standing.X_ST[side].inverse() @ SE3((ahead, sign * aside, height))
         q = self.nominal[arm.motors][None]
         return arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), q, iterations=60).q[0]
 

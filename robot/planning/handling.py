@@ -39,6 +39,7 @@ def search(
         job.options,
         job.references,
         floor,
+        reaching=body.description.handy.reaching,
         sides=sides,
         start=start,
         radius_m=body.description.body_radius_m + 0.02,
