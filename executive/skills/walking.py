@@ -20,7 +20,7 @@ from executive.skills.stepping import is_at_stance, miss, step_to
 from executive.skills.support import surroundings
 from executive.skills.zone import in_the_path
 from robot.messages import Obstacle, Stand, Walk
-from robot.model.description import Walking
+from robot.model.gait import Walking
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3, wrap_angle
 

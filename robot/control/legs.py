@@ -54,6 +54,8 @@ class Legs:
         self._posture_kd[whole.waist] = tasks.waist.kd_1_s
         self._waist_goal = self._waist.copy()
         self._waist_moves = False
+        self._waist_turns = body.turns("waist")
+        self._posed = False
         self._whole = whole
         self._upright: Array = np.zeros(4)
         self._tilt: Array = np.zeros(3)
@@ -71,6 +73,7 @@ class Legs:
         self._height_goal_m = max(balance.lowest_base_m, min(balance.highest_base_m, height))
         self._waist_goal = self._waist_posture(command.yaw_rad, command.pitch_rad)
         self._waist_moves = True
+        self._posed = command.yaw_rad != 0.0 or command.pitch_rad != 0.0
         self._end_walk()
         self.gait.wish = None if self.gait.phase == "stand" else Twist()
         self._start(command.id)
@@ -107,6 +110,17 @@ class Legs:
         self.gait.lift(command.side, command.duration_s)
         self._start(command.id)
 
+    @property
+    def waist_is_free(self) -> bool:
+        """Whether the waist may be turned to look: it stands, and no command asks for a lean."""
+        return self.gait.phase == "stand" and not self._posed
+
+    def turn_waist(self, yaw_rad: float, pitch_rad: float) -> bool:
+        """Turn the waist to look about; False where it is there already, or goes no further."""
+        self._waist_goal = self._waist_posture(yaw_rad, pitch_rad)
+        self._waist_moves = float(np.abs(self._waist_goal - self._waist).max()) > 1e-3
+        return self._waist_moves
+
     def _start(self, command_id: int) -> None:
         self.activity = Activity(id=command_id, status="running")
 
@@ -114,18 +128,15 @@ class Legs:
         self._height_goal_m = self.description.walking.base_height_m
         self._waist_goal = np.zeros_like(self._waist)
         self._waist_moves = True
+        self._posed = False
 
     def _end_walk(self) -> None:
         self._expires_s = math.inf
         self._twist_goal = Twist()
 
     def _waist_posture(self, yaw_rad: float, pitch_rad: float) -> Array:
-        goal = np.zeros_like(self._waist)
-        for k, name in enumerate(self.description.groups["waist"]):
-            if name.endswith("yaw"):
-                goal[k] = yaw_rad
-            elif name.endswith("pitch"):
-                goal[k] = pitch_rad
+        wanted = {"roll": 0.0, "pitch": pitch_rad, "yaw": yaw_rad}
+        goal = np.array([wanted[turn] for turn in self._waist_turns])
         motors = self.description.indices("waist")
         lower, upper = self.body.lower_rad[motors], self.body.upper_rad[motors]
         return np.minimum(np.maximum(goal, lower), upper)

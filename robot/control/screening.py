@@ -16,6 +16,10 @@ def problem(command: BodyCommand, robot: RobotDescription) -> str:
     """Why this robot refuses a command, empty if it does not."""
     if not _finite(msgspec.to_builtins(command, enc_hook=float)):
         return "a number in the command is not finite"
+    if isinstance(command, Grip | Payload | MoveHand) and command.side not in robot.hands:
+        return f"this robot has no {command.side} hand"
+    if isinstance(command, MoveArm | HoldArm) and command.side not in robot.arm_sides:
+        return f"this robot has no {command.side} arm"
     most_kg = robot.arms.max_payload_kg
     if isinstance(command, Payload) and not 0.0 <= command.mass_kg <= most_kg:
         return f"a hand carries 0 to {most_kg:g} kg"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 
@@ -10,9 +12,11 @@ import msgspec
 from robot import config
 from robot.errors import ConfigError, DescriptionError, Problem
 from robot.messages import Side
+from robot.model import measures, mjcf
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs
-from robot.model.keyframes import GettingUp, Keyframe
+from robot.model.keyframes import GettingUp
+from robot.model.published import Published
 
 
 class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -92,10 +96,19 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
 
 class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How fast the camera turns, and how near to a point its direction is to come."""
+    """Turning the camera towards a point.
+
+    Attributes:
+        rate_rad_s: of the neck's joints.
+        done_rad: how near they are to come to where they should be.
+        waist_yaw_rad: most that a robot without a neck turns its waist to a side to see.
+        waist_pitch_rad: the same, backward (negative) and forward.
+    """
 
     rate_rad_s: float
     done_rad: float
+    waist_yaw_rad: float = 0.0
+    waist_pitch_rad: tuple[float, float] = (0.0, 0.0)
 
 
 class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -135,7 +148,12 @@ class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
 
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A humanoid: joint groups, limits, feet, hands, sensors, postures."""
+    """A humanoid: joint groups, limits, feet, hands, sensors, postures.
+
+    What is left out and 0 here is measured at its model when it is loaded: the height of the
+    shoulders above the floor, standing; the length of a stretched arm from the shoulder to the
+    grasp point; the radius of the circle about the feet that holds the body and its arms.
+    """
 
     name: str
     mjcf: str
@@ -151,14 +169,18 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     arms: Arms
     gaze: Gaze
     postures: dict[str, dict[str, float]]
-    shoulder_height_m: float
-    body_radius_m: float
+    shoulder_height_m: float = 0.0
+    arm_reach_m: float = 0.0
+    body_radius_m: float = 0.0
     heating: Heating
+    overlay: str | None = None
+    published: Published | None = None
     handling: Handling | None = None
     signs: Signs | None = None
     battery: Battery | None = None
     getting_up: GettingUp | None = None
     folder: str = ""
+    mjcf_folder: str = ""
 
     @property
     def motor_names(self) -> tuple[str, ...]:
@@ -169,6 +191,12 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Motor indices of a joint group, in the group's order."""
         names = self.motor_names
         return [names.index(name) for name in self.groups[group]]
+
+    @property
+    def arm_sides(self) -> tuple[Side, ...]:
+        """The arms that it has, left first; each may or may not have a hand."""
+        sides: tuple[Side, Side] = ("left", "right")
+        return tuple(side for side in sides if self.groups[f"{side}_arm"])
 
     @property
     def handy(self) -> Handling:
@@ -183,7 +211,19 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
     def mjcf_path(self) -> Path:
         """Where the MJCF lies."""
-        return Path(self.folder) / self.mjcf
+        return Path(self.mjcf_folder or self.folder) / self.mjcf
+
+    @property
+    def source(self) -> mjcf.Source:
+        """Where the model comes from."""
+        overlay = None if self.overlay is None else str(Path(self.folder) / self.overlay)
+        without = () if self.published is None else self.published.without
+        return mjcf.Source(str(self.mjcf_path()), overlay, without)
+
+    def digest(self) -> bytes:
+        """SHA-256 of the description and its MJCF, wherever they lie, 32 bytes."""
+        placeless = msgspec.structs.replace(self, folder="", mjcf_folder="")
+        return hashlib.sha256(msgspec.json.encode(placeless) + self.source.content()).digest()
 
     def posture(self, name: str) -> tuple[float, ...]:
         """Joint values of a named posture in motor order; `nominal` fills what it leaves out."""
@@ -195,7 +235,8 @@ def load(name_or_path: str = "juno") -> RobotDescription:
     """Load a shipped robot by name, or any robot by the path of its YAML file.
 
     Raises:
-        ConfigError: if there is no such robot or the file is wrong (file, line, nearest name).
+        ConfigError: if there is no such robot, the file is wrong (file, line, nearest name), or a
+            published model that it names is not on this machine.
     """
     path = Path(name_or_path)
     if path.suffix not in (".yaml", ".yml"):
@@ -206,48 +247,84 @@ def load(name_or_path: str = "juno") -> RobotDescription:
             hint = config.nearest(name_or_path, names)
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
     description = config.load(path, RobotDescription)
-    description = msgspec.structs.replace(description, folder=str(path.parent))
+    published, mjcf_folder = description.published, path.parent
+    if published is not None:
+        mjcf_folder = published.find(description.mjcf, description=path)
+    description = msgspec.structs.replace(
+        description, folder=str(path.parent), mjcf_folder=str(mjcf_folder)
+    )
     _check(description, str(path))
-    return description
+    return _measured(description)
+
+
+def _measured(description: RobotDescription) -> RobotDescription:
+    """With what is left out of the file and can be seen at the model."""
+    model = mjcf.compiled(description.source)
+    joints = {name: motor.joint for name, motor in description.motors.items()}
+    arms = [
+        measures.Arm(
+            joints=tuple(joints[name] for name in description.groups[f"{side}_arm"]),
+            tip=description.hands[side].grasp_site if side in description.hands else "",
+        )
+        for side in description.arm_sides
+    ]
+    nominal = zip(joints.values(), description.posture("nominal"), strict=True)
+    soles = [foot.sole_site for foot in description.feet.values()]
+    try:
+        found = measures.measure(model, dict(nominal), arms=arms, soles=soles)
+    except KeyError:
+        return description  # a name is not in the MJCF: BodyModel says which, with all others
+    return msgspec.structs.replace(
+        description,
+        shoulder_height_m=description.shoulder_height_m or found.shoulder_height_m,
+        arm_reach_m=description.arm_reach_m or found.arm_reach_m,
+        body_radius_m=description.body_radius_m or found.body_radius_m,
+    )
+
+
+GROUPS = ("left_leg", "right_leg", "waist", "head", "left_arm", "right_arm")
 
 
 def _check(description: RobotDescription, file: str) -> None:
     """Names inside the file must point at each other."""
     motors = list(description.motors)
-    problems: list[Problem] = []
-
-    def want(name: str, where: str) -> None:
-        if name not in motors:
-            hint = config.nearest(name, motors)
-            problems.append(
-                Problem(f"{where} names motor {name!r}, not in motors", file, suggestion=hint)
-            )
-
-    needed = ("left_leg", "right_leg", "waist", "head", "left_arm", "right_arm")
-    for group in needed:
-        if group not in description.groups:
-            hint = f"every robot has the groups {', '.join(needed)}"
-            problems.append(Problem(f"joint group {group!r} is missing", file, suggestion=hint))
-    for group, names in description.groups.items():
-        for name in names:
-            want(name, f"group {group!r}")
-    for side, hand in description.hands.items():
-        want(hand.motor, f"{side} hand")
-    if "nominal" not in description.postures:
-        problems.append(Problem("posture 'nominal' is missing", file))
-    for posture, values in description.postures.items():
-        for name in values:
-            want(name, f"posture {posture!r}")
-    for keyframe in _keyframes(description):
-        for name in keyframe.posture:
-            want(name, f"keyframe {keyframe.name!r}")
+    problems = [
+        Problem(f"{where} names motor {name!r}, not in motors", file, suggestion=nearest)
+        for where, name in _named_motors(description)
+        if name not in motors
+        for nearest in [config.nearest(name, motors)]
+    ]
+    problems += [Problem(message, file, suggestion=hint) for message, hint in _missing(description)]
     if problems:
         raise ConfigError(problems)
 
 
-def _keyframes(description: RobotDescription) -> tuple[Keyframe, ...]:
-    """Every keyframe of getting up, if it knows how."""
-    if description.getting_up is None:
-        return ()
-    motions = description.getting_up.motions
-    return (*motions.front, *motions.left, *motions.right)
+def _named_motors(description: RobotDescription) -> Iterator[tuple[str, str]]:
+    """Where a motor is named, and how."""
+    for group, names in description.groups.items():
+        yield from ((f"group {group!r}", name) for name in names)
+    for side, hand in description.hands.items():
+        yield f"{side} hand", hand.motor
+    for posture, values in description.postures.items():
+        yield from ((f"posture {posture!r}", name) for name in values)
+    if description.getting_up is not None:
+        motions = description.getting_up.motions
+        for keyframe in (*motions.front, *motions.left, *motions.right):
+            yield from ((f"keyframe {keyframe.name!r}", name) for name in keyframe.posture)
+
+
+def _missing(description: RobotDescription) -> Iterator[tuple[str, str]]:
+    """What is not there though it has to be, and a hint."""
+    postures, groups = list(description.postures), description.groups
+    for group in [group for group in GROUPS if group not in groups]:
+        yield f"joint group {group!r} is missing", f"every robot has the groups {', '.join(GROUPS)}"
+    if "nominal" not in postures:
+        yield "posture 'nominal' is missing", "it is how the robot stands"
+    for side in [side for side in description.hands if not groups.get(f"{side}_arm")]:
+        yield f"there is a {side} hand, and no motor in {side}_arm", "name the arm's motors"
+    if description.hands and description.handling is None:
+        yield "there are hands, and no 'handling'", "say what they are good for, as juno.yaml does"
+    signs = description.signs
+    for posture in () if signs is None else (signs.raised, *signs.waving):
+        if posture not in postures:
+            yield f"signs name posture {posture!r}", config.nearest(posture, postures) or ""

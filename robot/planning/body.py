@@ -36,6 +36,8 @@ class Standing:
 class Arm:
     """One arm as a chain from its root T (the trunk's last link) to the grasp point.
 
+    Without a hand the chain ends at its last link.
+
     Attributes:
         chain: the hinges, in its group's order.
         motors: their motor indices, shape (k,).
@@ -53,7 +55,9 @@ class Arm:
         first = model.jnt_bodyid[body.joint_id(description.motors[names[0]].joint)]
         root = model.body(int(model.body_parentid[first])).name
         self.side: Side = side
-        self.chain = Chain(model, root, description.hands[side].grasp_site)
+        last = model.body(int(model.jnt_bodyid[body.joint_id(description.motors[names[-1]].joint)]))
+        hand = description.hands.get(side)
+        self.chain = Chain(model, root, last.name if hand is None else hand.grasp_site)
         joints = tuple(description.motors[name].joint for name in names)
         if joints != self.chain.joints:
             raise DescriptionError(
@@ -71,7 +75,7 @@ class Body:
         """Compile the robot."""
         self.description = description
         self.model = BodyModel(description)
-        self.arms: dict[Side, Arm] = {side: Arm(self.model, side) for side in SIDES}
+        self.arms: dict[Side, Arm] = {side: Arm(self.model, side) for side in description.arm_sides}
         self.scenes = SceneCache(description)
         self.nominal = np.array(description.posture("nominal"))
         joints = [motor.joint for motor in description.motors.values()]
@@ -128,10 +132,9 @@ class Body:
         walking = description.walking
         height = posture.height_m or walking.base_height_m
         q = q.copy()
-        for motor in description.indices("waist"):
-            name = description.motor_names[motor]
-            turns = {"yaw": posture.yaw_rad, "pitch": posture.pitch_rad}
-            q[motor] = next((v for end, v in turns.items() if name.endswith(end)), 0.0)
+        wanted = {"roll": 0.0, "pitch": posture.pitch_rad, "yaw": posture.yaw_rad}
+        for motor, turn in zip(description.indices("waist"), body.turns("waist"), strict=True):
+            q[motor] = wanted[turn]
         data = body.data()
         at = np.array([0.0, 0.0, height])
         for _ in range(8):

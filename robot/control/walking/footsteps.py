@@ -10,7 +10,8 @@ import math
 import msgspec
 
 from robot.messages import Side
-from robot.model.description import Foot, Walking
+from robot.model.description import Foot
+from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
 
