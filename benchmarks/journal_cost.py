@@ -23,13 +23,14 @@ import typer
 
 from benchmarks import machine
 from benchmarks.markdown import table
-from executive import doing, request, runtimes
-from executive.app import Executive
-from executive.dumps.record import Recorder
-from executive.dumps.writer import Dumper, along
-from executive.journal import Journal
-from executive.loop import Interrupts
-from executive.progress import Silent
+from executive.engine.executive import Executive
+from executive.engine.loop import Interrupts
+from executive.engine.recorder import Recorder
+from executive.frontends.dump.writer import Dumper, along
+from executive.frontends.progress import Silent
+from executive.journal.journal import Journal
+from executive.meaning import request
+from executive.runs import runtimes, task_run
 from robot.clock import WallClock
 
 SENTENCE = "pick up the red cup and put it on the shelf"
@@ -83,7 +84,9 @@ def run(sentence: str, *, folder: Path | None, dump_on: str = "", bare: bool = F
     understood = request.request(sentence, where, ask=None)
     if isinstance(understood, request.Refused):
         raise SystemExit(understood.reason)
-    job = doing.Job(understood=understood, where=where, seed=0, runtime_name="fast", folder=folder)
+    job = task_run.Job(
+        understood=understood, where=where, seed=0, runtime_name="fast", folder=folder
+    )
     show = quiet
     if dump_on and folder is not None:
         formats = "svg,html" if dump_on == "failure" else "text"
@@ -93,9 +96,9 @@ def run(sentence: str, *, folder: Path | None, dump_on: str = "", bare: bool = F
             runtimes.opened("fast", where, seed=0, folder=folder)
         )
         if bare:
-            stack.enter_context(patch("executive.session.Recorder", NoRecorder))
+            stack.enter_context(patch("executive.runs.session.Recorder", NoRecorder))
         begin_s = time.process_time()
-        doing.do(
+        task_run.do(
             job, runtime, planner, show=show, wall=WallClock(), time_of_day=time.time,
             interrupts=Interrupts(),
         )  # fmt: skip

@@ -12,11 +12,13 @@ import numpy as np
 
 from benchmarks.campaign import UNFINISHED, Job
 from benchmarks.markdown import share, table
-from executive import doing, request, runtimes
-from executive.app import Executive
-from executive.loop import Interrupts, Runtime
-from executive.progress import Progress, Silent
-from executive.runs import Summary
+from executive.engine.executive import Executive
+from executive.engine.loop import Interrupts, Runtime
+from executive.frontends.progress import Silent
+from executive.meaning import request
+from executive.runs import runtimes, task_run
+from executive.runs.run_folder import Summary
+from executive.runs.task_run import Progress
 from robot.clock import WallClock
 from robot.planning.requests import PlacePlan, PlanRequest, PlanResult
 from robot.planning.worker import Planner
@@ -84,7 +86,9 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
         return {"ok": False, "code": understood.outcome, "cause": understood.reason}
     folder = UNFINISHED / "missions" / f"{'live' if live else 'fast'}-{seed}"
     kind: runtimes.Kind = "live" if live else "fast"
-    job = doing.Job(understood=understood, where=where, seed=seed, runtime_name=kind, folder=folder)
+    job = task_run.Job(
+        understood=understood, where=where, seed=seed, runtime_name=kind, folder=folder
+    )
     begin_s = time.perf_counter()
     with runtimes.opened(kind, where, seed=seed, folder=folder) as (runtime, planner):
         ready_s = time.perf_counter() - begin_s
@@ -100,8 +104,8 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
         return {**known, **_judge(runtime, summary, witness.X_WO, cup.replace(" ", "_"))}
 
 
-def _carry_out(job: doing.Job, runtime: Runtime, planner: Planner) -> Summary:
-    return doing.do(
+def _carry_out(job: task_run.Job, runtime: Runtime, planner: Planner) -> Summary:
+    return task_run.do(
         job,
         runtime,
         planner,

@@ -21,18 +21,18 @@ from py_trees.behaviours import Failure, Running, Success
 from py_trees.common import ParallelPolicy, Status
 from py_trees.composites import Parallel, Selector, Sequence
 
-from executive.app import Executive
 from executive.behaviours.conditions import Check
 from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.stage import Stage
 from executive.blackboard import Blackboard
-from executive.dumps.record import Recorder
-from executive.journal import Journal
-from executive.session import RATES_HZ
+from executive.engine.executive import Executive
+from executive.engine.recorder import Recorder
+from executive.journal.journal import Journal
+from executive.runs.session import RATES_HZ
 from executive.skills.context import SkillContext
+from executive.skills.motions.script import Script
+from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.parameters import WaitParams
-from executive.skills.script import Script
-from executive.skills.scripted import ScriptedSkill
 from tests.fakes.oracle_planner import RulePlanner
 from tests.fakes.worlds import JUNO, puppet
 

@@ -17,7 +17,7 @@ from benchmarks import machine
 
 LOOK = "look at the red cup"
 JOB = "pick up the red cup and put it on the shelf"
-COMMAND = (sys.executable, "-c", "from executive.cli import main; main()", "do")
+COMMAND = (sys.executable, "-c", "from executive.frontends.cli import main; main()", "do")
 
 Outcome = dict[str, Any]
 

@@ -16,9 +16,10 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from executive import request, runtimes
-from executive.repl.robot import Robot
-from executive.repl.shell import Shell
+from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.shell import Shell
+from executive.meaning import request
+from executive.runs import runtimes
 from robot.clock import WallClock
 from robot.messages import BodyCommand, Stand
 

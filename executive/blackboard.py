@@ -11,7 +11,7 @@ from collections.abc import Callable
 from types import UnionType
 from typing import Any, Generic, TypeVar, cast, get_args, get_origin
 
-from executive.ladder import Health
+from executive.health import Health
 from robot.errors import Failure, RobotError
 from robot.messages import BodyState, Side, WorldMap, WorldState
 from robot.se3 import SE3

@@ -16,8 +16,8 @@ from typing import Any
 
 import msgspec
 
-from executive import streams
-from executive.ending import ended_by
+from executive.frontends import streams
+from executive.frontends.exit import ended_by
 from robot.bringup import entry
 from robot.bringup.overseen import FRONT_FILE, Front, Handle
 from robot.bringup.overseer import CRASHED

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.knowledge import Knowledge
+from executive.meaning.knowledge import Knowledge
 from intents.speech.audio import RATE_HZ, Resampler, Samples
 from intents.vocabulary import Vocabulary
 from robot.bringup import entry

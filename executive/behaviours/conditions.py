@@ -8,7 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.blackboard import HEALTH, PAUSE, RESTLESS, STOP, Blackboard
-from executive.ladder import Level
+from executive.health import Level
 
 Predicate = Callable[[Blackboard], bool]
 

@@ -10,7 +10,7 @@ import msgspec
 from executive.behaviours.breakpoints import Breakpoints
 from executive.behaviours.scope import Scope
 from executive.blackboard import FAILURE, HELP, NOW, PHASE, RECOVERIES, RESTLESS, Blackboard, Writer
-from executive.journal import Journal
+from executive.journal.journal import Journal
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill, SkillReport
 from robot.errors import Failure, failure

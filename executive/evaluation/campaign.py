@@ -13,8 +13,9 @@ from typing import Any
 
 import msgspec
 
-from executive import faults, request
-from executive.jobs import UNLIMITED, Limits
+from executive.engine.jobs import UNLIMITED, Limits
+from executive.meaning import request
+from executive.missions import fault_plans
 from robot import config
 from robot.bringup import entry
 from robot.errors import CATALOGUE, ConfigError, Problem
@@ -32,7 +33,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         mission: a sentence, or the path of a mission file.
         world: by name or path.
         start: where the robot starts (x [m], y [m], heading [deg]); the world's start by default.
-        faults: what strikes, and when (`executive.faults`).
+        faults: what strikes, and when (`executive.runs.faults`).
         expect: "recovered", or the codes of failure with which it may end safely; a run that is
             done in truth all the same is better than expected.
         helped: whether somebody answers every question with "continue".
@@ -116,7 +117,7 @@ class Meant(msgspec.Struct, frozen=True, kw_only=True):
 
     understood: request.Understood
     where: request.Setting
-    faults: tuple[faults.FaultPlan, ...] = ()
+    faults: tuple[fault_plans.FaultPlan, ...] = ()
     limits: Limits = UNLIMITED
 
 
@@ -137,14 +138,15 @@ def meant(case: Case, setting: Callable[[str], request.Setting]) -> Meant:
         ConfigError: if it cannot be meant.
     """
     if case.mission.endswith((".yaml", ".yml")):
-        from executive.missions import check, load, run
+        from executive.missions import check, load
+        from executive.runs import mission
 
         checked = check.check(load.find(case.mission), check.Options(samples=True))
         return Meant(
-            understood=run.understood(checked),
+            understood=mission.understood(checked),
             where=checked.where,
             faults=checked.faults,
-            limits=run.limits(checked),
+            limits=mission.limits(checked),
         )
     where = setting(case.world)
     understood = request.request(case.mission, where)
@@ -168,7 +170,9 @@ def problems_of(case: Case, setting: Callable[[str], request.Setting]) -> list[s
         given = meant(case, setting)
         entry.attribute(READ_CHECKS)(case.truth, given.where.world)
         for data in case.faults:
-            faults.verify(faults.plan(data).fault, given.where.world, given.where.description)
+            fault_plans.verify(
+                fault_plans.plan(data).fault, given.where.world, given.where.description
+            )
     except ConfigError as error:
         found += [str(problem) for problem in error.problems]
     return found

@@ -12,15 +12,16 @@ from typing import Any
 
 import msgspec
 
-from executive import faults, loop, runtimes
-from executive.app import Executive
+from executive.engine import loop
+from executive.engine.executive import Executive
 from executive.evaluation.campaign import Run, meant, settings
 from executive.evaluation.record import Record
-from executive.history import agreement
-from executive.journal import Journal
-from executive.resources import needed_by
-from executive.session import RATES_HZ
+from executive.journal.journal import Journal
+from executive.missions import fault_plans
+from executive.runs import agreement, faults, runtimes
+from executive.runs.session import RATES_HZ
 from executive.skills.context import SkillContext
+from executive.skills.resources import needed_by
 from executive.trees.build import Done, build
 from executive.trees.parts import errands
 from robot.bringup import entry
@@ -75,7 +76,7 @@ class _Trial:
             assert isinstance(runtime, faults.Injects)
             slow = faults.SlowPlanner(planner)
             injector = faults.Injector(
-                (*self.given.faults, *(faults.plan(data) for data in run.case.faults)),
+                (*self.given.faults, *(fault_plans.plan(data) for data in run.case.faults)),
                 runtime,
                 journal,
                 begin_s=runtime.clock.now_s(),

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import msgspec
 
-from executive import faults
-from executive.faults import FaultPlan
+from executive.meaning.request import Setting, setting
+from executive.missions import fault_plans
 from executive.missions.compiling import Compiler
+from executive.missions.fault_plans import FaultPlan
 from executive.missions.load import Mission, load
 from executive.missions.names import Names
 from executive.missions.nodes import Node, parse, text_node
 from executive.missions.problems import Enough, Problems
 from executive.missions.values import Bound
-from executive.request import Setting, setting
 from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
@@ -163,8 +163,8 @@ def _faults(mission: Mission, where: Setting, problems: Problems) -> tuple[Fault
     plans: list[FaultPlan] = []
     for item, data in zip(node.items if node else [], mission.record.faults, strict=True):
         try:
-            plan = faults.plan(data)
-            faults.verify(plan.fault, where.world, where.description)
+            plan = fault_plans.plan(data)
+            fault_plans.verify(plan.fault, where.world, where.description)
         except ConfigError as error:
             problems.take(error, item)
             continue

@@ -9,6 +9,9 @@ from __future__ import annotations
 import msgspec
 from msgspec.structs import replace
 
+from executive.meaning.identify import CannotMean, Scene
+from executive.meaning.tasks import part_of
+from executive.meaning.validation import check
 from executive.missions import schema as s
 from executive.missions.calling import Calls
 from executive.missions.conditions import Conditions
@@ -19,12 +22,9 @@ from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.slots import Slots
 from executive.missions.values import Bound, Scope
-from executive.resources import conflicts, needed_by
-from executive.scene import CannotMean, Scene
+from executive.skills.resources import conflicts, needed_by
 from executive.trees import parts as p
 from executive.trees.build import ANY
-from executive.trees.tasks import part_of
-from executive.validation import check
 from intents import goals
 from robot.config import nearest
 from robot.errors import CATALOGUE

@@ -6,16 +6,16 @@ from collections.abc import Callable
 
 from executive.behaviours.conditions import Predicate
 from executive.blackboard import HELD, WORLD, Blackboard
-from executive.knowledge import full_name
+from executive.meaning.identify import CannotMean, Scene
+from executive.meaning.knowledge import full_name
+from executive.meaning.tasks import question_of
 from executive.missions import schema as s
 from executive.missions.names import Names
 from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.values import Scope
-from executive.scene import CannotMean, Scene
 from executive.trees.parts import Finding, Words
-from executive.trees.tasks import question_of
 from intents import goals
 from robot.messages import ObjectInfo, Place
 from robot.se3 import SE3

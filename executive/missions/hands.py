@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from executive.request import Setting
+from executive.meaning.request import Setting
 from executive.skills.parameters import PickParams, PlaceParams
 from robot.bringup import entry
 from robot.errors import Failure

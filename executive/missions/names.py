@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from executive.knowledge import Knowledge, full_name
+from executive.meaning.knowledge import Knowledge, full_name
 from executive.missions.nodes import Node
 from executive.missions.problems import Problems
 from intents import goals, parser

@@ -7,9 +7,9 @@ none then took 11 % longer or shorter; other ways may be further off.
 
 from __future__ import annotations
 
-from executive.skills.asking import pose_of
-from executive.skills.follower import Follower, turn_towards
-from executive.skills.walking import cruise_m_s, facing_the_way, is_there
+from executive.skills.motions.path_follower import Follower, turn_towards
+from executive.skills.motions.planning import pose_of
+from executive.skills.motions.walk import cruise_m_s, facing_the_way, is_there
 from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle

@@ -15,13 +15,13 @@ import math
 
 import msgspec
 
+from executive.meaning.request import Setting
 from executive.missions.hands import Hands
 from executive.missions.pacing import walking_s
-from executive.request import Setting
 from executive.skills import parameters as k
-from executive.skills.obstructions import clearance_m
-from executive.skills.visiting import AT_PERSON_M, ROOM_M, stances_around, stances_at
-from executive.skills.walking import CLEARANCE_M
+from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.standpoints import AT_PERSON_M, ROOM_M, stances_around, stances_at
+from executive.skills.motions.walk import CLEARANCE_M
 from executive.trees import parts as p
 from robot.bringup import entry
 from robot.errors import Failure

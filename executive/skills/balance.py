@@ -5,11 +5,11 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from executive.skills.context import SkillContext
+from executive.skills.motions.get_up import get_up
+from executive.skills.motions.script import Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.walk import stand_still
 from executive.skills.parameters import BalanceParams
-from executive.skills.rising import get_up
-from executive.skills.script import Script, give_up
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.walking import stand_still
 from robot.messages import OneLeg, Side
 
 SQUAT = 0.75

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from executive.skills.context import SkillContext
-from executive.skills.looking import look_at
+from executive.skills.motions.gaze import look_at
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.standpoints import stances_around
+from executive.skills.motions.stow import stow_arms
+from executive.skills.motions.walk import follow, plan_path, stand_still
 from executive.skills.parameters import FollowParams
-from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import stow_arms
-from executive.skills.visiting import stances_around
-from executive.skills.walking import follow, plan_path, stand_still
 from robot.messages import PersonInfo, Place
 from robot.se3 import SE3
 

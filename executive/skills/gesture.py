@@ -6,16 +6,16 @@ import math
 
 import numpy as np
 
-from executive.skills.asking import stance_of
 from executive.skills.context import SkillContext
-from executive.skills.looking import look_at, turn_head
+from executive.skills.motions.gaze import look_at, turn_head
+from executive.skills.motions.planning import stance_of
+from executive.skills.motions.reach import move_arm, posture_rad
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.stow import HOME, stow_arm
+from executive.skills.motions.walk import stand_still, turn_by
 from executive.skills.parameters import GestureParams
-from executive.skills.reaching import move_arm, posture_rad
-from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
-from executive.skills.stowing import HOME, stow_arm
-from executive.skills.walking import stand_still, turn_by
 from robot.messages import Side
 from robot.planning.requests import Joints
 from robot.se3 import SE3, Array, Vector3, wrap_angle

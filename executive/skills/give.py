@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 
-from executive.skills.body import Body
 from executive.skills.context import SkillContext
-from executive.skills.gripping import LEAST_GAP_M, open_fingers, set_payload
 from executive.skills.holding import Held
-from executive.skills.looking import look_at
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.fingers import LEAST_GAP_M, open_fingers, set_payload
+from executive.skills.motions.gaze import look_at
+from executive.skills.motions.reach import move_arm, posture_rad
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.standpoints import stances_around, walk_to_any
+from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.parameters import GiveParams
-from executive.skills.reaching import move_arm, posture_rad
-from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import HOME, stow_arms
-from executive.skills.visiting import stances_around, walk_to_any
 from robot.messages import PersonInfo, Side
 from robot.se3 import SE3
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from executive.skills.asking import stance_of
-from executive.skills.body import Body
 from executive.skills.context import SkillContext
-from executive.skills.looking import see, turn_head
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.gaze import see, turn_head
+from executive.skills.motions.planning import stance_of
+from executive.skills.motions.script import Script
+from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.parameters import LookParams
-from executive.skills.script import Script
-from executive.skills.scripted import ScriptedSkill
 
 FACE_HEIGHT_M = 1.5
 GAZE_S = 0.5

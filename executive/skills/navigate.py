@@ -6,22 +6,22 @@ import math
 
 from msgspec.structs import replace
 
-from executive.skills.asking import pose_of, stance_of
-from executive.skills.body import Body
 from executive.skills.context import SkillContext
-from executive.skills.parameters import FloorPose, NavigateParams, Step
-from executive.skills.script import GaveUp, Script
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stepping import step_to
-from executive.skills.stowing import stow_arms
-from executive.skills.visiting import (
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.planning import pose_of, stance_of
+from executive.skills.motions.script import GaveUp, Script
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.standpoints import (
     AT_PERSON_M,
     heading_to,
     stances_around,
     stances_at,
     walk_to_any,
 )
-from executive.skills.walking import follow, plan_path, stand_still, turn_by, walk_to
+from executive.skills.motions.stow import stow_arms
+from executive.skills.motions.walk import follow, plan_path, stand_still, turn_by, walk_to
+from executive.skills.parameters import FloorPose, NavigateParams, Step
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle
 

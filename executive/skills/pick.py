@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 
-from executive.skills.approaching import approach, come_nearer, withdraw
-from executive.skills.asking import ask, stance_of
 from executive.skills.context import SkillContext
-from executive.skills.finding import find
-from executive.skills.grasping import (
+from executive.skills.holding import Held
+from executive.skills.motions.approach import approach, come_nearer, withdraw
+from executive.skills.motions.fingers import check_grips, close_fingers, open_fingers, set_payload
+from executive.skills.motions.gaze import see
+from executive.skills.motions.grasp import (
     aim,
     centred,
     check_gap,
@@ -17,15 +18,14 @@ from executive.skills.grasping import (
     has_fallen,
     last_seen,
 )
-from executive.skills.gripping import check_grips, close_fingers, open_fingers, set_payload
-from executive.skills.holding import Held
-from executive.skills.looking import see
+from executive.skills.motions.object_search import find
+from executive.skills.motions.planning import ask, stance_of
+from executive.skills.motions.reach import move_arm, move_hand, posture_rad
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.stow import HOME, stow_arms
+from executive.skills.motions.support import UPRIGHT_RAD, surroundings, tilt
 from executive.skills.parameters import PickParams
-from executive.skills.reaching import move_arm, move_hand, posture_rad
-from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import HOME, stow_arms
-from executive.skills.support import UPRIGHT_RAD, surroundings, tilt
 from robot.messages import ObjectInfo, Side
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3

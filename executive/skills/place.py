@@ -7,19 +7,19 @@ import math
 
 import msgspec
 
-from executive.skills.approaching import approach, back_away, bring_in, come_nearer, withdraw
-from executive.skills.asking import ask, held_in, stance_of
-from executive.skills.body import Body
 from executive.skills.context import SkillContext
-from executive.skills.gripping import check_grips, open_fingers, set_payload
 from executive.skills.holding import Held
-from executive.skills.looking import look_at, see
+from executive.skills.motions.approach import approach, back_away, bring_in, come_nearer, withdraw
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.fingers import check_grips, open_fingers, set_payload
+from executive.skills.motions.gaze import look_at, see
+from executive.skills.motions.planning import ask, held_in, stance_of
+from executive.skills.motions.reach import move_arm, move_hand, posture_rad
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.stow import HOME, stow_arms
+from executive.skills.motions.support import occupant, surroundings, tilt
 from executive.skills.parameters import PlaceParams
-from executive.skills.reaching import move_arm, move_hand, posture_rad
-from executive.skills.script import GaveUp, Script, give_up
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import HOME, stow_arms
-from executive.skills.support import occupant, surroundings, tilt
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place, Side
 from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.motions.script import Script
+from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.parameters import SayParams
-from executive.skills.script import Script
-from executive.skills.scripted import ScriptedSkill
 
 
 class Say(ScriptedSkill):

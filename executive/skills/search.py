@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
-from executive.skills.finding import find
+from executive.skills.motions.object_search import find
+from executive.skills.motions.script import Script
+from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.motions.stow import stow_arms
 from executive.skills.parameters import SearchParams
-from executive.skills.script import Script
-from executive.skills.scripted import ScriptedSkill
-from executive.skills.stowing import stow_arms
 
 
 class Search(ScriptedSkill):

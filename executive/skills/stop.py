@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.motions.rest import come_to_rest
+from executive.skills.motions.script import Script
+from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.parameters import StopParams
-from executive.skills.resting import come_to_rest
-from executive.skills.script import Script
-from executive.skills.scripted import ScriptedSkill
 
 
 class Stop(ScriptedSkill):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 
-from executive.journal import Event, encode
+from executive.journal.journal import Event, encode
 
 NAMES = ("walk to the {}", "look at the {}", "pick up cup {}", "put cup {} down", "wait at the {}")
 CODES = ("grasp_missed", "path_blocked", "object_not_seen")

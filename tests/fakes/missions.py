@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
+from executive.meaning.request import setting
 from executive.missions import check
-from executive.request import setting
 
 
 @cache

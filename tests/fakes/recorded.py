@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from executive.dumps.reading import Reader
-from executive.dumps.record import Recorder
-from executive.journal import encode
+from executive.engine.recorder import Recorder
+from executive.journal.journal import encode
+from executive.journal.pages.reading import Reader
 from tests.fakes.rig import Rig
 
 

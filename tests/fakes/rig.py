@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from executive.app import Executive
-from executive.journal import Journal
+from executive.engine.executive import Executive
+from executive.journal.journal import Journal
 from executive.skills.context import SkillContext
 from executive.skills.parameters import NavigateParams, PickParams, PlaceParams, WaitParams
 from executive.skills.parameters import Step as StepParams

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.request import Setting
+from executive.meaning.request import Setting
 from robot import messages as m
 from robot.model.description import load
 from robot.se3 import SE3

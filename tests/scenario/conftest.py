@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive import cli
+from executive.frontends import cli
 
 
 @pytest.fixture

@@ -10,8 +10,10 @@ from contextlib import contextmanager
 import pytest
 
 from benchmarks.intents.endpoint import Reply, serving
-from executive import commands, request, runtimes
-from executive.loop import Interrupts
+from executive.engine.loop import Interrupts
+from executive.frontends import do
+from executive.meaning import request
+from executive.runs import runtimes
 from intents.outcomes import Question
 from robot.errors import failure
 from robot.messages import Damp, Stand
@@ -101,8 +103,8 @@ def test_an_open_question_is_the_last_word(runtime, humanoid):
 
 
 def test_at_a_terminal_the_question_is_asked(runtime, humanoid, monkeypatch):
-    monkeypatch.setattr(commands, "at_terminal", lambda: True)
-    monkeypatch.setattr(commands, "ask", lambda question: "blue")
+    monkeypatch.setattr(do, "at_terminal", lambda: True)
+    monkeypatch.setattr(do, "ask", lambda question: "blue")
     status, text = humanoid("do", "pick up the cup", "--fast")
     assert status == 0, text
     assert "blue cup" in text
@@ -112,7 +114,7 @@ def test_at_a_terminal_the_question_is_asked(runtime, humanoid, monkeypatch):
 def test_a_question_is_asked_on_a_line_of_its_own(monkeypatch, capsys, typed, answer):
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
     question = Question(question="Which cup, the red one or the blue one?", choices=())
-    assert commands.ask(question) == answer
+    assert do.ask(question) == answer
     out = capsys.readouterr().out
     assert out.startswith("Which cup, the red one or the blue one? ")
     assert out.endswith("\n") or typed  # who types ends the line, who leaves does not
@@ -173,7 +175,7 @@ def press(monkeypatch, runtime, *times_s):
             runtime.at = [(t, self.press) for t in times_s]
             pressed.append(self)
 
-    monkeypatch.setattr(commands, "Interrupts", Pressed)
+    monkeypatch.setattr(do, "Interrupts", Pressed)
 
 
 def test_ctrl_c_stands_then_leaves_with_1(runtime, humanoid, monkeypatch):
@@ -254,8 +256,8 @@ def test_a_question_at_the_terminal_is_asked_aloud_and_ends_with_the_answer(
         assert eventually(lambda: synthesiser.said == [question.question])
         return "blue"
 
-    monkeypatch.setattr(commands, "at_terminal", lambda: True)
-    monkeypatch.setattr(commands, "ask", ask)
+    monkeypatch.setattr(do, "at_terminal", lambda: True)
+    monkeypatch.setattr(do, "ask", ask)
     assert humanoid("do", "pick up the cup", "--fast", "--voice")[0] == 0
     assert synthesiser.said == ["Which cup, the red one or the blue one?", "Done."]
 
@@ -369,5 +371,5 @@ def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
         file = tmp_path / "model.toml"
         file.write_text(f'base_url = "{server.url}"\nmodel = "local"\n')
         status, text = humanoid("do", "brighten up the evening", "--fast", "--model", str(file))
-    assert status == commands.INVALID, text
+    assert status == do.INVALID, text
     assert "The language model was of no help: " in text

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from executive.listening import hearing, obeying
+from executive.frontends.listening import hearing, obeying
 from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear
 from intents.speech.recogniser import Heard
@@ -118,7 +118,9 @@ def told(monkeypatch, tmp_path):
 
     def make(*texts):
         monkeypatch.setattr(hearing, "ear", lambda *_: Ear(Told(*texts)))
-        monkeypatch.setattr("executive.listening.obeying.ear", lambda *_: Ear(Told(*texts)))
+        monkeypatch.setattr(
+            "executive.frontends.listening.obeying.ear", lambda *_: Ear(Told(*texts))
+        )
         return recorded(tmp_path / "a.wav", *["stop"] * len(texts))
 
     return make
@@ -172,7 +174,7 @@ def test_stop_stops_and_closes_the_question(humanoid, told, tmp_path):
 @pytest.fixture
 def loudspeaker(monkeypatch):
     made = Loudspeaker()
-    monkeypatch.setattr("executive.listening.obeying.voice", lambda *_, **__: made)
+    monkeypatch.setattr("executive.frontends.listening.obeying.voice", lambda *_, **__: made)
     return made
 
 

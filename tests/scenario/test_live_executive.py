@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from executive import journal
-from executive.journal import WALL_FILE, Event
+from executive.journal import journal
+from executive.journal.journal import WALL_FILE, Event
 from tests.fakes.executives import executives
 from tests.fakes.waiting import eventually
 

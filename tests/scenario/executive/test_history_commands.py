@@ -4,7 +4,7 @@ import json
 import re
 from pathlib import Path
 
-from executive.journal import Journal
+from executive.journal.journal import Journal
 from robot.errors import failure
 from robot.planning.requests import PickRequest
 from tests.scenario.test_cli import press, runtime  # noqa: F401 - a fixture

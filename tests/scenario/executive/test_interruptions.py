@@ -5,10 +5,10 @@ from __future__ import annotations
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from executive.jobs import OVER
-from executive.loop import Interrupts
-from executive.request import Understood, request
-from executive.session import Session
+from executive.engine.jobs import OVER
+from executive.engine.loop import Interrupts
+from executive.meaning.request import Understood, request
+from executive.runs.session import Session
 from executive.trees.parts import errands
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.worlds import JUNO, WHERE, puppet

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from executive.missions import commands
+from executive.frontends.missions import commands
 from executive.missions.check import Options, check
 from executive.missions.load import FOLDER, shipped
 

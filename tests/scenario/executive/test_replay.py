@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from executive import request, runs
-from executive.loop import Interrupts
-from executive.session import Session
+from executive.engine.loop import Interrupts
+from executive.meaning import request
+from executive.runs import run_folder
+from executive.runs.session import Session
 from robot.errors import failure
 from robot.planning.requests import PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
@@ -163,8 +164,8 @@ def test_what_a_person_asked_for_in_between_is_asked_for_again(runtime, humanoid
         interrupts=Interrupts(),
         folder=Path("a"),
     ) as session:
-        header = runs.header(where, text="a morning", seed=0, runtime="fast")
-        runs.begin(session.journal, header, now_s=0.0, folder=Path("a"))
+        header = run_folder.header(where, text="a morning", seed=0, runtime="fast")
+        run_folder.begin(session.journal, header, now_s=0.0, folder=Path("a"))
         session.submit(understood("walk two metres forward"))
         operate(session, where, script)
     kinds = [json.loads(line) for line in Path("a/journal.jsonl").read_text().splitlines()]

@@ -6,10 +6,11 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from executive import journal, request
-from executive.history import agreement, going_on
-from executive.journal import Event
-from executive.knowledge import Knowledge
+from executive.journal import journal
+from executive.journal.journal import Event
+from executive.meaning import request
+from executive.meaning.knowledge import Knowledge
+from executive.runs import agreement, continuation
 from robot import messages as m
 from robot.errors import failure
 from robot.model import description
@@ -195,4 +196,4 @@ def test_the_newest_job_is_gone_on_with_and_what_was_done_before_it_died():
 
     events = [event(0, "run"), submit(1), event(2, "done"), submit(3), event(4, "done"),
               event(5, "resumed"), submit(6, done=["1"]), event(7, "done")]  # fmt: skip
-    assert [one.n for one in going_on.newest_job(events)] == [3, 4, 5, 6, 7]
+    assert [one.n for one in continuation.newest_job(events)] == [3, 4, 5, 6, 7]

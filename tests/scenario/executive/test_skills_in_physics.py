@@ -7,6 +7,7 @@ import pytest
 
 from executive.skills.catalogue import make
 from executive.skills.context import SkillContext
+from executive.skills.motions.support import tilt
 from executive.skills.parameters import (
     BalanceParams,
     FloorPose,
@@ -15,7 +16,6 @@ from executive.skills.parameters import (
     PlaceParams,
     Step,
 )
-from executive.skills.support import tilt
 from robot.bringup.fast import FastRuntime
 from robot.model.description import load
 from robot.planning.inline import InlinePlanner

@@ -3,7 +3,7 @@
 import io
 from pathlib import Path
 
-from executive.journal import read
+from executive.journal.journal import read
 from tests.scenario.executive.test_replay import anew  # noqa: F401 - a fixture
 from tests.scenario.executive.test_resume import cut
 from tests.scenario.test_cli import runtime  # noqa: F401 - a fixture

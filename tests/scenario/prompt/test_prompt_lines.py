@@ -12,14 +12,16 @@ from prompt_toolkit.keys import Keys
 from prompt_toolkit.output import DummyOutput
 
 from benchmarks.intents.endpoint import Reply, serving
-from executive import request, runtimes
-from executive.journal import read
-from executive.repl.cli import words
-from executive.repl.plain import work_off
-from executive.repl.robot import Robot
-from executive.repl.shell import Shell
-from executive.repl.terminal import Terminal
-from executive.speaking import Speech
+from executive.frontends.prompt import commands
+from executive.frontends.prompt.cli import words
+from executive.frontends.prompt.plain import work_off
+from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.shell import Shell
+from executive.frontends.prompt.terminal import Terminal
+from executive.frontends.speaking import Speech
+from executive.journal.journal import read
+from executive.meaning import request
+from executive.runs import runtimes
 from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
 from tests.fakes.voices import Loudspeaker
@@ -41,7 +43,7 @@ def shell_in(
         idles=False,
     )
     with robot:
-        yield Shell(robot, Said(), folder=folder, model=model)
+        yield Shell(robot, Said(), table=commands.table, folder=folder, model=model)
 
 
 class Said(list[str]):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from executive.journal import read
+from executive.journal.journal import read
 from tests.fakes.terminal import CTRL_C, CTRL_D, ENTER, TAB, UP, Terminal
 from tests.fakes.waiting import eventually
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from executive.journal import read
+from executive.journal.journal import read
 from tests.fakes.executives import executives
 from tests.fakes.terminal import CTRL_D, CTRL_U, TAB, UP, Terminal
 from tests.fakes.waiting import eventually

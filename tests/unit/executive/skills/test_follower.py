@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.follower import Follower, Run, turn_towards
+from executive.skills.motions.path_follower import Follower, Run, turn_towards
 from robot.model.description import load
 from robot.se3 import SE3, wrap_angle
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from executive.skills.body import Body
 from executive.skills.holding import Held
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.reach import posture_rad
 from executive.skills.parameters import FloorPose, NavigateParams, Step
-from executive.skills.reaching import posture_rad
 from robot.errors import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
 from robot.planning.requests import BasePathRequest

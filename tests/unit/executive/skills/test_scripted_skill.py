@@ -2,8 +2,8 @@
 
 import pytest
 
-from executive.skills.script import Script, give_up
-from executive.skills.scripted import ScriptedSkill
+from executive.skills.motions.script import Script, give_up
+from executive.skills.motions.scripted import ScriptedSkill
 from robot.messages import Stand
 from tests.fakes.stage import Stage
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.support import supported
+from executive.skills.motions.support import supported
 from robot.se3 import SE3
 from tests.fakes.stage import TABLE_M, kitchen
 

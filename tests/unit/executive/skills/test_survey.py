@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from executive.skills.survey import EYE_M, HEAD_RAD, SIGHT_M, Survey
+from executive.skills.motions.survey import EYE_M, HEAD_RAD, SIGHT_M, Survey
 from robot.messages import Place
 from robot.se3 import SE3
 

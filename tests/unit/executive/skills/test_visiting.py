@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.body import Body
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.standpoints import BEFORE_EDGE_M, has_room, stances_around, stances_at
 from executive.skills.parameters import NavigateParams
-from executive.skills.visiting import BEFORE_EDGE_M, has_room, stances_around, stances_at
 from robot.messages import Obstacle, Place, Shape
 from robot.se3 import SE3, wrap_angle
 from tests.fakes.stage import Stage

@@ -1,1 +1,0 @@
-"""Trees for people and other programs to look at."""

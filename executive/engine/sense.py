@@ -1,0 +1,123 @@
+"""The first leaf of every tick: the newest messages onto the blackboard."""
+
+from __future__ import annotations
+
+import msgspec
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from executive.behaviours.stage import Stage, failure_data
+from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
+from executive.engine.health_monitor import HealthMonitor
+from executive.engine.reminder import Reminder
+from executive.health import Health, Level
+from executive.skills.holding import Held, Holdings
+from robot.link import BodyLink
+from robot.messages import BodyState, Side
+
+
+def _stamp(message: object) -> float | None:
+    return getattr(message, "stamp_s", None)
+
+
+class Sense(Behaviour):
+    """Reads the link once a tick; always RUNNING."""
+
+    def __init__(
+        self, stage: Stage, link: BodyLink, monitor: HealthMonitor, *, holdings: Holdings
+    ) -> None:
+        """Become the writer of everything that is sensed."""
+        super().__init__("sense")
+        self._stage = stage
+        self._link = link
+        self._monitor = monitor
+        self._holdings = holdings
+        self._reminder = Reminder(link, holdings)
+        self._board = stage.board.claim("sense")
+        self._health = Health()
+        self._held: tuple[Held, ...] = ()
+        self._pulls: dict[Side, int] = {}
+
+    def at(self, now_s: float) -> None:
+        """Set the time of the tick that comes."""
+        self._board.set(NOW, now_s)
+
+    def update(self) -> Status:
+        """Put the newest of everything on the board."""
+        link, board = self._link, self._board
+        body, world = link.body(), link.world()
+        board.set(BODY, body)
+        board.set(WORLD, world)
+        board.set(MAP, link.map())
+        if self._stage.board.read(HOME) is None and body is not None and world is not None:
+            board.set(HOME, (world.X_WN @ body.X_NS).flat())
+        self._feel()
+        self._reminder.look(body, self._stage.now_s)
+        self._notice_pulls(body)
+        stamps_s = {
+            "body/state": _stamp(body),
+            "world/state": _stamp(world),
+            "sensors/lidar": _stamp(link.lidar()),
+            "sensors/depth": _stamp(link.depth()),
+        }
+        health = self._monitor.look(
+            self._stage.now_s,
+            stamps_s,
+            body=body,
+            world=world,
+            power=link.power(),
+            timing=link.timing(),
+        )
+        board.set(HEALTH, health)
+        board.set(SPEED_LIMIT, health.speed_m_s)
+        self._journal(health)
+        worst = health.failure
+        self.feedback_message = worst.cause if worst else "all is well"
+        return Status.RUNNING
+
+    def _feel(self) -> None:
+        """What the hands hold; how, is journalled for an executive that comes after this one."""
+        held = self._holdings.all()
+        self._board.set(HELD, {one.side: one.object_id for one in held})
+        if held != self._held:
+            self._held = held
+            hands = {one.side: msgspec.to_builtins(one) for one in held}
+            self._stage.record("held", hands=hands)
+
+    def _notice_pulls(self, body: BodyState | None) -> None:
+        """Journal that something was about to slip out of a hand."""
+        for side, hand in body.hands.items() if body else ():
+            if hand.pulls > self._pulls.get(side, 0):
+                self._stage.record("slip", side=side)
+            self._pulls[side] = hand.pulls
+
+    def _journal(self, health: Health) -> None:
+        """Journal what has come up or gone away since the last tick."""
+        before = {(finding.name, finding.level) for finding in self._health.findings}
+        for finding in health.findings:
+            if (finding.name, finding.level) not in before:
+                self._stage.record(
+                    "health",
+                    name=finding.name,
+                    level=finding.level.name,
+                    **failure_data(finding.failure),
+                )
+        after = {finding.name for finding in health.findings}
+        for finding in self._health.findings:
+            if finding.name not in after:
+                self._stage.record("health", name=finding.name, level=Level.OK.name)
+        self._health = health
+
+
+class WindDown(Behaviour):
+    """Sees interrupted skills through until the body is at rest; always RUNNING."""
+
+    def __init__(self, stage: Stage) -> None:
+        """Watch over the stage's skills."""
+        super().__init__("come to rest")
+        self._stage = stage
+
+    def update(self) -> Status:
+        """Go on with whatever is coming to rest."""
+        self.feedback_message = "" if self._stage.wind_down() else "stopping"
+        return Status.RUNNING

@@ -1,0 +1,1 @@
+"""How people reach the robot: command line, prompt, listening, and what they see of it."""

@@ -1,0 +1,302 @@
+"""The command line: `humanoid`. What the commands do is in `executive.frontends.do`.
+
+Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from executive.frontends import streams
+from executive.frontends.dump import cli as dumps
+from executive.frontends.evaluation import evaluate
+from executive.frontends.exit import ended_by
+from executive.frontends.listening.cli import listen
+from executive.frontends.missions import cli as missions
+from executive.frontends.options import (
+    Aloud,
+    AsJson,
+    Fast,
+    Model,
+    Robot,
+    RunDir,
+    Seed,
+    Vary,
+    VoiceModel,
+    World,
+)
+from executive.frontends.past_runs import cli as history
+from robot.errors import ConfigError
+
+app = typer.Typer(
+    name="humanoid",
+    invoke_without_command=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog='Begin with:  humanoid do "pick up the red cup and put it on the shelf" --fast',
+)
+
+model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
+app.add_typer(model_app, name="model")
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"humanoid-executive {importlib.metadata.version('humanoid-executive')}")
+        raise typer.Exit
+
+
+@app.callback()
+def humanoid(
+    context: typer.Context,
+    *,
+    version: Annotated[  # noqa: ARG001, its callback acts
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Type a sentence, and a humanoid does it in physics. Without a command: the prompt.
+
+    Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
+    """
+    if context.invoked_subcommand is None:
+        repl()
+
+
+@app.command(no_args_is_help=True)
+def do(
+    sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")],
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    as_json: AsJson = False,
+    vary: Vary = False,
+    run_dir: RunDir = None,
+    model: Model = None,
+    dump: dumps.Dump = None,
+    dump_on: dumps.DumpOn = "end",
+    dump_format: dumps.DumpFormat = "html",
+    voice: Aloud = False,
+    voice_model: VoiceModel = None,
+) -> None:
+    """Do what a sentence says.
+
+    [bold]Examples[/bold]
+
+      humanoid do "pick up the red cup and put it on the shelf" --fast
+
+      humanoid do "go to the counter, then squat for five seconds"
+
+      humanoid do "bring the bottle to the table" --world my_house.yaml --seed 7
+
+    Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
+    """
+    from executive.frontends import do
+
+    options = do.Do(
+        text=" ".join(sentence),
+        world=world,
+        robot=robot,
+        seed=seed,
+        fast=fast,
+        vary=vary,
+        folder=run_dir,
+        model=model,
+        as_json=as_json,
+        dump=dump,
+        dump_on=dump_on,
+        dump_format=dump_format,
+        voice=voice or voice_model is not None,
+        voice_model=voice_model,
+    )
+    raise typer.Exit(do.do(options))
+
+
+@app.command()
+def repl(
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    vary: Vary = False,
+    run_dir: RunDir = None,
+    model: Model = None,
+    voice: Aloud = False,
+    voice_model: VoiceModel = None,
+) -> None:
+    r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
+
+    [bold]Examples[/bold]
+
+      humanoid
+
+      humanoid repl --world my_house.yaml --seed 7
+
+      printf 'go to the table\nwhy\n' | humanoid repl --fast
+
+    `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
+    """
+    from executive.frontends.prompt import cli
+
+    options = cli.Options(
+        world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir, model=model,
+        voice=voice or voice_model is not None, voice_model=voice_model,
+    )  # fmt: skip
+    raise typer.Exit(cli.repl(options))
+
+
+@app.command()
+def walk(
+    *,
+    speed: Annotated[float, typer.Option("--speed", help="Forward [m/s].")] = 0.4,
+    left: Annotated[float, typer.Option("--left", help="Sideways, to the left [m/s].")] = 0.0,
+    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left [rad/s].")] = 0.0,
+    duration: Annotated[float, typer.Option("--for", help="How long [s].")] = 10.0,
+    world: World = "empty",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    fast: Fast = False,
+    as_json: AsJson = False,
+) -> None:
+    """Walk at a steady pace, to look at the body alone.
+
+    [bold]Examples[/bold]
+
+      humanoid walk --speed 0.4 --for 60 --fast
+
+      humanoid walk --speed 0 --turn 0.6 --for 20
+    """
+    from executive.frontends import do
+    from executive.runs.steady_walk import Twist
+
+    twist = Twist(forward_m_s=speed, left_m_s=left, turn_rad_s=turn, duration_s=duration)
+    options = do.Walk(twist=twist, world=world, robot=robot, seed=seed, fast=fast, as_json=as_json)
+    raise typer.Exit(do.walk(options))
+
+
+@app.command()
+def parse(
+    sentence: Annotated[list[str] | None, typer.Argument(help="What was said.")] = None,
+    *,
+    world: World = "kitchen",
+    vocabulary: Annotated[
+        Path | None, typer.Option("--vocabulary", help="Names from a JSON file, not a world.")
+    ] = None,
+    file: Annotated[
+        Path | None, typer.Option("--file", help="Sentences, one a line; - is standard input.")
+    ] = None,
+    model: Model = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show the goals that a sentence becomes, without doing anything.
+
+    [bold]Examples[/bold]
+
+      humanoid parse "bring all the cups to the counter"
+
+      humanoid parse --json --file sentences.txt --vocabulary names.json
+    """
+    from executive.frontends.parse import parse_all
+
+    if sentence is None and file is None:
+        raise typer.BadParameter("give a sentence, or --file")
+    texts = [" ".join(sentence)] if sentence is not None else []
+    status = parse_all(
+        texts, world=world, vocabulary=vocabulary, file=file, model=model, as_json=as_json
+    )
+    raise typer.Exit(status)
+
+
+@app.command()
+def view(
+    *,
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    snapshot: Annotated[
+        Path | None, typer.Option("--snapshot", help="Render one picture into this PNG file.")
+    ] = None,
+) -> None:
+    """Look at a world with the robot in it.
+
+    [bold]Examples[/bold]
+
+      humanoid view --world kitchen --snapshot kitchen.png
+
+      humanoid view            (MuJoCo's viewer, where there is a display)
+    """
+    from executive.frontends.view import look
+
+    raise typer.Exit(look(world, robot, seed=seed, snapshot=snapshot))
+
+
+@app.command()
+def doctor(*, as_json: AsJson = False) -> None:
+    """Say what is there on this machine and what is missing, each with its cure."""
+    from executive.frontends import do
+
+    raise typer.Exit(do.doctor(as_json=as_json))
+
+
+@app.command()
+def worlds() -> None:
+    """List the shipped worlds with what is in them."""
+    from robot.bringup import entry
+
+    for name in entry.attribute("sim.world:available")():
+        world_map = entry.world_map(name)
+        objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
+        places = ", ".join(place.name for place in world_map.places)
+        typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
+    typer.echo("Write your own: docs/worlds.md; use it with --world FILE.")
+
+
+@model_app.command()
+def export(
+    *,
+    urdf: Annotated[Path, typer.Option("--urdf", help="The file to write.")],
+    robot: Robot = "juno",
+) -> None:
+    """Write a robot as URDF.
+
+    [bold]Example[/bold]
+
+      humanoid model export --urdf juno.urdf
+    """
+    from robot.model import description
+    from robot.model import urdf as writer
+
+    text = writer.urdf(description.load(robot))
+    try:
+        urdf.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
+    typer.echo(f"Done: {urdf}")
+
+
+# After the commands above, so that `--help` lists first what people use first.
+missions.register(app)
+history.register(app)
+dumps.register(app)
+app.command(name="eval")(evaluate)
+app.command()(listen)
+
+
+def main() -> None:
+    """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
+    streams.steady()
+    sys.argv[1:] = map(streams.readable, sys.argv[1:])
+    try:
+        app(prog_name="humanoid")
+    except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
+        sys.exit(ended_by(error, as_json="--json" in sys.argv))

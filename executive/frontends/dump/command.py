@@ -1,0 +1,114 @@
+"""What `humanoid dump` does, from its options to an exit status."""
+
+from __future__ import annotations
+
+import sys
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+import typer
+
+from executive.frontends.dump.writer import explained, parse_formats
+from executive.journal import journal, past_runs
+from executive.journal.journal import FILE
+from executive.journal.pages.formats import FORMATS, Wish, render
+from executive.journal.pages.model import Run
+from executive.journal.pages.reading import read
+from executive.journal.pages.text import Style
+from robot.errors import ConfigError, Problem
+
+TO_TERMINAL = frozenset({"text", "dot", "json"})
+"""Formats that go to standard output where no file is named."""
+
+
+class Asked(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid dump`."""
+
+    run: str | None = None
+    kind: str = "html"
+    t_s: float | None = None
+    output: Path | None = None
+    ascii_only: bool | None = None
+    everything: bool = False
+    opened: bool = False
+
+
+def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> int:
+    """Write a dump; returns the exit status.
+
+    Raises:
+        ConfigError: if the run, the format or the time makes no sense, or nothing can be written.
+    """
+    (kind, *more) = parse_formats(asked.kind)
+    if more:
+        raise ConfigError("one format at a time")
+    folder = past_runs.find(asked.run)
+    run = load(folder)
+    _check_time(run, asked.t_s)
+    wish = Wish(
+        t_s=asked.t_s,
+        style=_style(asked),
+        everything=asked.everything,
+        why=_why(folder) if kind == "html" else (),
+    )
+    data = render(run, kind, wish)
+    if not run.nodes:
+        typer.echo("no tree is in this journal (yet): only events can be shown", err=True)
+    if run.unreadable:
+        lines = f"{run.unreadable} lines of the journal, the first of them line "
+        typer.echo(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)
+    if str(asked.output) == "-" or (asked.output is None and kind in TO_TERMINAL):
+        typer.echo(data, nl=False)
+        return 0
+    path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
+    _write(path, data)
+    typer.echo(f"Done: {path}")
+    if asked.opened:
+        browse(path.resolve().as_uri())
+    return 0
+
+
+def load(folder: Path) -> Run:
+    """The run in a folder.
+
+    Raises:
+        ConfigError: if its journal cannot be read, or there is nothing in it.
+    """
+    path = folder / FILE
+    try:
+        run = read(path)
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be read: {error.strerror}") from None
+    if not run.events:
+        raise ConfigError([Problem(f"{path} has no event", suggestion="choose another run")])
+    return run
+
+
+def _why(folder: Path) -> tuple[str, ...]:
+    return explained(journal.read(folder), live=journal.is_written(folder))
+
+
+def _check_time(run: Run, t_s: float | None) -> None:
+    if t_s is not None and not run.begin_s <= t_s <= run.end_s:
+        text = f"--at {t_s:g}: the run goes from {run.begin_s:.2f} to {run.end_s:.2f} s"
+        raise ConfigError([Problem(text, suggestion="choose a time in between")])
+
+
+def _style(asked: Asked) -> Style:
+    """Colour where it is looked at, ascii where nothing else can be shown."""
+    if asked.ascii_only:
+        return "ascii"
+    if asked.ascii_only is None and asked.output is None and sys.stdout.isatty():
+        return "colour" if "utf" in (sys.stdout.encoding or "").lower() else "ascii"
+    return "unicode"
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Write a file. Raises ConfigError."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

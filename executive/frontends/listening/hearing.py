@@ -1,0 +1,204 @@
+"""What there is to listen to, and what is heard of it, without a robot."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+import typer
+
+from executive.frontends.language_model import language_model
+from executive.meaning.knowledge import Knowledge
+from intents.dialogue import Dialogue
+from intents.goals import to_builtins
+from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.speech import microphone, wav
+from intents.speech.audio import AudioError, Samples
+from intents.speech.ear import Ear, Spoken
+from intents.speech.recogniser import Recogniser
+from intents.speech.voice import Program
+from intents.state import RobotState
+from intents.vocabulary import Vocabulary
+from intents.wording import in_words
+from robot.bringup import entry
+from robot.errors import ConfigError, Problem
+
+DONE, INVALID = 0, 2
+RecogniserName = Literal["pocketsphinx", "whisper"]
+
+
+class Options(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid listen`; `folder` is set once it begins to do something."""
+
+    world: str = "kitchen"
+    robot: str = "juno"
+    seed: int = 0
+    fast: bool = False
+    file: Path | None = None
+    push_to_talk: bool = False
+    wake_word: str = ""
+    recogniser: RecogniserName = "pocketsphinx"
+    whisper: Path | None = None
+    voice: Program = "auto"
+    voice_model: Path | None = None
+    device: str | None = None
+    parse_only: bool = False
+    yes: bool = False
+    as_json: bool = False
+    folder: Path | None = None
+    model: Path | None = None
+
+
+class Block(msgspec.Struct, frozen=True, kw_only=True):
+    """A piece of the stream.
+
+    Attributes:
+        sound: one channel at 16 kHz.
+        heeded: whether sentences in it count; cries to stop always do.
+        ends: whether what was being said ends here, by the release of the key.
+    """
+
+    sound: Samples
+    heeded: bool = True
+    ends: bool = False
+
+
+@contextmanager
+def audio_errors() -> Generator[None]:
+    """Turn what is wrong with sound into what is wrong with the configuration."""
+    try:
+        yield
+    except AudioError as error:
+        raise ConfigError([Problem(str(error), suggestion=error.cure)]) from None
+
+
+def ear(options: Options, vocabulary: Vocabulary) -> Ear:
+    """What listens for the names of a vocabulary.
+
+    Raises:
+        AudioError: the recogniser's model is not there.
+    """
+    return Ear(_recogniser(options, vocabulary), wake_word=options.wake_word)
+
+
+def _recogniser(options: Options, vocabulary: Vocabulary) -> Recogniser:
+    if options.recogniser == "whisper":
+        from intents.speech.whisper import Whisper
+
+        return Whisper(options.whisper)
+    from intents.speech.sphinx import Sphinx
+
+    return Sphinx(vocabulary, wake_word=options.wake_word)
+
+
+@contextmanager
+def sound(options: Options) -> Generator[Iterator[Block]]:
+    """The stream of sound that the options ask for.
+
+    Raises:
+        AudioError: there is no such file, it is no sound, or there is no microphone.
+    """
+    if options.file is not None:
+        found = wav.form(options.file)
+        if found.missing:
+            lost_s = found.missing / found.rate_hz
+            typer.echo(f"{options.file} is cut off: {lost_s:.1f} s are missing", err=True)
+        yield (Block(sound=one) for one in wav.blocks(options.file))
+        return
+    with microphone.opened(options.device) as source:
+        blocks = source.blocks()
+        if options.push_to_talk:
+            yield _pressed(blocks)
+        else:
+            typer.echo("Listening. Ctrl-C leaves.", err=True)
+            yield (Block(sound=one) for one in blocks)
+
+
+def _pressed(blocks: Iterator[Samples]) -> Iterator[Block]:
+    """Sentences count between one press of Enter and the next."""
+    talking, left = threading.Event(), threading.Event()
+
+    def read() -> None:
+        for _ in sys.stdin:
+            if talking.is_set():
+                talking.clear()
+            else:
+                talking.set()
+            typer.echo("Speak; Enter ends it." if talking.is_set() else "Heard.", err=True)
+        left.set()
+
+    threading.Thread(target=read, name="push to talk", daemon=True).start()
+    typer.echo("Enter, speak, Enter. Stop is heard at any time. Ctrl-D leaves.", err=True)
+    before = False
+    for one in blocks:
+        now = talking.is_set()
+        yield Block(sound=one, heeded=now or before, ends=before and not now)
+        before = now
+        if left.is_set():
+            return
+
+
+def heard(listener: Ear, blocks: Iterator[Block]) -> Iterator[Spoken]:
+    """What is said in a stream, to its end."""
+    for block in blocks:
+        yield from listener.push(block.sound, heeded=block.heeded)
+        if block.ends:
+            yield from listener.finish()
+    yield from listener.finish()
+
+
+def parse_only(options: Options) -> int:
+    """Say what is heard and what it means, without moving; returns the exit status.
+
+    Raises:
+        RobotError: there is nothing to listen with (ConfigError).
+    """
+    knowledge = Knowledge(entry.world_map(options.world))
+    vocabulary = knowledge.vocabulary()
+    state = RobotState(entities=knowledge.entities())
+    dialogue = Dialogue(vocabulary, confirm=False, fallback=language_model(options.model))
+    understood = False
+    with audio_errors(), sound(options) as blocks:
+        listener = ear(options, vocabulary)
+        for one in heard(listener, blocks):
+            turn = None if one.kind == "ignored" else dialogue.hear(one.text, state)
+            listener.replying = dialogue.question is not None
+            understood |= isinstance(turn, Goals | Reply)
+            typer.echo(_record(one, turn) if options.as_json else _words(one, turn))
+    if not understood and not options.as_json:
+        typer.echo("Nothing was understood as a command.")
+    return DONE if understood else INVALID
+
+
+def _record(one: Spoken, turn: Turn | None) -> str:
+    """What was said and what it means, as one line of JSON."""
+    kinds = {Goals: "goals", Question: "question", Refusal: "refusal", Reply: "reply"}
+    record = {
+        **msgspec.to_builtins(one),
+        "outcome": "ignored" if turn is None else kinds[type(turn)],
+        "goals": to_builtins(turn.goals) if isinstance(turn, Goals) else [],
+        "said": None if turn is None or isinstance(turn, Goals) else answer(turn),
+    }
+    return msgspec.json.encode(record).decode()
+
+
+def _words(one: Spoken, turn: Turn | None) -> str:
+    """What was said and what it means, for people."""
+    head = f"[{one.begin_s:6.2f} s] “{one.text}”"
+    if turn is None:
+        return f"{head}  passed over: {one.why}"
+    if isinstance(turn, Goals):
+        return f"{head}\n  understood: {in_words(turn.goals)}"
+    return f"{head}\n  {answer(turn)}"
+
+
+def answer(turn: Question | Refusal | Reply) -> str:
+    """What the robot says to a turn that leads to no goals."""
+    if isinstance(turn, Question):
+        return turn.question
+    return turn.text if isinstance(turn, Reply) else f"Not understood: {turn.reason}"

@@ -1,0 +1,1 @@
+"""`humanoid mission`: its command lines, and what they do."""

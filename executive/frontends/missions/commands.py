@@ -1,0 +1,164 @@
+"""What the commands of `humanoid mission` do, from their options to an exit status."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import typer
+
+from executive.frontends import do as common
+from executive.frontends.missions.run import Run
+from executive.frontends.missions.run import run as run_mission
+from executive.missions import load
+from executive.missions.check import Options, check
+from executive.missions.plan import forecast, lines
+from executive.missions.schema import json_schema
+from executive.missions.template import template
+from executive.trees.parts import errands
+from robot.errors import ConfigError, Problem
+
+DONE, INVALID = 0, 2
+SCHEMA = load.FOLDER / "mission.schema.json"
+
+
+def said(
+    params: list[str] | None,
+    *,
+    first: str,
+    world: str,
+    robot: str,
+    vary_seed: int | None = None,
+    samples: bool = False,
+) -> Options:
+    """What was said beside a file.
+
+    Raises:
+        ConfigError: a parameter is no NAME=VALUE.
+    """
+    values: dict[str, str] = {}
+    for text in params or ():
+        name, equals, value = text.partition("=")
+        if not equals or not name:
+            cure = "for example: --param thing='red cup'"
+            raise ConfigError([Problem(f"--param {text!r} is no NAME=VALUE", suggestion=cure)])
+        values[name] = value
+    return Options(
+        params=values, world=world, robot=robot, vary_seed=vary_seed, first=first, samples=samples
+    )
+
+
+def how(**options: Any) -> common.Do:
+    """How a mission is run; world and robot are its own."""
+    return common.Do(text="", world="", robot="", **options)
+
+
+def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
+    """Check files, and say what is wrong in each."""
+    found: list[dict[str, Any]] = []
+    for name in files:
+        path = load.find(name)
+        record: dict[str, Any] = {"file": str(path), "problems": []}
+        try:
+            checked = check(path, options)
+            record["steps"] = sum(1 for _ in errands(checked.task))
+        except ConfigError as error:
+            record["problems"] = [msgspec.to_builtins(problem) for problem in error.problems]
+        found.append(record)
+        if not as_json:
+            _say_checked(record)
+    wrong = any(record["problems"] for record in found)
+    if as_json:
+        status = "invalid" if wrong else "done"
+        common.echo_json({"status": status, "missions": found})
+    elif wrong:
+        typer.echo("What to do: correct that, then check again", err=True)
+    return INVALID if wrong else DONE
+
+
+def _say_checked(record: dict[str, Any]) -> None:
+    problems = [msgspec.convert(problem, Problem) for problem in record["problems"]]
+    if not problems:
+        typer.echo(f"{record['file']}: all is well, {record['steps']} steps")
+    for problem in problems:
+        typer.echo(str(problem), err=True)
+
+
+def plan(name: str, options: Options, *, as_json: bool) -> int:
+    """Show a dry run. Raises ConfigError with what is wrong in the file."""
+    checked = check(load.find(name), options)
+    made = forecast(checked.task, checked.where, done=checked.done)
+    if as_json:
+        common.echo_json(made)
+    else:
+        typer.echo(checked.mission.record.name)
+        typer.echo("\n".join(lines(made)))
+    return DONE
+
+
+def run(name: str, options: Options, how: common.Do) -> int:
+    """Check a mission and run it. Raises RobotError as `executive.runs.mission.run` does."""
+    return run_mission(Run(path=str(load.find(name)), said=options, how=how))
+
+
+def list_shipped() -> int:
+    """Name the shipped missions with what they are for."""
+    from executive.missions.problems import Problems
+
+    for path in load.shipped():
+        mission = load.load(path, Problems())
+        about = mission.record.about if mission is not None else "cannot be read"
+        typer.echo(f"{path.stem:12}  {about}")
+    typer.echo(
+        "Run one: humanoid mission run NAME --fast. Write your own: humanoid mission new NAME"
+    )
+    return DONE
+
+
+def schema_text() -> str:
+    """The JSON Schema as text."""
+    return msgspec.json.format(msgspec.json.encode(json_schema()), indent=1).decode() + "\n"
+
+
+def write_schema(output: Path | None) -> int:
+    """Print or write the JSON Schema. Raises ConfigError if it cannot be written."""
+    return _write(schema_text(), output)
+
+
+def new(name: str) -> int:
+    """Write a mission to begin with. Raises ConfigError if there is one already."""
+    path = Path(name if name.endswith(load.SUFFIX) else f"{name}{load.SUFFIX}")
+    if path.exists():
+        raise ConfigError([Problem("the file is there already", str(path), suggestion="rename")])
+    text = template(path.stem.replace("_", " "), file=str(path), schema=SCHEMA.as_uri())
+    return _write(text, path)
+
+
+def import_file(file: Path, output: Path | None) -> int:
+    """Make a mission of a BehaviorTree.CPP or Nav2 file. Raises ConfigError if it cannot be."""
+    from executive.missions import nav2
+    from executive.missions.btcpp import importing
+
+    make = importing.mission_of if file.suffix.casefold() == ".xml" else nav2.mission_of
+    return _write(make(file), output)
+
+
+def export_file(name: str, output: Path | None, *, xml: bool) -> int:
+    """Write a mission as BehaviorTree.CPP XML. Raises ConfigError if the file is wrong."""
+    from executive.missions.btcpp import exporting
+
+    assert xml, "there is one format"
+    return _write(exporting.xml_of(load.find(name)), output)
+
+
+def _write(text: str, output: Path | None) -> int:
+    if output is None:
+        typer.echo(text, nl=False)
+        return DONE
+    try:
+        output.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{output} cannot be written: {error.strerror}") from None
+    typer.echo(f"Done: {output}")
+    return DONE

@@ -1,0 +1,102 @@
+"""`humanoid parse`: sentences to goals, for people and, as JSON lines, for programs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+import typer
+
+from executive.frontends.language_model import language_model
+from executive.meaning.knowledge import Knowledge
+from intents.dialogue import Context
+from intents.goals import to_builtins
+from intents.outcomes import Goals, Outcome, Question, to_record
+from intents.parser import hear
+from intents.vocabulary import Vocabulary
+from intents.wording import in_words
+from robot.bringup import entry
+from robot.errors import ConfigError, Problem
+
+
+def parse_all(
+    texts: list[str],
+    *,
+    world: str,
+    vocabulary: Path | None,
+    file: Path | None,
+    as_json: bool,
+    model: Path | None = None,
+) -> int:
+    """Parse and print; returns 0, or 2 if a single sentence is not goals.
+
+    Args:
+        texts: Sentences.
+        world: Whose names they speak of.
+        vocabulary: A file of names instead.
+        file: A file of more sentences.
+        as_json: One record a line, for programs.
+        model: The file of a language model's endpoint, asked where the grammar gives up.
+
+    Raises:
+        ConfigError: the world, the vocabulary, the endpoint or the file cannot be read.
+    """
+    names, context = _vocabulary(world, vocabulary)
+    fallback = language_model(model)
+    outcome: Outcome | None = None
+    for text in [*texts, *(_lines(file) if file else ())]:
+        outcome, _ = hear(text, names, context=context, fallback=fallback)
+        typer.echo(_record(text, outcome) if as_json else _words(text, outcome))
+        if fallback is not None and fallback.trouble:
+            typer.echo(f"  {fallback.trouble}", err=True)
+    return 0 if file is not None or isinstance(outcome, Goals) else 2
+
+
+def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
+    """The names of a world, and what is there; a file of names does not say what is there."""
+    if file is None:
+        knowledge = Knowledge(entry.world_map(world))
+        return knowledge.vocabulary(), Context(entities=knowledge.entities())
+    try:
+        return Vocabulary.from_json(file.read_bytes()), Context()
+    except (OSError, msgspec.DecodeError) as error:
+        raise ConfigError([Problem(str(error), str(file))]) from None
+
+
+def _lines(file: Path) -> Iterable[str]:
+    """The sentences of a file, one a line."""
+    if str(file) == "-":
+        return (line.rstrip("\n") for line in sys.stdin)
+    try:
+        return file.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError([Problem(str(error), str(file))]) from None
+
+
+def _record(text: str, outcome: Outcome) -> str:
+    return msgspec.json.encode(to_record(text, outcome)).decode()
+
+
+def _words(text: str, outcome: Outcome) -> str:
+    """An outcome for people: what is understood, from which words, and the goals."""
+    if isinstance(outcome, Goals):
+        goals = [msgspec.json.encode(goal).decode() for goal in to_builtins(outcome.goals)]
+        lines = [text, f"  understood: {in_words(outcome.goals)}", *_why(outcome)]
+        return "\n".join([*lines, *(f"  {goal}" for goal in goals)])
+    if isinstance(outcome, Question):
+        choices = [f"    - {choice.label}" for choice in outcome.choices]
+        return "\n".join([text, f"  question: {outcome.question}", *choices])
+    return f"{text}\n  refused: {outcome.reason}"
+
+
+def _why(outcome: Goals) -> list[str]:
+    """From which words what was understood; nothing where that is plain."""
+    told = {
+        "stop": ["  why: a cry to stop comes before everything else"],
+        "model": ["  why: the language model read it so"],
+    }.get(outcome.parser, [])
+    clauses = outcome.clauses if len(outcome.clauses) > 1 else ()
+    told += [f"  “{said}”: {in_words(goals) if goals else 'noted'}" for said, goals in clauses]
+    return told + ([f"  {outcome.reason}"] if outcome.reason else [])

@@ -1,0 +1,82 @@
+"""The command lines of `humanoid why`, `history`, `replay` and `resume`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from executive.frontends.options import Model
+
+Run = Annotated[
+    str | None, typer.Argument(help="A run's folder or a part of its name (default: the newest).")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="JSON, and nothing else.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands to the command line."""
+    app.command()(why)
+    app.command()(history)
+    app.command()(replay)
+    app.command()(resume)
+
+
+def why(run: Run = None, *, as_json: AsJson = False) -> None:
+    """Say why a run ended as it did: the chain from the symptom to its cause.
+
+    [bold]Examples[/bold]
+
+      humanoid why                    (the newest run, also one that is under way)
+
+      humanoid why red-cup            (the run with that in its folder's name)
+    """
+    from executive.frontends.past_runs import printing
+
+    raise typer.Exit(printing.why(run, as_json=as_json))
+
+
+def history(
+    *,
+    count: Annotated[int, typer.Option("--last", "-n", min=1, help="How many runs.")] = 20,
+    everything: Annotated[bool, typer.Option("--all", help="All of them.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """List past runs: when, how they ended, how long they took, and what they were about."""
+    from executive.frontends.past_runs import printing
+
+    raise typer.Exit(printing.history(count=10**9 if everything else count, as_json=as_json))
+
+
+def replay(run: Run = None, *, as_json: AsJson = False) -> None:
+    """Do a --fast run again and prove it identical, or show the first difference.
+
+    Requests of a person (pause, stop, more jobs) are made again at the same ticks.
+
+    [bold]Example[/bold]
+
+      humanoid replay 20261121-134158
+
+    Exit status: 0 identical, 1 different, 2 it cannot be replayed.
+    """
+    from executive.frontends.past_runs import printing
+
+    raise typer.Exit(printing.replay(run, as_json=as_json))
+
+
+def resume(run: Run = None, *, model: Model = None, as_json: AsJson = False) -> None:
+    """Go on with a run that was cut off: by kill -9, a crash, a power cut.
+
+    A --fast run is done again up to where it was, proved to be the same, and goes on. Of a live run
+    only the journal is left: a new robot holds what was done against its world, and does again what
+    is not so. (While its robot lives, a live run goes on by itself when its executive dies.)
+
+    [bold]Example[/bold]
+
+      humanoid resume 20261121-134158
+
+    Exit status: as of humanoid do; 1 also if it does not repeat, 2 if nothing is left of it.
+    """
+    from executive.frontends.past_runs import resume as command
+
+    raise typer.Exit(command.resume(run, model=model, as_json=as_json))

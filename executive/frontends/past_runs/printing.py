@@ -1,0 +1,136 @@
+"""`humanoid why`, `history` and `replay`: what they print."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
+
+import msgspec
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from executive.journal import journal, past_runs
+from executive.journal.journal import Event
+from executive.journal.past_runs import Past
+from executive.journal.why import why as explain
+from executive.runs import replay as again
+from executive.runs.comparison import Difference
+
+PIPE_WIDTH = 160
+_STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
+
+
+def why(run: str | None, *, as_json: bool) -> int:
+    """Say why a run (by default the newest) ended as it did; returns the exit status."""
+    folder = past_runs.find(run)
+    told = explain(journal.read(folder), live=journal.is_written(folder))
+    if as_json:
+        record = {"folder": str(folder), **msgspec.to_builtins(told)}
+        typer.echo(msgspec.json.encode(record))
+    else:
+        typer.echo(told.text)
+        typer.echo(f"({folder})")
+    return 0
+
+
+def history(*, count: int, as_json: bool) -> int:
+    """List the newest runs, the newest last; returns the exit status."""
+    known = past_runs.runs()
+    shown = [past_runs.look(folder) for folder in known[-count:]]
+    if as_json:
+        typer.echo(msgspec.json.encode(shown))
+        return 0
+    if not shown:
+        typer.echo(
+            f'There is no run in {past_runs.BASE}/ yet. Begin with: humanoid do "squat" --fast'
+        )
+        return 0
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = PIPE_WIDTH
+    console.print(_table(shown))
+    if len(known) > len(shown):
+        typer.echo(f"{len(known) - len(shown)} older ones: humanoid history --all")
+    return 0
+
+
+def replay(run: str | None, *, as_json: bool) -> int:
+    """Do a run again and compare; returns the exit status, 1 where it differs."""
+    folder = past_runs.find(run)
+    with following(f"replaying {folder.name}", quiet=as_json) as follow:
+        result = again.replay(folder, follow=follow)
+    status = 1 if result.difference else 0
+    if as_json:
+        typer.echo(msgspec.json.encode({"exit_status": status, **msgspec.to_builtins(result)}))
+        return status
+    if result.difference is None:
+        what = "what there is of it (it was cut off)" if result.cut else "it"
+        typer.echo(
+            f"Identical: {what} repeats byte for byte, {result.events} events "
+            f"in {result.simulated_s:.1f} s of robot time."
+        )
+    else:
+        typer.echo("\n".join(differs(result.difference)))
+    for change in result.changed:
+        typer.echo(f"  note: {change}, since it was recorded")
+    if result.difference is not None and result.changed:
+        typer.echo("What to do: that is why it differs, most likely; replay with what it had then.")
+    elif result.difference is not None:
+        typer.echo("What to do: nothing changed that is known of; report it with the run folder.")
+    return status
+
+
+def differs(difference: Difference) -> list[str]:
+    """The first difference, with what led up to it."""
+    lines = [f"Not the same: event {difference.number} is the first that differs."]
+    lines += [f"    {event.t_s:9.3f} s  {_short(event)}" for event in difference.before]
+    lines.append(f"  - {difference.recorded or 'nothing more was recorded'}")
+    lines.append(f"  + {difference.now or 'nothing more comes now'}")
+    if difference.recorded and difference.now:
+        for name, (then, now) in difference.fields.items():
+            lines.append(f"  {name}: recorded {then!r}, now {now!r}")
+    return lines
+
+
+def _short(event: Event) -> str:
+    text = " ".join(f"{key}={value!r}" for key, value in event.data.items())
+    return f"{event.event} {text}"[:100]
+
+
+@contextmanager
+def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
+    """A bar over the run's time, on standard error."""
+    console = Console(stderr=True, quiet=quiet)
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(),
+               TimeRemainingColumn())  # fmt: skip
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(words, total=None)
+
+        def follow(now_s: float, last_s: float) -> None:
+            bar.update(task, completed=min(now_s, last_s), total=max(last_s, 0.001))
+
+        yield follow
+
+
+def _table(shown: Iterable[Past]) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("run", no_wrap=True, min_width=15)
+    table.add_column("took", no_wrap=True, min_width=5, justify="right")
+    table.add_column("", no_wrap=True, min_width=4, style="dim")
+    table.add_column("how it ended", no_wrap=True, min_width=15)
+    table.add_column("what", overflow="ellipsis", no_wrap=True)
+    for one in shown:
+        name = one.folder.rpartition("/")[2]
+        stamp = re.match(r"\d{8}-\d{6}", name)
+        table.add_row(
+            stamp[0] if stamp else name,
+            f"{one.took_s:.0f} s",
+            one.runtime,
+            f"[{_STYLES.get(one.ending, 'dim')}]{one.code or one.ending}[/]",
+            escape(one.text),
+        )
+    return table

@@ -1,0 +1,160 @@
+"""What people see while the robot works: a live tree on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.text import Text
+
+from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
+from executive.engine.executive import Executive
+from executive.frontends.tree_lines import Line, lines
+from executive.journal.journal import Event
+from executive.journal.pages import words
+from executive.journal.pages.model import State
+from executive.journal.pages.text import MARKS
+
+REFRESH_S, SELDOM_S = 0.1, 1.0
+_STYLES: dict[State, str] = {
+    "waiting": "dim", "running": "bold yellow", "done": "green", "failed": "red",
+}  # fmt: skip
+
+
+class Silent:
+    """Shows nothing (`--json`)."""
+
+    def update(self) -> None:
+        """Show nothing."""
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End."""
+
+
+class Lines(Silent):
+    """One line an event: for pipes, logs and CI."""
+
+    def __init__(self, executive: Executive, console: Console) -> None:
+        """Print the journal's events as they come."""
+        self._console = console
+        executive.journal.listen(self._heard)
+
+    def _heard(self, event: Event) -> None:
+        told = sentence(event)
+        if told:
+            line = f"[{event.t_s:7.2f} s] {told}"
+            self._console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+class LiveTree(Silent):
+    """The tree, redrawn in place."""
+
+    def __init__(
+        self, executive: Executive, console: Console, *, wall_s: Callable[[], float]
+    ) -> None:
+        """Draw on `console`; `wall_s` paces the drawing."""
+        self._executive = executive
+        self._wall_s = wall_s
+        self._drawn_s = self._begun_s = wall_s()
+        self._first_s: float | None = None
+        self._live = Live(console=console, auto_refresh=False, vertical_overflow="crop")
+        self._console = console
+        executive.journal.listen(self._heard)
+
+    def _heard(self, event: Event) -> None:
+        """Warnings scroll by above the tree."""
+        if event.event == "warning":
+            self._live.console.print(f"warning: {event.data['text']}", style="yellow", markup=False)
+
+    def update(self) -> None:
+        """Draw, at most every `REFRESH_S`, and seldom while the controller is pressed for time."""
+        now_s, health = self._wall_s(), self._executive.board.read(HEALTH)
+        if now_s - self._drawn_s >= (SELDOM_S if health.pressed else REFRESH_S):
+            self._drawn_s = now_s
+            self._live.update(self._picture(now_s), refresh=True)
+
+    def _picture(self, wall_s: float) -> Group:
+        board, stage = self._executive.board, self._executive.stage
+        if self._first_s is None:
+            self._first_s, self._begun_s = stage.now_s, wall_s
+        past_s, wall_past_s = stage.now_s - self._first_s, wall_s - self._begun_s
+        factor = past_s / wall_past_s if wall_past_s > 0.5 else 1.0
+        head = Text(board.read(GOAL), style="bold")
+        foot = Text(f"{stage.now_s:6.1f} s  {factor:4.1f} x real time", style="dim")
+        if board.read(STOP):
+            foot.append("  stopping; Ctrl-C again to let the motors damp at once", style="yellow")
+        health = board.read(HEALTH)
+        if health.failure is not None:
+            foot.append(f"  {health.failure.cause}", style="red")
+        held = ", ".join(f"{side} hand: {name}" for side, name in board.read(HELD).items())
+        if held:
+            foot.append(f"  {held}")
+        said = board.read(SAID)
+        if said:
+            foot.append(f"  says {said!r}", style="cyan")
+        return Group(head, *self._tree(), foot)
+
+    def _tree(self) -> list[Text]:
+        task = self._executive.tree.shown
+        if task is None:
+            return []
+        room = max(6, self._console.size.height - 5)
+        shown = list(lines(task))
+        drawn = [_drawn(line) for line in shown]
+        running = [i for i, line in enumerate(shown) if line.state == "running"]
+        first = max(0, min(len(drawn) - room, (running[-1] if running else 0) - room // 2))
+        return drawn[first : first + room]
+
+    def __enter__(self) -> Self:
+        """Take the screen's last lines."""
+        self._live.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave the last picture standing."""
+        self._live.update(self._picture(self._wall_s()), refresh=True)
+        self._live.stop()
+
+
+def _drawn(line: Line) -> Text:
+    """One line of the tree in its colours."""
+    text = Text("  " * line.depth)
+    text.append(f"{MARKS[line.state]} {line.name}", style=_STYLES[line.state])
+    if line.note and line.state != "done":
+        text.append(f"  {line.note}", style="dim")
+    return text
+
+
+NEWS = frozenset({
+    "step", "done", "failure", "recovery", "no recovery", "hold", "abort", "stopping", "paused",
+    "resume", "resumed", "help", "answer", "fault", "health", "said", "warning",
+    "slip", "break",
+})  # fmt: skip
+"""Kinds of events that people are told as they happen."""
+
+
+def sentence(event: Event) -> str:
+    """An event in words, empty for those that are not news to people."""
+    data = event.data
+    if event.event == "phase":
+        return f"{data['step']}: {data['phase']}"
+    if event.event == "health" and data["level"] == "OK":
+        return ""
+    return words.sentence(event.event, data) if event.event in NEWS else ""

@@ -1,0 +1,47 @@
+"""What was done at the prompt, as a mission file."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from executive.meaning.request import Setting
+from robot.errors import ConfigError
+
+HEAD = "# What was done at the prompt. `humanoid mission check` says whether it still fits.\n"
+
+
+def save(path: Path, sentences: list[str], where: Setting) -> Path:
+    """Write a mission of sentences; returns where it went.
+
+    Raises:
+        ConfigError: if there is nothing to save, the file is there, or it cannot be written.
+    """
+    if not sentences:
+        raise ConfigError("nothing was done yet that could be saved")
+    path = path if path.suffix else path.with_suffix(".yaml")
+    if path.exists():
+        raise ConfigError(f"{path} is there already; choose another name")
+    try:
+        path.write_text(HEAD + text(path.stem, sentences, where), encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
+    return path
+
+
+def text(name: str, sentences: list[str], where: Setting) -> str:
+    """A mission of sentences as YAML (docs/missions.md)."""
+    mission: dict[str, Any] = {
+        "name": name,
+        "world": where.world_name,
+        "robot": where.robot_name,
+        "steps": sentences,
+    }
+    yaml, out = YAML(), io.StringIO()
+    yaml.indent(sequence=4, offset=2)
+    yaml.width = 1000
+    yaml.dump(mission, out)  # pyright: ignore[reportUnknownMemberType]
+    return out.getvalue()

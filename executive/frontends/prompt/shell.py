@@ -1,0 +1,223 @@
+"""What comes of a line: a command, an answer, or a sentence. Knows no terminal.
+
+A line is, in this order: a cry to stop; a command of the table; the answer to what the robot asks;
+a sentence, as part of one conversation. Sentences queue up: each is done when those before it are,
+or beside them where they do not need the same parts of the body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from executive.behaviours.ask import ANSWERS, Answer
+from executive.blackboard import HELD
+from executive.engine.executive import JobError
+from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.frontends.prompt.command import Command
+from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.state import robot_state
+from executive.frontends.speaking import Speech
+from executive.meaning.request import Refused, Understood, meant
+from intents.dialogue import Dialogue
+from intents.goals import Cancel, Goal, Pause, Resume, Stop
+from intents.outcomes import Goals, Question, Refusal, Reply
+from intents.state import RobotState
+from intents.stopping import is_stop
+from intents.wording import in_words
+from robot.errors import CATALOGUE, RobotError
+
+if TYPE_CHECKING:
+    from intents.language_model import LanguageModel
+
+Out = Callable[[str], None]
+
+
+class Shell:
+    """Takes lines and says what comes of them.
+
+    Attributes:
+        robot: what is spoken to.
+        out: says a line to people.
+        speech: says aloud what it answers.
+        folder: of this run.
+        leaving: whether the person wants to go.
+        refused: how many lines led to nothing, because they could not be meant.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        out: Out,
+        *,
+        table: Callable[[Shell], Iterable[Command]],
+        folder: Path,
+        model: LanguageModel | None = None,
+        speech: Speech | None = None,
+    ) -> None:
+        """Begin a conversation.
+
+        Args:
+            robot: what is spoken to.
+            out: says a line to people.
+            table: makes the commands (`executive.frontends.prompt.commands`).
+            folder: of this run.
+            model: is asked what the grammar does not understand.
+            speech: says aloud what it answers.
+        """
+        self.robot = robot
+        self.out = out
+        self.speech = speech or Speech()
+        self.folder = folder
+        self.leaving = False
+        self.refused = 0
+        self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
+        self._model = model
+        self._holds: tuple[str, ...] = ()
+        self.commands: dict[str, Command] = {one.name: one for one in table(self)}
+
+    def stop_at_once(self, text: str) -> bool:
+        """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
+        if text.strip().casefold().startswith("estop"):
+            self.commands["estop"].run(text.strip()[len("estop") :].strip())
+            return True
+        if not is_stop(text):
+            return False
+        self.stop("the operator said stop")
+        return True
+
+    @property
+    def gone(self) -> str:
+        """That the robot is gone, and what to do; empty while it is there."""
+        lost = self.robot.lost
+        if lost is None:
+            return ""
+        cure = lost.suggestion or CATALOGUE[lost.code].suggestion
+        return f"The robot is gone: {lost.cause}; {cure}."
+
+    def answer(self, text: str) -> None:
+        """Say a line to people, and aloud."""
+        self.out(text)
+        self.speech.say(text)
+
+    def stop(self, why: str) -> None:
+        """Be silent, bring the robot to a stand and end all jobs."""
+        self.speech.hush()
+        busy = self.robot.busy
+        self.robot.executive.stop(why)
+        self.dialogue.forget()
+        self.out("Stopping." if busy else "I stand already.")
+
+    def line(self, text: str) -> None:
+        """Do what a line says; never raises for what is in it."""
+        text = "".join(one if one.isprintable() else " " for one in text).strip()
+        try:
+            if text and not self.stop_at_once(text):
+                self._take(text)
+        except RobotError as error:
+            self._refuse(f"Not done: {error}")
+
+    def sentence(self, text: str, *, urgent: bool = False) -> None:
+        """Understand a sentence in the conversation so far, and do it."""
+        understood = self.understand(text)
+        if isinstance(understood, Understood):
+            self.submit(understood, urgent=urgent)
+
+    def understand(self, text: str, *, steers: bool = True) -> Understood | None:
+        """What a sentence asks for; None when something else was said about it already.
+
+        One that only steers the jobs ("pause") does so at once, if `steers`.
+        """
+        robot = self.robot
+        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        if self._model is not None and not robot.busy:
+            self._model.begin_mission()
+        answers = self.dialogue.question is not None
+        turn = self.dialogue.hear(text, state)
+        if isinstance(turn, Reply):
+            self.answer(turn.text)
+        elif isinstance(turn, Question):
+            self.answer(turn.question)
+        elif isinstance(turn, Refusal):
+            self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
+            if self._model is not None and self._model.trouble:
+                self.out(f"The language model was of no help: {self._model.trouble}.")
+        else:
+            # an answer ("the blue one") says nothing by itself: the job is called what it means
+            steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
+            if not steering:
+                return self._settle(in_words(turn.goals) if answers else text, turn, state)
+            if steers:
+                self._steer(turn.goals)
+            else:
+                self.answer(f"I would {in_words(turn.goals)} at once.")
+        return None
+
+    def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
+        """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
+        if self.gone:
+            self._refuse(self.gone)
+            return
+        number = self.robot.submit(understood, urgent=urgent, **how)
+        self._holds = understood.holds
+        live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
+        mine = live.pop(number, None)
+        before = [job for job in live.values() if mine and job.resources & mine.resources]
+        if before and not urgent:
+            self.answer(f"Queued as {number}, with {len(before)} before it.")
+
+    def under_way(self) -> list[Job]:
+        """The jobs that have begun and are not over."""
+        return [job for job in self.robot.executive.jobs if job.state in UNDER_WAY]
+
+    def _take(self, text: str) -> None:
+        first, _, rest = text.partition(" ")
+        rest = rest.strip()
+        command = self.commands.get(first.casefold())
+        if command is not None and command.accepts(rest):
+            command.run(rest)
+        elif self.robot.executive.question and _answer(text) is not None:
+            self.robot.executive.answer(_answer(text) or "continue")
+        else:
+            self.sentence(text)
+
+    def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
+        """What the goals mean here."""
+        held = self._holds if self.robot.busy else self._held()
+        understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
+        if isinstance(understood, Refused):
+            self._refuse(f"Not done: {understood.reason}", understood.suggestion)
+            return None
+        return understood
+
+    def _refuse(self, why: str, cure: str = "") -> None:
+        self.refused += 1
+        self.answer(why)
+        if cure:
+            self.out(f"  {cure}")
+
+    def _held(self) -> tuple[str, ...]:
+        return tuple(self.robot.executive.board.read(HELD).values())
+
+    def _steer(self, goals: tuple[Goal, ...]) -> None:
+        """Steer the jobs as commands would."""
+        for goal in goals:
+            self.commands[type(goal).__name__.casefold()].run("")
+
+
+def _answer(text: str) -> Answer | None:
+    """The answer that a line is to what the robot asks for."""
+    wanted = text.casefold().strip(" .!")
+    return next((answer for answer in ANSWERS if answer == wanted), None)
+
+
+def number_of(text: str) -> int:
+    """A job's number as typed.
+
+    Raises:
+        JobError: if it is none.
+    """
+    if not text.isdecimal():
+        raise JobError(f"{text!r} is no job's number; `goals` shows them")
+    return int(text)

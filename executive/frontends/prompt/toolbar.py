@@ -1,0 +1,97 @@
+"""The lines below the prompt: the tree, if it is wanted, and the state of the robot."""
+
+from __future__ import annotations
+
+from prompt_toolkit.formatted_text import StyleAndTextTuples
+
+from executive.frontends.prompt.view import View
+from executive.frontends.tree_lines import Line
+from executive.health import Level
+from executive.journal.pages.model import State
+from executive.journal.pages.text import MARKS
+
+STYLES: dict[str, str] = {
+    "bottom-toolbar": "noreverse",
+    "status": "reverse",
+    "status.bad": "reverse fg:ansired bold",
+    "status.note": "reverse fg:ansiyellow",
+    "tree.waiting": "fg:ansibrightblack",
+    "tree.running": "fg:ansiyellow bold",
+    "tree.done": "fg:ansigreen",
+    "tree.failed": "fg:ansired",
+    "tree.note": "fg:ansibrightblack",
+}
+_LINE: dict[State, str] = {
+    "waiting": "class:tree.waiting",
+    "running": "class:tree.running",
+    "done": "class:tree.done",
+    "failed": "class:tree.failed",
+}
+
+
+def toolbar(view: View, *, columns: int, rows: int) -> StyleAndTextTuples:
+    """The toolbar for a terminal of that width, with at most `rows` lines of tree."""
+    parts: StyleAndTextTuples = []
+    for line in window(view.tree, rows):
+        parts += _tree_line(line, columns)
+    parts += _status(view, columns)
+    return parts
+
+
+def window(tree: tuple[Line, ...], rows: int) -> tuple[Line, ...]:
+    """The lines around what runs now, `rows` at most."""
+    running = [index for index, line in enumerate(tree) if line.state == "running"]
+    middle = running[-1] if running else 0
+    first = max(0, min(len(tree) - rows, middle - rows // 2))
+    return tree[first : first + rows]
+
+
+def _tree_line(line: Line, columns: int) -> StyleAndTextTuples:
+    name = f"{'  ' * line.depth}{MARKS[line.state]} {line.name}"[: columns - 1]
+    note = f"  {line.note}" if line.note and line.state != "done" else ""
+    note = note[: max(0, columns - 1 - len(name))]
+    return [(_LINE[line.state], name), ("class:tree.note", note), ("", "\n")]
+
+
+def _status(view: View, columns: int) -> StyleAndTextTuples:
+    """Mode, goal, health, pose, pace: the most needed first, cut at the terminal's width."""
+    fields: list[tuple[str, str]] = [("class:status", f" {_mode(view)} ")]
+    if view.help:
+        fields.append(("class:status.note", f" asks: {view.help} "))
+    if view.level > Level.OK:
+        style = "class:status.bad" if view.level >= Level.HOLD else "class:status.note"
+        fields.append((style, f" {view.level.name.lower()}: {view.unwell} "))
+    else:
+        fields.append(("class:status", " healthy "))
+    if view.goal:
+        phase = f" ({view.phase})" if view.phase else ""
+        fields.append(("class:status", f" {view.goal}{phase} "))
+    if view.waiting:
+        fields.append(("class:status", f" +{view.waiting} waiting "))
+    if view.held:
+        fields.append(("class:status", f" holds {', '.join(view.held)} "))
+    if view.pose is not None:
+        x_m, y_m, yaw_deg = view.pose
+        fields.append(("class:status", f" at {x_m:.1f}, {y_m:.1f} m, {yaw_deg:.0f}° "))
+    fields.append(("class:status", f" {view.time_s:.0f} s, {view.pace:.1f}x "))
+    return _cut(fields, columns)
+
+
+def _mode(view: View) -> str:
+    if view.state in ("idle", "working"):
+        return view.mode
+    return f"{view.mode}, {view.state}"
+
+
+def _cut(fields: list[tuple[str, str]], columns: int) -> StyleAndTextTuples:
+    """As much of the fields as fits, and the rest of the line in the status' colour."""
+    shown: StyleAndTextTuples = []
+    left = columns
+    for style, text in fields:
+        if left <= 0:
+            break
+        separated = text if not shown else f"|{text}"
+        shown.append((style, separated[:left]))
+        left -= len(separated)
+    shown.append(("class:status", " " * max(0, left)))
+    return shown

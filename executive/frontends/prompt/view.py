@@ -1,0 +1,121 @@
+"""What the front end shows of a robot at work, as one value made after each tick."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import msgspec
+from msgspec.structs import replace
+
+from executive.blackboard import BODY, HEALTH, HELD, HELP, PHASE, WORLD
+from executive.engine.executive import Executive
+from executive.engine.jobs import UNDER_WAY
+from executive.frontends.tree_lines import Line, lines
+from executive.health import Level
+from robot.errors import Failure
+
+PACE_SPAN_S = 2.0
+PANEL_PERIOD_S = 0.2
+
+
+class View(msgspec.Struct, frozen=True, kw_only=True):
+    """A robot as of one tick.
+
+    Attributes:
+        time_s: the runtime's time.
+        state: of the executive: idle, working, pausing, paused, stopping.
+        mode: of the body: damping, stand, walk, fallen; "gone" when nothing is left of it.
+        pose: estimated x [m], y [m] and heading [degrees] in the world, None before the first fix.
+        goal: what the first job under way was asked for.
+        phase: what the newest skill does.
+        waiting: jobs in the queue.
+        level: of the worst finding about the robot's health.
+        unwell: what that finding is.
+        held: what is in the hands.
+        help: what the robot asks a person for.
+        pace: simulated seconds a second of wall time.
+        tree: the running job's tree, if somebody looks at it.
+    """
+
+    time_s: float = 0.0
+    state: str = "idle"
+    mode: str = "damping"
+    pose: tuple[float, float, float] | None = None
+    goal: str = ""
+    phase: str = ""
+    waiting: int = 0
+    level: Level = Level.OK
+    unwell: str = ""
+    held: tuple[str, ...] = ()
+    help: str = ""
+    pace: float = 1.0
+    tree: tuple[Line, ...] = ()
+
+
+def view_of_lost(last: View, lost: Failure) -> View:
+    """A robot that is gone, as it was seen last."""
+    return replace(
+        last, mode="gone", state="idle", goal="", phase="", waiting=0, help="", tree=(), pace=0.0,
+        level=Level.DAMP, unwell=lost.cause,
+    )  # fmt: skip
+
+
+class Observer:
+    """Makes views of an executive; called by the thread that ticks it."""
+
+    def __init__(self) -> None:
+        """Nobody looks at the tree yet."""
+        self.tree_wanted = False
+        self._tree: tuple[Line, ...] = ()
+        self._tree_wall_s = -math.inf
+        self._stamps: deque[tuple[float, float]] = deque()
+
+    def look(self, executive: Executive, *, now_s: float, wall_s: float) -> View:
+        """The robot now.
+
+        Args:
+            executive: between two ticks.
+            now_s: the runtime's time.
+            wall_s: wall time, for the pace and for how often the tree is read.
+        """
+        board = executive.board
+        body, world, health = board.read(BODY), board.read(WORLD), board.read(HEALTH)
+        running = [job for job in executive.jobs if job.state in UNDER_WAY]
+        phase = board.read(PHASE) if running else ""
+        pose = None
+        if world is not None:
+            X_WB = world.X_WB
+            pose = (X_WB.p[0], X_WB.p[1], math.degrees(X_WB.yaw_rad))
+        return View(
+            time_s=now_s,
+            state=executive.state,
+            mode=body.mode if body else "damping",
+            pose=pose,
+            goal=running[0].text if running else "",
+            phase="" if phase == "done" else phase,
+            waiting=sum(1 for job in executive.jobs if job.state == "waiting"),
+            level=health.level,
+            unwell=health.failure.cause if health.failure else "",
+            held=tuple(f"{side}: {name}" for side, name in board.read(HELD).items()),
+            help=board.read(HELP),
+            pace=self._pace(now_s, wall_s),
+            tree=self._read_tree(executive, wall_s),
+        )
+
+    def _pace(self, now_s: float, wall_s: float) -> float:
+        stamps = self._stamps
+        stamps.append((wall_s, now_s))
+        while len(stamps) > 2 and wall_s - stamps[0][0] > PACE_SPAN_S:
+            stamps.popleft()
+        past_s = wall_s - stamps[0][0]
+        return (now_s - stamps[0][1]) / past_s if past_s > 0.1 else 1.0
+
+    def _read_tree(self, executive: Executive, wall_s: float) -> tuple[Line, ...]:
+        if not self.tree_wanted:
+            return ()
+        if wall_s - self._tree_wall_s >= PANEL_PERIOD_S:
+            self._tree_wall_s = wall_s
+            shown = executive.tree.shown
+            self._tree = tuple(lines(shown)) if shown is not None else ()
+        return self._tree

@@ -1,0 +1,26 @@
+"""Live commands from the command line's side: an overseer here, the executive in a child."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from executive.frontends.exit import last_words
+from robot.bringup import overseer
+
+
+def oversee(front: str, options: dict[str, Any], *, as_json: bool) -> int:
+    """Run a front end in an executive of its own, and start it again should it die.
+
+    Args:
+        front: `module:function`, called with a `robot.bringup.overseen.Handle` and the options in
+            the child; it returns the exit status, and goes on with its run if `handle.deaths`.
+        options: plain data.
+        as_json: nothing but JSON goes to standard output.
+    """
+    ended = overseer.oversee(front, options, tell=lambda line: typer.echo(line, err=True))
+    if ended.reason:
+        cure = "see `humanoid why`; `humanoid resume` goes on where it was"
+        return last_words("Broken:", [ended.reason], cure, status=ended.status, as_json=as_json)
+    return ended.status

@@ -1,0 +1,39 @@
+"""`humanoid view`: a picture of a world, or MuJoCo's own viewer."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import typer
+
+from executive.meaning.request import setting
+from robot.bringup import entry
+from robot.errors import ConfigError, Problem
+
+PLANT = "sim.plant:Plant"
+SNAPSHOT = "sim.render:snapshot"
+VIEWER = "mujoco.viewer:launch"
+
+
+def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
+    """Render into a file, or open the viewer; returns the exit status.
+
+    Raises:
+        ConfigError: EGL, the display or a file is missing; the error names the cure.
+    """
+    if snapshot is None and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        cure = "make a picture instead: humanoid view --snapshot out.png"
+        raise ConfigError([Problem("there is no display", suggestion=cure)])
+    where = setting(world, robot)
+    plant = entry.attribute(PLANT)(where.world, where.description, seed=seed)
+    if snapshot is None:
+        entry.attribute(VIEWER)(plant.model, plant.data)
+        return 0
+    try:
+        entry.attribute(SNAPSHOT)(plant, snapshot)
+    except OSError as error:
+        cure = "choose another file"
+        raise ConfigError([Problem(str(error), suggestion=cure)]) from None
+    typer.echo(f"Done: {snapshot}")
+    return 0

@@ -1,1 +1,0 @@
-"""What past runs tell: why they ended, whether they repeat, how they are gone on with."""

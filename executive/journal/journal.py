@@ -1,0 +1,182 @@
+"""What happened, as one JSON line an event; what reports, `why`, replay and resume read.
+
+Two files stand side by side in a run folder:
+
+- ``journal.jsonl`` holds events with the runtime's stamps only, so that the same `fast` run twice
+  gives the same bytes;
+- ``wall.jsonl`` holds, for each event's number, the wall-clock time at which it was written.
+
+Every event is handed to the operating system before `write` returns, or, in the background, within
+milliseconds: a `kill -9` loses at most the last tick. A disk that is full or stalled never stops
+the robot: lines wait in memory, the oldest are dropped and counted, and they are written as soon as
+that is possible again (`executive.journal.files`).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from executive.journal.files import BackgroundFile, LineFile, Lines, is_open
+from robot.closing import Closing
+from robot.errors import ConfigError
+
+FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
+CAPACITY = 20_000
+STALLED_S = 0.5
+
+Listener = Callable[["Event"], None]
+
+
+class Event(msgspec.Struct, frozen=True):
+    """One line: number, stamp [s] of the runtime's clock, kind, and what belongs to the kind."""
+
+    n: int
+    t_s: float
+    event: str
+    data: dict[str, Any] = {}
+
+
+class Journal(Closing):
+    """The journal of one run: a context manager that closes its files."""
+
+    def __init__(
+        self,
+        folder: Path | None = None,
+        *,
+        wall_s: Callable[[], float] | None = None,
+        capacity: int = CAPACITY,
+        background: bool = False,
+        first: int = 0,
+        wall_from: int = 0,
+        lines: Lines | None = None,
+    ) -> None:
+        """Keep a journal.
+
+        Args:
+            folder: of the run; None keeps it in memory only.
+            wall_s: reads the time of day.
+            capacity: how many lines may wait for a disk that is full or stalled.
+            background: write in a thread, so that a stalled disk cannot stop the caller.
+            first: number of the first event, when a journal is gone on with.
+            wall_from: events before that number get no time of day: it stands there already.
+            lines: where the lines go in place of a file in `folder`.
+        """
+        kind = BackgroundFile if background else LineFile
+        self._lines = lines
+        self._wall: Lines | None = None
+        if folder is not None and lines is None:
+            self._lines = kind(folder / FILE, capacity=capacity)
+        if folder is not None and wall_s is not None:
+            self._wall = kind(folder / WALL_FILE, capacity=capacity)
+        self._wall_s = wall_s
+        self._wall_from = wall_from
+        self._count = first
+        self._behind_since_s: float | None = None
+        self._problem = ""
+        self._listeners: list[Listener] = []
+        self.recent: deque[Event] = deque(maxlen=1000)
+
+    def listen(self, listener: Listener) -> None:
+        """Call `listener` with every event after it is written."""
+        self._listeners.append(listener)
+
+    @property
+    def problem(self) -> str:
+        """Why lines wait in memory instead of being on the disk; empty when all is well."""
+        return self._problem
+
+    @property
+    def dropped(self) -> int:
+        """How many lines were lost because they could not be written."""
+        return self._lines.dropped if self._lines else 0
+
+    def write(self, now_s: float, event: str, **data: Any) -> None:
+        """Add an event. `data` must be deterministic: no wall-clock times, no memory addresses."""
+        entry = Event(self._count, round(now_s, 4), event, data)
+        self._count += 1
+        self.recent.append(entry)
+        problem = ""
+        if self._lines is not None:
+            waited = self._lines.waiting
+            self._lines.append(encode(entry))
+            problem = self._lines.problem or self._stalled(min(waited, self._lines.waiting), now_s)
+        timed = entry.n >= self._wall_from
+        if timed and self._wall is not None and self._wall_s is not None:
+            wall = {"n": entry.n, "wall_s": round(self._wall_s(), 3)}
+            self._wall.append(msgspec.json.encode(wall))
+        for listener in self._listeners:
+            listener(entry)
+        self._judge(now_s, problem)
+
+    def _stalled(self, waiting: int, now_s: float) -> str:
+        """What is wrong when lines of a while ago still wait, though nothing failed."""
+        if not waiting:
+            self._behind_since_s = None
+        elif self._behind_since_s is None:
+            self._behind_since_s = now_s
+        elif now_s - self._behind_since_s > STALLED_S:
+            return f"the disk has taken nothing for {now_s - self._behind_since_s:.1f} s"
+        return ""
+
+    def _judge(self, now_s: float, problem: str) -> None:
+        """Warn when the disk stops taking lines, and when it takes them again."""
+        before, self._problem = self._problem, problem
+        if problem and not before:
+            self._tell(now_s, f"the journal cannot be written: {problem}")
+        elif before and not problem:
+            self._tell(now_s, f"the journal is written again, {self.dropped} lines lost")
+
+    def _tell(self, now_s: float, text: str) -> None:
+        """Warn people, without a line: a full disk must not change the journal's content."""
+        warning = Event(-1, round(now_s, 4), "warning", {"text": text})
+        for listener in self._listeners:
+            listener(warning)
+
+    def close(self) -> None:
+        """Close the files; safe to call twice."""
+        for lines in (self._lines, self._wall):
+            if lines is not None:
+                lines.close()
+
+
+def encode(event: Event) -> bytes:
+    """An event as its line in the file, without the line's end; always the same bytes."""
+    flat = {"n": event.n, "t_s": event.t_s, "event": event.event, **event.data}
+    return msgspec.json.encode(flat, enc_hook=str, order="deterministic")
+
+
+def decode(line: bytes) -> Event | None:
+    """The event of a line; None if it is none, such as a line that was cut."""
+    try:
+        flat = msgspec.json.decode(line, type=dict[str, Any])
+        return Event(int(flat.pop("n")), float(flat.pop("t_s")), str(flat.pop("event")), flat)
+    except (msgspec.DecodeError, UnicodeDecodeError, KeyError, TypeError, ValueError):
+        return None
+
+
+def read(path: Path) -> list[Event]:
+    """Every event of a journal that is finished, still written, or was cut off.
+
+    Args:
+        path: a run's folder, or the file itself.
+
+    Raises:
+        ConfigError: if there is no journal.
+    """
+    file = path / FILE if path.is_dir() else path
+    try:
+        lines = file.read_bytes().split(b"\n")
+    except OSError as error:
+        raise ConfigError(f"{path} holds no journal: {error.strerror}") from error
+    found = (decode(line) for line in lines if line)
+    return [event for event in found if event is not None]
+
+
+def is_written(folder: Path) -> bool:
+    """Whether a run is under way: a process has its journal open."""
+    return is_open(folder / FILE)

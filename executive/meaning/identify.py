@@ -1,0 +1,171 @@
+"""What the words of a goal mean here: descriptions to ids, before anything moves.
+
+The scene also follows what the goals so far will have put into the hands, so that "it" has a
+meaning, and no third thing is taken with two hands.
+"""
+
+from __future__ import annotations
+
+from msgspec.structs import replace
+
+from executive.meaning.knowledge import Knowledge, full_name
+from intents import goals
+from intents.grounding import Ambiguous, Entity, Unknown, describe, ground
+from intents.relations import Viewpoint
+from robot.config import nearest
+from robot.errors import Failure, failure
+from robot.messages import ObjectInfo, PersonInfo, Place
+
+HANDS = 2
+
+
+class CannotMean(Exception):
+    """A goal has no meaning here; carries the failure. Never leaves the planning of a task."""
+
+    def __init__(self, reason: Failure) -> None:
+        """Carry the failure."""
+        self.failure = reason
+        super().__init__(reason.cause)
+
+
+def cannot(code: str, cause: str, *, suggestion: str = "", **evidence: float | str) -> CannotMean:
+    """The exception to raise for a failure of the catalogue."""
+    return CannotMean(failure(code, cause, suggestion=suggestion, **evidence))
+
+
+class Scene:
+    """The meaning of names in one world, in the course of one sequence of goals."""
+
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        *,
+        held: tuple[str, ...] = (),
+        entities: tuple[Entity, ...] = (),
+        view: Viewpoint | None = None,
+    ) -> None:
+        """Begin with what is held now.
+
+        Args:
+            knowledge: of the world.
+            held: ids of what is in the hands.
+            entities: every object with where it is believed to be (default: it is not known).
+            view: where the robot stands, for "the leftmost"; None if that is not known.
+        """
+        self.knowledge = knowledge
+        self._entities = list(entities or knowledge.entities())
+        self._view = view
+        self.held: list[str] = list(held)
+        self.spoken_of: str | None = held[-1] if held else None
+
+    # --- objects ---
+
+    def object(self, query: goals.ObjectQuery) -> ObjectInfo:
+        """The one object that is meant.
+
+        Raises:
+            CannotMean: none fits, or several do.
+        """
+        found = self._referent(query) or self._all(query)[0]
+        self.spoken_of = found.id
+        return found
+
+    def objects(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
+        """Every object that is meant: of "all cups", of "two cups".
+
+        Raises:
+            CannotMean: none fits, or fewer than asked for.
+        """
+        found = self._all(replace(query, count=query.count or "all"))
+        if isinstance(query.count, int) and query.count != len(found):
+            text = f"there are {len(found)} such objects, not {query.count}"
+            raise cannot("unknown_object", text)
+        return found
+
+    def fitting(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
+        """Every object that a description may mean; there may be none."""
+        try:
+            return self._all(replace(query, count="all"))
+        except CannotMean:
+            return []
+
+    def take(self, object_id: str) -> None:
+        """The goals so far have put this object into a hand.
+
+        Raises:
+            CannotMean: both hands are full by then.
+        """
+        if object_id in self.held:
+            return
+        if len(self.held) >= HANDS:
+            infos = [self.knowledge.object(held) for held in self.held]
+            names = " and ".join(full_name(info) for info in infos if info is not None)
+            raise cannot("hands_full", f"both hands are full by then, with {names}")
+        self.held.append(object_id)
+
+    def put_down(self, object_id: str) -> None:
+        """The goals so far have put it down."""
+        if object_id in self.held:
+            self.held.remove(object_id)
+
+    def _referent(self, query: goals.ObjectQuery) -> ObjectInfo | None:
+        """What "it" is; None if the query describes an object of its own."""
+        if not query.held:
+            return None
+        candidates = [*reversed(self.held), *([self.spoken_of] if self.spoken_of else [])]
+        for object_id in candidates:
+            info = self.knowledge.object(object_id)
+            described = replace(query, held=False, at=None, count=None)
+            if info is not None and not isinstance(
+                ground(described, [self.knowledge.entity(info)]), Unknown
+            ):
+                return info
+        if query.name or query.category:
+            return None
+        raise cannot("not_holding", "nothing is held, and nothing was spoken of before")
+
+    def _all(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
+        """The objects that a description means, whatever place it says they are at."""
+        by_id = {info.id: info for info in self.knowledge.map.objects}
+        if query.name in by_id:
+            return [by_id[query.name]]
+        entities = self._entities
+        found = ground(replace(query, at=None, held=False), entities, view=self._view)
+        if isinstance(found, Unknown):
+            said, names = describe(query), sorted({e.name for e in entities})
+            hint = f"there is {', '.join(found.nearest)}" if found.nearest else nearest(said, names)
+            raise cannot("unknown_object", f"there is no {said} in this world", suggestion=hint)
+        if isinstance(found, Ambiguous):
+            text = f"{describe(query)!r} fits {len(found.candidates)} things"
+            raise cannot("ambiguous", text, suggestion=found.question)
+        return [by_id[object_id] for object_id in found.ids]
+
+    # --- places and people ---
+
+    def places(self, name: str) -> tuple[Place, ...]:
+        """Every place that a name can mean; there is at least one.
+
+        Raises:
+            CannotMean: there is none.
+        """
+        found = self.knowledge.places(name)
+        if not found:
+            names = sorted({place.name for place in self.knowledge.map.places})
+            text = f"there is no place called {name!r} in this world"
+            raise cannot("unknown_place", text, suggestion=nearest(name, names))
+        return found
+
+    def person(self, person: goals.Person) -> PersonInfo:
+        """The person that is meant.
+
+        Raises:
+            CannotMean: nobody here is known by that name or description.
+        """
+        named = person.name is not None or person.who is not None
+        found = self.knowledge.person(person.name) if named else None
+        if found is not None:
+            return found
+        who = person.name or ("you" if person.who else "a person of that description")
+        names = ", ".join(known.name for known in self.knowledge.map.people)
+        hint = f"people in this world: {names}" if names else "nobody is in this world"
+        raise cannot("unknown_place", f"the robot does not know where {who} is", suggestion=hint)

@@ -1,0 +1,1 @@
+"""What skills are made of: scripts that walk, reach, grasp, look, and come to rest."""

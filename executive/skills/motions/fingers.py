@@ -1,0 +1,70 @@
+"""Fingers: opening, closing, and noticing that something is, or is no longer, between them."""
+
+from __future__ import annotations
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.script import Script, give_up
+from robot.messages import Grip, Payload, Side
+
+LEAST_GAP_M = 0.006
+"""Below this the fingers have closed on air (effort cannot tell)."""
+
+SETTLED_M_S = 0.004
+SETTLE_S = 0.25
+FINGER_TIMEOUT_S = 3.0
+
+
+def open_fingers(body: Body, side: Side, *, opening_m: float | None = None) -> Script[None]:
+    """Open to a width (None: as far as they go) and wait until they have."""
+    most_m = body.description.hands[side].max_opening_m
+    wanted_m = most_m if opening_m is None else min(opening_m, most_m)
+    body.send(Grip(**body.header(), side=side, opening_m=wanted_m))
+    yield from _settle(body, side)
+    if body.hand(side).opening_m < wanted_m - 0.02:
+        raise give_up(
+            "arm_stalled",
+            f"the {side} fingers do not open",
+            opening_m=round(body.hand(side).opening_m, 3),
+        )
+
+
+def close_fingers(body: Body, side: Side) -> Script[float]:
+    """Close with full force until the fingers rest; returns the gap left between them [m]."""
+    force_n = body.description.hands[side].max_force_n
+    body.send(Grip(**body.header(), side=side, opening_m=0.0, force_n=force_n))
+    yield from _settle(body, side)
+    return body.hand(side).opening_m
+
+
+def set_payload(body: Body, side: Side, mass_kg: float) -> None:
+    """Tell the body what a hand carries, so that its balance reckons with it."""
+    body.send(Payload(**body.header(), side=side, mass_kg=mass_kg))
+
+
+def check_grips(body: Body) -> None:
+    """Give up when a hand has lost what it held: its fingers have met."""
+    for held in body.context.holdings.all():
+        gap_m = body.hand(held.side).opening_m
+        if gap_m < LEAST_GAP_M:
+            body.context.holdings.release(held.side)
+            set_payload(body, held.side, 0.0)
+            name = body.object_info(held.object_id).name
+            raise give_up(
+                "object_dropped",
+                f"the {name} left the {held.side} hand while {body.phase}",
+                object=held.object_id,
+                gap_m=round(gap_m, 4),
+                gap_at_grasp_m=round(held.gap_m, 4),
+            )
+
+
+def _settle(body: Body, side: Side) -> Script[None]:
+    """Wait until the fingers have rested for a moment."""
+    end_s = body.now_s + FINGER_TIMEOUT_S
+    still_since_s = body.now_s + 0.1
+    while body.now_s < end_s:
+        yield
+        if abs(body.hand(side).opening_m_s) > SETTLED_M_S:
+            still_since_s = body.now_s
+        if body.now_s - still_since_s >= SETTLE_S:
+            return

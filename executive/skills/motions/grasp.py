@@ -1,0 +1,101 @@
+"""A hand and the object it closes on: where to have the hand, and what the fingers say."""
+
+from __future__ import annotations
+
+import math
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.fingers import LEAST_GAP_M
+from executive.skills.motions.gaze import check_camera, fresh_track
+from executive.skills.motions.script import give_up
+from executive.skills.motions.support import pose_on_support, tilt
+from robot.messages import ObjectInfo
+from robot.planning.requests import PickPlan
+from robot.se3 import SE3
+
+GAP_TOLERANCE_M = 0.015
+FOLLOW_AT_MOST_M = 0.04
+FRESH_S = 0.5
+FALLEN_RAD = 0.3
+FLOOR_M = 0.25
+
+
+def aim(plan: PickPlan, info: ObjectInfo, X_WO: SE3) -> SE3:
+    """X_WG of the planned grasp of an object at X_WO; a standing cylinder may have been turned."""
+    planned = _planned(plan)
+    if info.shape.kind == "cylinder" and max(tilt(X_WO), tilt(planned)) < FALLEN_RAD:
+        return SE3(X_WO.p, planned.quat_wxyz) @ plan.X_OG
+    return X_WO @ plan.X_OG
+
+
+def has_fallen(plan: PickPlan, X_WO: SE3) -> bool:
+    """Whether an object lies otherwise than the grasp was planned for."""
+    up, planned = X_WO.rotation()[:, 2], _planned(plan).rotation()[:, 2]
+    return math.acos(max(-1.0, min(1.0, float(up @ planned)))) > FALLEN_RAD
+
+
+def check_reachable(body: Body, info: ObjectInfo, X_WO: SE3) -> None:
+    """Give up on what lies on the floor: no stance brings a hand so low."""
+    over_floor = all(
+        abs(X_WO.p[2] - place.X_WP.p[2]) > FLOOR_M for place in body.map.places if not place.floor
+    )
+    if X_WO.p[2] < FLOOR_M and over_floor:
+        raise give_up(
+            "on_the_floor",
+            f"the {info.name} lies on the floor at ({X_WO.p[0]:.2f}, {X_WO.p[1]:.2f}) m",
+            object=info.id,
+            height_m=round(X_WO.p[2], 3),
+        )
+
+
+def followed(body: Body, info: ObjectInfo, X_WO: SE3) -> SE3:
+    """The object while the hand moves in: as just seen, or as it was if it is hidden now.
+
+    Gives up when it has moved too far to follow, or nothing has come from the camera for a while.
+    """
+    check_camera(body)
+    now = last_seen(body, info, X_WO)
+    moved_m = math.dist(now.p, X_WO.p)
+    if moved_m > FOLLOW_AT_MOST_M:
+        raise give_up(
+            "grasp_missed",
+            f"the {info.name} moved away by {moved_m * 100:.0f} cm while the hand moved in",
+            object=info.id,
+            moved_m=round(moved_m, 3),
+        )
+    return now
+
+
+def last_seen(body: Body, info: ObjectInfo, X_WO: SE3) -> SE3:
+    """The object as just seen; X_WO if it has not been."""
+    track = fresh_track(body, info.id, body.now_s - FRESH_S)
+    if track is None or track.X_WO is None:
+        return X_WO
+    return pose_on_support(body, info.id, track.X_WO)
+
+
+def check_gap(info: ObjectInfo, plan: PickPlan, gap_m: float) -> None:
+    """Give up unless the fingers have closed on the object, where it is as wide as planned."""
+    if gap_m < LEAST_GAP_M:
+        cause = f"the fingers closed on air, not on the {info.name}"
+    elif abs(gap_m - plan.opening_m) > GAP_TOLERANCE_M:
+        cause = f"the fingers pinched the {info.name} off its middle"
+    else:
+        return
+    raise give_up(
+        "grasp_missed",
+        cause,
+        object=info.id,
+        gap_m=round(gap_m, 4),
+        expected_m=round(plan.opening_m, 4),
+    )
+
+
+def centred(X_GO: SE3) -> SE3:
+    """The two coupled fingers centre what they close on: no offset along their direction y."""
+    return SE3((X_GO.p[0], 0.0, X_GO.p[2]), X_GO.quat_wxyz)
+
+
+def _planned(plan: PickPlan) -> SE3:
+    """Where the object was when the grasp was planned."""
+    return plan.X_WG_grasp @ plan.X_OG.inverse()

@@ -1,0 +1,82 @@
+"""People who are too near: nothing moves towards them, neither the feet nor a hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.script import Script, give_up
+from robot.messages import Obstacle, PersonInfo
+
+ZONE_M = 0.5
+"""Between a person and the middle of the body, or a hand [m]."""
+CLEAR_M = 0.6
+BELIEVED_S = 3.0
+PATIENCE_S = 15.0
+
+
+def somebody_near(
+    body: Body, p_W: Sequence[float], *, towards_rad: float | None = None, within_m: float = ZONE_M
+) -> PersonInfo | None:
+    """Who was seen lately and is within a distance of a point of the floor, their outline counts.
+
+    With `towards_rad` only those on that side of the point. The body's companion may be near.
+    """
+    for track in body.world.people:
+        if track.X_WO is None or track.missing or track.id == body.companion:
+            continue
+        if body.now_s - track.seen_s > BELIEVED_S:
+            continue
+        person = body.person(track.id)
+        dx, dy = track.X_WO.p[0] - p_W[0], track.X_WO.p[1] - p_W[1]
+        ahead = towards_rad is None or dx * math.cos(towards_rad) + dy * math.sin(towards_rad) > 0.0
+        if ahead and math.hypot(dx, dy) - person.radius_m < within_m:
+            return person
+    return None
+
+
+def in_the_path(body: Body, towards_rad: float) -> Obstacle | None:
+    """Who the body would walk into, as an obstacle."""
+    person = somebody_near(body, body.X_WS.p, towards_rad=towards_rad)
+    if person is None:
+        return None
+    return Obstacle(id=person.id, name=person.name, X_WO=body.X_WPerson(person.id), shapes=())
+
+
+def get_familiar(body: Body) -> frozenset[str]:
+    """Take what stands around now for furniture; what comes later may be somebody."""
+    body.familiar = frozenset(thing.id for thing in body.world.unmapped)
+    return body.familiar
+
+
+def near_hand(body: Body, p_W: Sequence[float], *, within_m: float = ZONE_M) -> str | None:
+    """Who is near a hand, by name; what has come since the feet rested counts as somebody."""
+    person = somebody_near(body, p_W, within_m=within_m)
+    if person is not None:
+        return person.name
+    familiar = get_familiar(body) if body.familiar is None else body.familiar
+    for thing in body.world.unmapped:
+        if thing.id not in familiar and clearance_m((p_W[0], p_W[1]), thing) < within_m:
+            return "somebody"
+    return None
+
+
+def wait_for_room(body: Body, p_W: Sequence[float]) -> Script[None]:
+    """Wait until nobody is near a hand any more, and say so.
+
+    Gives up with `person_near` after `PATIENCE_S`.
+    """
+    words, end_s = body.phase, body.now_s + PATIENCE_S
+    while (name := near_hand(body, p_W, within_m=CLEAR_M)) is not None:
+        body.phase = f"waiting for {name} to step back"
+        if body.now_s > end_s:
+            raise give_up(
+                "person_near",
+                f"{name} stands within {ZONE_M:.1f} m while {words}",
+                person=name,
+                waited_s=PATIENCE_S,
+            )
+        yield
+    body.phase = words

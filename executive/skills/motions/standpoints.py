@@ -1,0 +1,112 @@
+"""Where to stand to be at something: a room, a spot, a table, a person."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.planning import ask
+from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.walk import path_request, walk_to
+from robot.messages import Place
+from robot.planning.requests import BasePath, Stance
+from robot.se3 import SE3
+
+BEFORE_EDGE_M = 0.40
+AT_PERSON_M = 1.0
+SPOT_GRID_M = 0.6
+DIRECTIONS = 8
+ROOM_M = 0.36
+BAD_GOAL = ("goal_in_collision", "no_path")
+
+
+def stances_at(place: Place, X_WS: SE3) -> list[Stance]:
+    """Stances from which one is at a place, best first, from where the robot stands.
+
+    On a floor place: its middle, then spots around it, keeping the heading of arrival. At a
+    surface: before the middle of each side, facing it, the nearest side first.
+    """
+    if place.floor:
+        return _on_floor(place, X_WS)
+    stances: list[Stance] = []
+    half_x, half_y = 0.5 * place.size_m[0], 0.5 * place.size_m[1]
+    for ux, uy, half_m in ((1, 0, half_x), (-1, 0, half_x), (0, 1, half_y), (0, -1, half_y)):
+        out_m = half_m + BEFORE_EDGE_M
+        x_m, y_m, _ = place.X_WP.apply((ux * out_m, uy * out_m, 0.0))
+        yaw_rad = math.atan2(place.X_WP.p[1] - y_m, place.X_WP.p[0] - x_m)
+        stances.append((float(x_m), float(y_m), yaw_rad))
+    return _nearest_first(stances, X_WS)
+
+
+def stances_around(p_W: Sequence[float], X_WS: SE3, *, distance_m: float) -> list[Stance]:
+    """Stances on a circle around a point, facing it, the nearest first."""
+    here_rad = math.atan2(X_WS.p[1] - p_W[1], X_WS.p[0] - p_W[0])
+    stances: list[Stance] = []
+    for i in range(DIRECTIONS):
+        out_rad = here_rad + 2.0 * math.pi * i / DIRECTIONS
+        x_m = p_W[0] + distance_m * math.cos(out_rad)
+        y_m = p_W[1] + distance_m * math.sin(out_rad)
+        stances.append((x_m, y_m, math.atan2(p_W[1] - y_m, p_W[0] - x_m)))
+    return _nearest_first(stances, X_WS)
+
+
+def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[Stance]:
+    """Walk to the first stance that a path leads to; gives up if none does."""
+    reasons: list[GaveUp] = []
+    for stance in _roomy_first(body, stances):
+        try:
+            yield from ask(body, path_request(body, stance), BasePath)
+        except GaveUp as end:
+            if end.failure.code not in BAD_GOAL:
+                raise
+            reasons.append(end)
+            continue
+        yield from walk_to(body, stance)
+        return stance
+    if len(reasons) == 1:
+        raise reasons[0]
+    raise give_up(
+        "no_path",
+        f"no free path leads to the {name}: tried {len(reasons)} places to stand",
+        last=reasons[-1].failure.cause if reasons else "there is none",
+    )
+
+
+def has_room(body: Body, stance: Stance) -> bool:
+    """Whether the body can turn there without its arms touching anything."""
+    things = (*body.map.obstacles, *body.world.unmapped)
+    return all(clearance_m(stance[:2], thing) >= ROOM_M for thing in things)
+
+
+def heading_to(X_WS: SE3, x_m: float, y_m: float) -> float:
+    """Heading on arrival at a point, where none is wanted: the way one comes, or as one stands."""
+    dx, dy = x_m - X_WS.p[0], y_m - X_WS.p[1]
+    return math.atan2(dy, dx) if math.hypot(dx, dy) > 0.3 else X_WS.yaw_rad
+
+
+def _on_floor(place: Place, X_WS: SE3) -> list[Stance]:
+    """The middle of a room or spot, then a grid over it, nearest to the middle first."""
+    half_x, half_y = 0.5 * place.size_m[0], 0.5 * place.size_m[1]
+    count_x, count_y = int(half_x / SPOT_GRID_M), int(half_y / SPOT_GRID_M)
+    offsets = [
+        (i * SPOT_GRID_M, j * SPOT_GRID_M)
+        for i in range(-count_x, count_x + 1)
+        for j in range(-count_y, count_y + 1)
+    ]
+    offsets.sort(key=lambda offset: (math.hypot(*offset), offset))
+    stances: list[Stance] = []
+    for x_m, y_m in offsets:
+        x, y, _ = place.X_WP.apply((x_m, y_m, 0.0))
+        stances.append((float(x), float(y), heading_to(X_WS, float(x), float(y))))
+    return stances[:9]
+
+
+def _nearest_first(stances: list[Stance], X_WS: SE3) -> list[Stance]:
+    return sorted(stances, key=lambda stance: math.dist(stance[:2], X_WS.p[:2]))
+
+
+def _roomy_first(body: Body, stances: Sequence[Stance]) -> list[Stance]:
+    """The same order, but places too narrow for the arms come last."""
+    return sorted(stances, key=lambda stance: not has_room(body, stance))

@@ -1,0 +1,43 @@
+"""Arms near the body before walking: home when empty, in the carry posture when holding."""
+
+from __future__ import annotations
+
+from executive.skills.motions.body_access import SIDES, Body
+from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.planning import stance_of
+from executive.skills.motions.reach import is_at, move_arm, posture_rad
+from executive.skills.motions.script import GaveUp, Script
+from robot.messages import Side
+from robot.se3 import SE3
+
+HOME = "nominal"
+STEP_BACK_M = 0.30
+
+
+def stow_arms(body: Body) -> Script[None]:
+    """Bring both arms in, each where it is not yet: home, or to how it carries what it holds."""
+    for side in SIDES:
+        yield from stow_arm(body, side)
+
+
+def stow_arm(body: Body, side: Side) -> Script[None]:
+    """Bring one arm in.
+
+    Where no motion is free, because the hand is among things, steps back once and tries again.
+    """
+    held = body.context.holdings.at(side)
+    goal_rad = held.carry_rad if held is not None else posture_rad(body, side, HOME)
+    if is_at(body, side, goal_rad):
+        return
+    keep_upright = body.context.holdings.must_stay_upright(side)
+    before = body.phase
+    body.phase = f"bringing the {side} arm in"
+    try:
+        yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
+    except GaveUp as end:
+        if end.failure.code not in ("no_path", "start_in_collision", "planner_timeout"):
+            raise
+        back = body.X_WS @ SE3((-STEP_BACK_M, 0.0, 0.0))
+        yield from step_to(body, stance_of(back))
+        yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
+    body.phase = before

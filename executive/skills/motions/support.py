@@ -1,0 +1,81 @@
+"""What things stand on: a sighting is a few millimetres off, a surface of the map is not.
+
+An upright thing seen just above or just inside a surface stands on it. Planners then do not find
+it sunk into the table, and the hand grasps it at the height that was meant.
+"""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from executive.skills.motions.body_access import Body
+from robot.messages import ObjectInfo, Place, Shape
+from robot.planning.requests import Surroundings
+from robot.se3 import SE3
+
+NEAR_M = 0.02
+UPRIGHT_RAD = 0.2
+OVERHANG_M = 0.02
+TOUCHING_M = 0.01
+"""Two things as near as this are taken to touch: where they stand is known that well."""
+
+
+def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
+    """The pose, moved up or down onto the surface that the object must be standing on, if any."""
+    if tilt(X_WO) > UPRIGHT_RAD:
+        return X_WO
+    bottom_m = info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
+    x_m, y_m, z_m = X_WO.p
+    for place in places:
+        surface_m = place.X_WP.p[2]
+        if abs(z_m + bottom_m - surface_m) < NEAR_M and _is_over(place, X_WO):
+            return SE3((x_m, y_m, surface_m - bottom_m), X_WO.quat_wxyz)
+    return X_WO
+
+
+def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:
+    """`supported` with what the map knows."""
+    return supported(X_WO, body.object_info(object_id), body.map.places)
+
+
+def surroundings(body: Body, *ignored: str) -> Surroundings:
+    """What a plan keeps clear of now; what the hands hold is not in the way."""
+    held = tuple(held.object_id for held in body.context.holdings.all())
+    around = Surroundings.of(body.map, body.world, ignored=(*held, *ignored))
+    objects = tuple(
+        msgspec.structs.replace(thing, X_WO=pose_on_support(body, thing.id, thing.X_WO))
+        for thing in around.objects
+    )
+    return msgspec.structs.replace(around, objects=objects)
+
+
+def occupant(body: Body, info: ObjectInfo, X_WO: SE3) -> ObjectInfo | None:
+    """What is believed to stand where an object is to stand, each taken as upright."""
+    for thing in surroundings(body, info.id).objects:
+        x_m, y_m, z_m = (thing.X_WO.p[i] - X_WO.p[i] for i in range(3))
+        apart_m = _radius_m(thing.shape) + _radius_m(info.shape) + TOUCHING_M
+        apart_z_m = 0.5 * (thing.shape.size_m[2] + info.shape.size_m[2])
+        if thing.id != info.id and math.hypot(x_m, y_m) < apart_m and abs(z_m) < apart_z_m:
+            return body.object_info(thing.id)
+    return None
+
+
+def _radius_m(shape: Shape) -> float:
+    """Of the largest circle inside a shape, seen from above."""
+    return 0.5 * min(shape.size_m[:2])
+
+
+def tilt(X_WO: SE3) -> float:
+    """Angle between an object's z axis and the vertical [rad]."""
+    _, x, y, _ = X_WO.quat_wxyz
+    return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
+
+
+def _is_over(place: Place, X_WO: SE3) -> bool:
+    """Whether a pose is inside a surface's rectangle, seen from above."""
+    x_m, y_m, _ = place.X_WP.inverse().apply(X_WO.p)
+    half_x, half_y = 0.5 * place.size_m[0], 0.5 * place.size_m[1]
+    inside = abs(x_m) <= half_x + OVERHANG_M and abs(y_m) <= half_y + OVERHANG_M
+    return bool(inside and not place.floor)

@@ -1,0 +1,263 @@
+"""Walking somewhere: ask for a path, follow it, plan again around what blocks it, step in.
+
+Shared by every skill that walks; skills themselves stay strangers to one another.
+"""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.final_steps import is_at_stance, miss, step_to
+from executive.skills.motions.fingers import check_grips
+from executive.skills.motions.gaze import look_at
+from executive.skills.motions.obstructions import in_the_way
+from executive.skills.motions.path_follower import Follower, Twist, turn_towards
+from executive.skills.motions.personal_space import in_the_path
+from executive.skills.motions.planning import ask, pose_of, stance_of
+from executive.skills.motions.script import Script, give_up
+from executive.skills.motions.support import surroundings
+from robot.messages import Obstacle, Stand, Walk
+from robot.model.gait import Walking
+from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.se3 import SE3, wrap_angle
+
+REPLANS = 3
+CRUISE = 0.8
+CRUISE_CARRYING = 0.7
+CRUISE_NARROW = 0.55
+CLEARANCE_M = 0.16
+NARROW_M = 0.33
+HAND_OVER_M = 0.35
+HAND_OVER_ASIDE_M = 0.08
+HAND_OVER_RAD = 0.25
+SIDESTEP_M = 0.6
+FACING_RAD = 0.35
+BLOCKED_WITHIN_M = 1.0
+BLOCKED_FOR_S = 0.4
+STALLED_S = 5.0
+STALLED_M = 0.08
+STALLED_RAD = 0.25
+LEAST_TIMEOUT_S = 20.0
+SECONDS_PER_METRE = 12.0
+LOOK_EVERY_S = 1.0
+LOOK_AHEAD_M = 1.5
+LOOK_HEIGHT_M = 0.5
+STOP_TIMEOUT_S = 5.0
+MOVING_M_S = 0.03
+LET_PASS_S = 6.0
+
+
+def walk_to(body: Body, goal: Stance) -> Script[None]:
+    """Walk to a stance of W, around furniture and what the sensors see, and stand on it exactly.
+
+    Gives up with the planner's failure, `path_blocked`, `walk_stalled` or `object_dropped`.
+    """
+    if is_at_stance(body, goal):
+        return
+    if _is_near(body, goal):
+        yield from step_to(body, goal)
+        return
+    blocker: Obstacle | None = None
+    for attempt in range(1 + REPLANS):
+        path = yield from plan_path(body, goal, attempt=attempt)
+        blocker = yield from follow(body, path)
+        if blocker is None:
+            yield from step_to(body, goal)
+            return
+        words, body.phase = body.phase, f"stopping for {blocker.name}"
+        yield from stand_still(body)
+        x_m, y_m = (blocker.X_WO.p[i] - body.X_WS.p[i] for i in range(2))
+        yield from _let_pass(body, math.atan2(y_m, x_m))
+        body.phase = words
+    assert blocker is not None
+    raise give_up(
+        "path_blocked",
+        f"{blocker.name} stands in the way, whichever way was tried",
+        blocker=blocker.id,
+        x_m=round(blocker.X_WO.p[0], 2),
+        y_m=round(blocker.X_WO.p[1], 2),
+        replans=REPLANS,
+    )
+
+
+def path_request(body: Body, goal: Stance, *, attempt: int = 0) -> BasePathRequest:
+    """A way from here that leaves room for the body's sway."""
+    return BasePathRequest(
+        start=stance_of(body.X_WS),
+        goal=goal,
+        around=surroundings(body),
+        clearance_m=CLEARANCE_M,
+        seed=body.context.seed + attempt,
+    )
+
+
+def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]:
+    """Ask for a way from here."""
+    request = path_request(body, goal, attempt=attempt)
+    path = yield from ask(body, request, BasePath)
+    return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
+
+
+def facing_the_way(start: Stance, path: BasePath, *, free_m: float) -> BasePath:
+    """The same path, but a long straight sidestep in free space becomes turn, walk, turn."""
+    goal = path.waypoints[-1]
+    heading_rad = math.atan2(goal[1] - start[1], goal[0] - start[0])
+    askew_rad = max(abs(wrap_angle(heading_rad - yaw)) for yaw in (start[2], goal[2]))
+    sidestep = len(path.waypoints) == 1 and askew_rad > FACING_RAD
+    if not sidestep or path.length_m < SIDESTEP_M or path.clearance_m < free_m:
+        return path
+    waypoints = ((*start[:2], heading_rad), (*goal[:2], heading_rad), goal)
+    return msgspec.structs.replace(path, waypoints=waypoints)
+
+
+def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
+    """Walk along a path until its end is a few steps away; or until something blocks it.
+
+    Returns what blocks it. The body is left walking: step on, or stand still.
+    """
+    gait = body.description.walking
+    speed_m_s = cruise_m_s(path, gait, carrying=bool(body.context.holdings.all()))
+    follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
+    watch = _Watch(body, follower.total_m)
+    while not is_there(body.X_WS, follower, path.waypoints[-1]):
+        check_grips(body)
+        twist = follower.twist(body.X_WS)
+        if follower.done:
+            twist = turn_towards(wrap_angle(path.waypoints[-1][2] - body.X_WS.yaw_rad), gait)
+        _walk(body, twist)
+        body.progress = 1.0 - follower.remaining_m / follower.total_m
+        watch.look_ahead(follower)
+        watch.check_progress(follower.remaining_m)
+        blocker = _person_ahead(body, twist) or watch.blocker(follower)
+        if blocker is not None:
+            return blocker
+        yield
+    return None
+
+
+def _person_ahead(body: Body, twist: Twist) -> Obstacle | None:
+    """Somebody so near that the next steps would be towards them."""
+    if math.hypot(twist.forward_m_s, twist.left_m_s) < MOVING_M_S:
+        return None
+    aside_rad = math.atan2(twist.left_m_s, twist.forward_m_s)
+    return in_the_path(body, body.X_WS.yaw_rad + aside_rad)
+
+
+def _let_pass(body: Body, towards_rad: float) -> Script[None]:
+    """Stand for a while as long as somebody is near on that side."""
+    end_s = body.now_s + LET_PASS_S
+    while body.now_s < end_s and in_the_path(body, towards_rad) is not None:
+        yield
+
+
+def turn_by(body: Body, angle_rad: float) -> Script[None]:
+    """Turn on the spot by an angle, even beyond a full turn; ends within a step of it."""
+    gait = body.description.walking
+    left_rad = angle_rad
+    before_rad = body.X_WS.yaw_rad
+    end_s = body.now_s + 10.0 + 3.0 * abs(angle_rad) / gait.max_turn_rad_s
+    while abs(left_rad) > HAND_OVER_RAD:
+        if body.now_s > end_s:
+            raise give_up("walk_stalled", "the turn does not get on", left_rad=round(left_rad, 2))
+        _walk(body, turn_towards(left_rad, gait))
+        yield
+        yaw_rad = body.X_WS.yaw_rad
+        left_rad -= wrap_angle(yaw_rad - before_rad)
+        before_rad = yaw_rad
+
+
+def stand_still(body: Body, *, pitch_rad: float = 0.0, yaw_rad: float = 0.0,
+                height_m: float | None = None) -> Script[None]:  # fmt: skip
+    """Finish the step and stand, in a posture of the trunk; wait until it is taken."""
+    command = Stand(**body.header(), height_m=height_m, pitch_rad=pitch_rad, yaw_rad=yaw_rad)
+    body.send(command)
+    yield from body.finish("legs", command.id, timeout_s=STOP_TIMEOUT_S, code="walk_stalled")
+
+
+class _Watch:
+    """What is kept an eye on while walking: the way ahead, progress, obstacles."""
+
+    def __init__(self, body: Body, whole_m: float) -> None:
+        self.body = body
+        self._end_s = body.now_s + LEAST_TIMEOUT_S + SECONDS_PER_METRE * whole_m
+        self._looked_s = -math.inf
+        self._anchor = body.X_WS
+        self._moved_s = body.now_s
+        self._blocked_since_s: float | None = None
+
+    def look_ahead(self, follower: Follower) -> None:
+        """Turn the head along the path now and then."""
+        if self.body.now_s - self._looked_s < LOOK_EVERY_S:
+            return
+        points = follower.ahead(LOOK_AHEAD_M)
+        if points:
+            look_at(self.body, (*points[-1], LOOK_HEIGHT_M))
+            self._looked_s = self.body.now_s
+
+    def check_progress(self, remaining_m: float) -> None:
+        """Give up when the body has neither moved nor turned for long, or walks in circles."""
+        X_WS, now_s = self.body.X_WS, self.body.now_s
+        moved_m, turned_rad = miss(X_WS, self._anchor)
+        if moved_m > STALLED_M or turned_rad > STALLED_RAD:
+            self._anchor, self._moved_s = X_WS, now_s
+        if now_s - self._moved_s > STALLED_S or now_s > self._end_s:
+            raise give_up(
+                "walk_stalled",
+                f"the walk does not get on, {remaining_m:.2f} m before the goal",
+                remaining_m=round(remaining_m, 2),
+                still_for_s=round(now_s - self._moved_s, 1),
+            )
+
+    def blocker(self, follower: Follower) -> Obstacle | None:
+        """Something on the path ahead, once it has been seen there for a moment."""
+        blocker = in_the_way(
+            follower.ahead(BLOCKED_WITHIN_M),
+            self.body.world.unmapped,
+            radius_m=self.body.description.body_radius_m,
+        )
+        if blocker is None:
+            self._blocked_since_s = None
+        elif self._blocked_since_s is None:
+            self._blocked_since_s = self.body.now_s
+        elif self.body.now_s - self._blocked_since_s >= BLOCKED_FOR_S:
+            return blocker
+        return None
+
+
+def _is_near(body: Body, goal: Stance) -> bool:
+    """Whether a few exact steps will do."""
+    off_m, off_rad = miss(body.X_WS, pose_of(goal))
+    return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD
+
+
+def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> float:
+    """How fast a path is walked where it is straight."""
+    part = CRUISE_CARRYING if carrying else CRUISE
+    return (CRUISE_NARROW if path.clearance_m < NARROW_M else part) * gait.max_forward_m_s
+
+
+def is_there(X_WS: SE3, follower: Follower, goal: Stance) -> bool:
+    """Whether exact steps should take over: near the goal, facing as it does, not beside it."""
+    X_WS_goal = pose_of(goal)
+    off_m, off_rad = miss(X_WS, X_WS_goal)
+    if off_m > HAND_OVER_M or off_rad > HAND_OVER_RAD:
+        return False
+    aside_m = abs((X_WS_goal.inverse() @ X_WS).p[1])
+    return follower.done or (follower.remaining_m < HAND_OVER_M and aside_m < HAND_OVER_ASIDE_M)
+
+
+def _walk(body: Body, twist: Twist) -> None:
+    """Walk at a twist, slowed down to what is allowed now."""
+    speed_m_s = math.hypot(twist.forward_m_s, twist.left_m_s)
+    slower = min(1.0, body.context.speed_limit() / max(speed_m_s, 1e-9))
+    body.send(
+        Walk(
+            **body.header(),
+            forward_m_s=round(slower * twist.forward_m_s, 4),
+            left_m_s=round(slower * twist.left_m_s, 4),
+            turn_rad_s=round(slower * twist.turn_rad_s, 4),
+        )
+    )

@@ -1,0 +1,244 @@
+"""Health follows from the ages of messages and from what they say."""
+
+import itertools
+
+import pytest
+from msgspec.structs import replace
+
+from executive.engine.estop import EmergencyStop, StillPressed
+from executive.engine.health_monitor import (
+    CONCERNS,
+    COOL_C,
+    GRADES,
+    JUMP_REST_S,
+    START_UP_S,
+    WINDOW_TICKS,
+    HealthMonitor,
+    _Flow,
+)
+from executive.health import Level
+from robot.bus.topics import TOPICS
+from robot.errors import CATALOGUE
+from robot.messages import LoopTiming, PowerState, WorldState
+from robot.se3 import SE3
+from tests.fakes.puppet import Puppet
+from tests.fakes.worlds import puppet
+
+RATES = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
+
+
+@pytest.fixture
+def robot() -> Puppet:
+    return puppet()
+
+
+def look(robot: Puppet, now_s: float, **ages_s: float):
+    stamps = {name: now_s - ages_s.get(name.split("/")[1], 0.0) for name in RATES}
+    return HealthMonitor(RATES, start_s=0.0).look(now_s, stamps, body=robot.body(), world=None)
+
+
+def test_concerns_are_topics_of_the_table_with_a_rate():
+    assert set(CONCERNS) <= set(RATES)
+
+
+def test_fresh_messages_are_well(robot):
+    assert look(robot, 100.0).level is Level.OK
+
+
+@pytest.mark.parametrize(
+    ("topic", "age_s", "level", "code"),
+    [
+        ("lidar", 0.3, Level.OK, None),
+        ("lidar", 0.6, Level.HOLD, "sensor_silent"),
+        ("depth", 0.6, Level.HOLD, "sensor_silent"),
+        ("state", 0.6, Level.SIT, "controller_lost"),
+    ],
+)
+def test_silence_becomes_a_finding(robot, topic, age_s, level, code):
+    health = look(robot, 100.0, **{topic: age_s})
+    assert health.level is level
+    assert (health.failure.code if health.failure else None) == code
+
+
+def test_before_the_first_message_it_waits_then_gives_up():
+    monitor = HealthMonitor(RATES, start_s=5.0)
+    none = dict.fromkeys(RATES)
+    soon = monitor.look(5.1, none, body=None, world=None)
+    late = monitor.look(5.1 + START_UP_S, none, body=None, world=None)
+    assert soon.level is Level.HOLD
+    assert late.level is Level.SIT
+    assert late.failure.code == "controller_lost"
+
+
+def test_a_fall_is_worst_of_all(robot):
+    robot.mode = "fallen"
+    health = look(robot, 100.0, lidar=2.0)
+    assert health.level is Level.DAMP
+    assert health.failure.code == "fallen"
+    assert [finding.level for finding in health.findings] == [Level.DAMP, Level.HOLD]
+
+
+@pytest.mark.parametrize(("mode", "rests"), [("stand", True), ("fallen", False), ("rising", False)])
+def test_a_pose_that_jumps_matters_only_to_who_is_on_his_feet(robot, mode, rests):
+    monitor = HealthMonitor({}, start_s=0.0)
+    body = replace(robot.body(), mode=mode)
+    world = replace(robot.world(), fix_age_s=9.0)
+    monitor.look(1.0, {}, body=body, world=world)
+    health = monitor.look(1.1, {}, body=body, world=replace(world, jumps=1))
+    assert health.calls_for(Level.HOLD) is rests
+
+
+@pytest.mark.parametrize(("hot_c", "level"), [(79, Level.OK), (81, Level.DERATE), (101, Level.SIT)])
+def test_a_hot_motor_is_named(robot, hot_c, level):
+    body = replace(robot.body(), temperature_c=(25.0, float(hot_c)))
+    monitor = HealthMonitor({}, start_s=0.0, motors=("hip", "knee"))
+    health = monitor.look(1.0, {}, body=body, world=None)
+    assert health.level is level
+    assert level is Level.OK or "knee" in health.failure.cause
+
+
+def monitor(**more):
+    return HealthMonitor({}, start_s=0.0, speed_m_s=0.5, **more)
+
+
+def test_grades_are_in_order_and_their_codes_are_known():
+    for scale in GRADES.values():
+        assert scale.code in CATALOGUE
+        levels = [grade.level for grade in scale.grades]
+        assert levels == sorted(levels)
+        at = [grade.at for grade in scale.grades]
+        assert at == sorted(at, reverse=scale.falling)
+
+
+def test_a_warm_motor_slows_the_walk_in_proportion(robot):
+    speeds = []
+    for hot_c in (79.0, 85.0, 90.0, 99.9):
+        body = replace(robot.body(), temperature_c=(hot_c,))
+        speeds.append(monitor().look(1.0, {}, body=body, world=None).speed_m_s)
+    assert speeds[0] == float("inf")
+    assert speeds[1:] == pytest.approx([0.425, 0.35, 0.2], abs=0.01)
+
+
+def test_a_motor_that_tripped_has_to_cool_down_first(robot):
+    watch = monitor(motors=("knee",))
+    levels = []
+    for hot_c in (101.0, 90.0, COOL_C + 1, COOL_C - 1, 79.0):
+        body = replace(robot.body(), temperature_c=(hot_c,))
+        levels.append(watch.look(1.0, {}, body=body, world=None).level)
+    assert levels == [Level.SIT, Level.SIT, Level.SIT, Level.OK, Level.OK]
+
+
+@pytest.mark.parametrize(
+    ("charge", "level", "speed_m_s"),
+    [
+        (0.5, Level.OK, float("inf")),
+        (0.2, Level.WARN, float("inf")),
+        (0.09, Level.RETURN, 0.25),
+        (0.05, Level.SIT, float("inf")),
+    ],
+)
+def test_a_battery_runs_down(charge, level, speed_m_s):
+    power = PowerState(stamp_s=1.0, charge=charge, power_w=100.0, source="emulated")
+    health = monitor().look(1.0, {}, body=None, world=None, power=power)
+    assert health.level is level
+    assert health.speed_m_s == speed_m_s
+
+
+def where(now_s, jumps):
+    return WorldState(stamp_s=now_s, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=(), jumps=jumps)
+
+
+def test_a_pose_that_jumped_has_to_be_steady_before_it_is_walked_on():
+    watch = monitor()
+    levels = {}
+    for n in range(100):
+        now_s = n / 20
+        jumps = 3 + (now_s > 1.0) + (now_s > 1.5)
+        levels[now_s] = watch.look(now_s, {}, body=None, world=where(now_s, jumps)).level
+    held = [now_s for now_s, level in levels.items() if level is Level.HOLD]
+    assert held[0] == pytest.approx(1.05)
+    assert held[-1] == pytest.approx(1.55 + JUMP_REST_S, abs=0.06)
+
+
+def timing(late_share: float, *, pressed: bool = False) -> LoopTiming:
+    return LoopTiming(
+        stamp_s=0.0, process="controller", period_s=0.002, count=1000, late=0, p50_s=0.0,
+        p99_s=0.0, p999_s=0.0, max_s=0.0, late_share=late_share, pressed=pressed,
+    )  # fmt: skip
+
+
+def test_lateness_is_of_late():
+    watch = monitor()
+    levels = [
+        watch.look(1.0, {}, body=None, world=None, timing=timing(share)).level
+        for share in (0.0, 0.04, 0.06, 0.36, 0.95, 0.001)
+    ]
+    assert levels == [Level.OK, Level.OK, Level.WARN, Level.DERATE, Level.HOLD, Level.OK]
+
+
+def test_a_controller_that_stays_late_though_all_else_makes_room_ends_in_a_hold():
+    watch = monitor()
+
+    def level(now_s: float, share: float, *, pressed: bool = True) -> Level:
+        late = timing(share, pressed=pressed)
+        health = watch.look(now_s, {}, body=None, world=None, timing=late)
+        assert health.pressed == pressed
+        return health.level
+
+    assert level(10.0, 0.0) is Level.OK
+    assert level(12.9, 0.2) is Level.WARN
+    assert level(13.1, 0.2) is Level.HOLD
+    assert level(13.2, 0.1) is Level.WARN  # making room has helped
+    assert level(16.1, 0.2) is Level.WARN
+    assert level(19.3, 0.2, pressed=False) is Level.WARN
+
+
+def test_a_topic_that_thins_out_slows_the_robot_down():
+    watch = HealthMonitor({"sensors/lidar": 10.0}, start_s=0.0, speed_m_s=0.5)
+    levels = []
+    stamp_s = 0.0
+    for n in range(8 * WINDOW_TICKS):
+        now_s = n / 20
+        period_s = 0.1 if now_s < 6.0 else 0.3
+        if now_s - stamp_s >= period_s - 1e-9:
+            stamp_s = now_s
+        levels.append(watch.look(now_s, {"sensors/lidar": stamp_s}, body=None, world=None).level)
+    assert set(levels[:110]) == {Level.OK}
+    assert set(levels[200:]) == {Level.DERATE}
+
+
+def test_an_emergency_stop_is_latched_until_released_and_reset():
+    estop = EmergencyStop()
+    watch = monitor(estop=estop)
+
+    def level():
+        return watch.look(1.0, {}, body=None, world=None).level
+
+    assert level() is Level.OK
+    estop.press("a person shouted")
+    assert level() is Level.SIT
+    with pytest.raises(StillPressed):
+        estop.reset()
+    estop.release()
+    assert level() is Level.SIT
+    estop.reset()
+    assert level() is Level.OK
+
+
+def test_a_rate_that_wavers_is_told_once():
+    """Thin below 0.6 of what is promised, well again from 0.8 on: one finding, not a hail."""
+    flow = _Flow(10.0)
+    shares = [1.0] * 100 + [0.55, 0.65] * 100 + [1.0] * 100
+    thin: list[bool] = []
+    came = 0.0
+    stamp_s = 0.0
+    for tick, share in enumerate(shares):
+        came += 0.5 * share  # two ticks a message, if all come
+        if came >= 1.0:
+            came -= 1.0
+            stamp_s = 0.05 * tick
+        thin.append(flow.judge("world/state", 0.05 * tick, stamp_s) is not None)
+    changes = sum(a != b for a, b in itertools.pairwise(thin))
+    assert any(thin)
+    assert not thin[-1]
+    assert changes == 2

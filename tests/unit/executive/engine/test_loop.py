@@ -1,0 +1,152 @@
+"""The loop wakes up at once, counts every Ctrl-C, and leaves nobody with stiff motors by chance."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+
+import pytest
+
+from executive.engine.executive import Executive
+from executive.engine.loop import Interrupts, run
+from executive.journal.journal import Journal
+from executive.skills.context import SkillContext
+from executive.skills.parameters import WaitParams
+from executive.trees.build import build
+from executive.trees.parts import Errand, Series
+from robot.clock import Waker
+from robot.messages import Damp, Stand
+from tests.fakes.puppet_runtime import PuppetRuntime
+from tests.fakes.waiting import eventually
+from tests.fakes.worlds import JUNO, puppet
+
+FOREVER = Errand(name="wait", params=WaitParams())
+NEVER_S = 30.0
+
+
+class Sleeper(PuppetRuntime):
+    """A runtime that would sleep for very long between two ticks, if it were not woken."""
+
+    def __post_init__(self):
+        super().__post_init__()
+        self.waker = Waker()
+
+    def advance(self, duration_s):
+        self.waker.wait(NEVER_S)
+        super().advance(duration_s)
+
+    def wake(self):
+        self.waker.wake()
+
+
+def executive_on(runtime):
+    context = SkillContext(link=runtime.link, planner=runtime.planner, description=JUNO)
+    executive = Executive(context, Journal(), rates_hz={})
+    task = Series(name="task", parts=(FOREVER,))
+    executive.submit(lambda stage: build(task, stage), text="wait")
+    return executive
+
+
+def in_a_thread(runtime, executive, **more):
+    given = {"interrupts": Interrupts(), **more}
+    thread = threading.Thread(target=run, args=(runtime, executive), kwargs=given)
+    thread.start()
+    return thread
+
+
+def test_a_request_from_another_thread_cuts_the_wait_short():
+    runtime = Sleeper(puppet())
+    executive = executive_on(runtime)
+    thread = in_a_thread(runtime, executive)
+    begin_s = time.monotonic()
+    assert eventually(lambda: executive.on_request.__name__ == "wake")
+    executive.pause()
+    assert eventually(lambda: executive.state == "pausing")
+    executive.stop("enough")
+    while thread.is_alive():  # every further tick needs somebody to wake it
+        runtime.wake()
+        time.sleep(0.001)
+    assert executive.outcome.failure.code == "cancelled"
+    assert time.monotonic() - begin_s < NEVER_S / 2
+
+
+def test_a_ctrl_c_cuts_the_wait_short_and_stops():
+    runtime = Sleeper(puppet())
+    executive = executive_on(runtime)
+    interrupts = Interrupts()
+    thread = in_a_thread(runtime, executive, interrupts=interrupts)
+    assert eventually(lambda: executive.on_request.__name__ == "wake")
+    interrupts.press()
+    assert eventually(lambda: any(isinstance(sent, Stand) for sent in runtime.puppet.sent))
+    while thread.is_alive():
+        runtime.wake()
+        time.sleep(0.001)
+    assert runtime.puppet.mode == "stand"
+
+
+def test_two_signals_in_one_long_call_are_two():
+    interrupts = Interrupts()
+    pid = os.getpid()
+
+    def press_twice():
+        for _ in range(2):
+            time.sleep(0.02)
+            os.kill(pid, signal.SIGINT)
+
+    with interrupts.listen():
+        thread = threading.Thread(target=press_twice)
+        thread.start()
+        while thread.is_alive():
+            sum(range(10_000_000))  # a call that lets no handler run before it is over
+        thread.join()
+        assert eventually(lambda: interrupts.count == 2)
+
+
+def test_the_third_ctrl_c_leaves_at_once_with_the_motors_damped():
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    runtime.at = [(1.0, lambda: interrupts.press(3))]
+    with pytest.raises(KeyboardInterrupt):
+        run(runtime, executive_on(runtime), interrupts=interrupts)
+    assert isinstance(runtime.puppet.sent[-1], Damp)
+
+
+def test_two_presses_in_one_tick_damp():
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    runtime.at = [(1.0, interrupts.press), (1.0, interrupts.press)]
+    executive = executive_on(runtime)
+    run(runtime, executive, interrupts=interrupts)
+    assert isinstance(runtime.puppet.sent[-1], Damp)
+    assert executive.outcome.failure.code == "cancelled"
+
+
+def test_after_a_stop_the_next_ctrl_c_is_a_first_one_again():
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    executive = executive_on(runtime)
+    runtime.at = [(1.0, interrupts.press), (4.0, interrupts.press)]
+    run(runtime, executive, interrupts=interrupts, until=lambda: runtime.clock.now_s() > 6.0)
+    assert interrupts.count == 0
+    assert not any(isinstance(sent, Damp) for sent in runtime.puppet.sent)
+    assert sum(event.event == "stop" for event in executive.journal.recent) == 2
+
+
+def test_time_stands_still_for_a_fast_robot_that_waits_for_its_operator():
+    runtime = PuppetRuntime(puppet())
+    executive = executive_on(runtime)
+    executive.attended = True
+    executive.pause()
+    asked = []
+
+    def until():
+        if executive.state == "paused":
+            asked.append(runtime.clock.now_s())
+        if len(asked) == 3:
+            executive.stop("enough")
+        return executive.outcome is not None
+
+    run(runtime, executive, interrupts=Interrupts(), until=until)
+    assert len(set(asked)) == 1

@@ -1,0 +1,96 @@
+"""What an operator does step by step: breakpoints, and answers to what the robot asks."""
+
+from __future__ import annotations
+
+import pytest
+
+from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
+from executive.behaviours.run_skill import RunSkill
+from executive.blackboard import HELP
+from executive.engine.executive import JobError
+from executive.skills.parameters import NavigateParams, PickParams
+from executive.trees.idioms import Alternatives, in_order
+from tests.fakes.rig import PICK, WAIT, WALK, Rig
+from tests.fakes.scripted_skills import Script
+
+# --- breakpoints --------------------------------------------------------------------------------
+
+
+def test_a_breakpoint_holds_before_the_step_begins():
+    rig = Rig({NavigateParams: [Script(steps=3)]})
+    rig.executive.break_at("pi*")
+    rig.begin(WALK, PICK, WAIT).tick(30)
+    assert rig.troupe.names() == ["navigate"]
+    assert rig.executive.held == ("pick",)
+    assert rig.executive.state == "paused"
+    rig.executive.go_on()
+    assert rig.run() is True
+    assert rig.events("break") == ["break pick"]
+
+
+def test_steps_can_be_taken_one_by_one():
+    rig = Rig()
+    rig.executive.step_once()
+    rig.begin(WALK, PICK, WAIT)
+    for count in range(3):
+        rig.tick(5)
+        assert len(rig.troupe.names()) == count
+        rig.executive.step_once()
+    assert rig.run() is True
+
+
+def test_a_held_job_can_be_stopped_and_the_next_is_not_held():
+    rig = Rig()
+    rig.executive.step_once()
+    rig.begin(WALK, PICK).tick(5)
+    rig.executive.stop("enough")
+    assert rig.run().code == "cancelled"
+    assert rig.executive.held == ()
+    assert rig.begin(WALK).run() is True
+
+
+# --- help ---------------------------------------------------------------------------------------
+
+
+def asking(rig):
+    """A job that fails with a code, asks for help, and does the step once more."""
+
+    def build(stage):
+        node = Alternatives("pick", RunSkill("pick", PICK.params, stage=stage))
+        ask = AskForHelp("please hand me the cup", stage=stage)
+        node.add_child(in_order("help", [ask, RunSkill("pick", PICK.params, stage=stage)]))
+        return node
+
+    rig.executive.submit(build, text="ask")
+    return rig
+
+
+def test_help_is_asked_for_and_the_job_goes_on_when_it_came():
+    rig = asking(Rig({PickParams: [Script(code="no_grasp"), Script()]}))
+    rig.executive.attended = True
+    rig.tick(100)
+    assert rig.executive.question == "please hand me the cup"
+    rig.executive.answer("continue")
+    assert rig.run() is True
+    assert rig.board.read(HELP) == ""
+    assert rig.events("help", "answer") == ["help", "answer"]
+
+
+@pytest.mark.parametrize(("attended", "limit_s"), [(False, ALONE_S), (True, PATIENCE_S)])
+def test_without_help_the_job_fails_with_its_own_code_after_a_while(attended, limit_s):
+    rig = asking(Rig({PickParams: [Script(code="no_grasp")]}))
+    rig.executive.attended = attended
+    assert rig.run(10_000).code == "no_grasp"
+    assert rig.now_s == pytest.approx(limit_s, abs=0.3)
+
+
+def test_an_operator_may_give_up():
+    rig = asking(Rig({PickParams: [Script(code="no_grasp")]}))
+    rig.executive.attended = True
+    rig.tick(10)
+    with pytest.raises(JobError, match="say continue or give up"):
+        rig.executive.answer("perhaps")
+    rig.executive.answer("give up")
+    assert rig.run().code == "no_grasp"
+    with pytest.raises(JobError, match="nothing was asked"):
+        rig.executive.answer("continue")

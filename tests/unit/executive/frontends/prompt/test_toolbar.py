@@ -1,0 +1,67 @@
+from hypothesis import given
+from hypothesis import strategies as st
+from prompt_toolkit.formatted_text import to_plain_text
+
+from executive.frontends.prompt.toolbar import toolbar, window
+from executive.frontends.prompt.view import View, view_of_lost
+from executive.frontends.tree_lines import Line
+from executive.health import Level
+from robot.errors import failure
+
+words = st.text(st.characters(codec="ascii", categories=("L", "N", "Zs")), max_size=60)
+trees = st.lists(
+    st.builds(
+        Line,
+        depth=st.integers(0, 30),
+        name=words,
+        state=st.sampled_from(["waiting", "running", "done", "failed"]),
+        note=words,
+    ),
+    max_size=60,
+)
+
+
+@given(
+    tree=trees,
+    goal=words,
+    phase=words,
+    unwell=words,
+    columns=st.integers(2, 200),
+    rows=st.integers(0, 20),
+)
+def test_the_toolbar_fits_any_terminal(tree, goal, phase, unwell, columns, rows):
+    level = Level.HOLD if unwell else Level.OK
+    view = View(
+        goal=goal, phase=phase, unwell=unwell, level=level, tree=tuple(tree), pose=(1, 2, 3)
+    )
+    lines = to_plain_text(toolbar(view, columns=columns, rows=rows)).split("\n")
+    assert len(lines) <= rows + 1
+    assert all(len(line) <= columns for line in lines)
+    assert len(lines[-1]) == columns
+
+
+@given(tree=trees, rows=st.integers(1, 20))
+def test_what_runs_stays_in_sight(tree, rows):
+    shown = window(tuple(tree), rows)
+    running = [line for line in tree if line.state == "running"]
+    assert len(shown) == min(rows, len(tree))
+    if running:
+        assert running[-1] in shown
+
+
+def test_trouble_and_questions_are_told():
+    view = View(level=Level.HOLD, unwell="the lidar is silent", help="move the chair")
+    text = to_plain_text(toolbar(view, columns=120, rows=0))
+    assert "hold: the lidar is silent" in text
+    assert "asks: move the chair" in text
+    assert "healthy" not in text
+
+
+def test_a_robot_that_is_gone_is_not_called_healthy():
+    lost = failure("plant_lost", "the simulation died")
+    view = view_of_lost(View(mode="walk", goal="go to the table", pose=(1, 2, 3)), lost)
+    text = to_plain_text(toolbar(view, columns=120, rows=0))
+    assert "gone" in text
+    assert "the simulation died" in text
+    assert "healthy" not in text
+    assert "table" not in text

@@ -1,0 +1,236 @@
+"""The chain from symptom to cause, told from journals of every kind of end."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from executive.journal import wording
+from executive.journal.journal import Event
+from executive.journal.why import why
+
+RUN = ("run", {"text": "pick up the red cup", "runtime": "fast", "world": "kitchen", "seed": 3})
+PICK = {"step": "pick up the red cup", "id": "1"}
+LOOK = {"step": "look for the red cup", "id": "1+1.1"}
+MISSED = {
+    "code": "grasp_missed",
+    "cause": "the fingers closed on air",
+    "evidence": {"gap_m": 0.001},
+}
+
+
+def journal(*entries) -> list[Event]:
+    """Events a second apart, or at the time an entry begins with."""
+    events, now_s = [], 0.0
+    for entry in entries:
+        if len(entry) == 3:
+            now_s, kind, data = entry
+        else:
+            kind, data = entry
+            now_s += 1.0
+        events.append(Event(len(events), now_s, kind, data))
+    return events
+
+
+def job(state: str, **data):
+    return (
+        "job",
+        {"job": 1, "text": "pick up the red cup", "state": state, "urgent": False, **data},
+    )
+
+
+FAILS = (
+    RUN,
+    job("running"),
+    (2.0, "step", {**PICK, "attempt": 0}),
+    (30.0, "phase", {**PICK, "phase": "closing the left fingers"}),
+    (31.0, "failure", {**PICK, **MISSED}),
+    ("recovery", {**PICK, "remedy": "look again, then retry", "count": "1 of 2"}),
+    ("step", {**LOOK, "attempt": 1}),
+    ("done", LOOK),
+    ("step", {"step": PICK["step"], "id": "1+1", "attempt": 1}),
+)  # fmt: skip
+
+
+def test_a_failure_is_told_from_the_last_go_back_to_what_began_it():
+    events = journal(
+        *FAILS[:3],
+        (29.0, "fault", {"fault": {"fault": "move", "target": "red_cup"}}),
+        *FAILS[3:],
+        (60.0, "failure", {"step": PICK["step"], "id": "1+1", **MISSED}),
+        ("no recovery", {**PICK, "code": "grasp_missed", "why": "tried 1 times"}),
+        job("failed", **MISSED),
+        ("outcome", {**MISSED, "took_s": 62.0, "recoveries": 1}),
+    )
+    told = why(events)
+    assert told.status == "failed"
+    assert told.lines == (
+        "Failed after 62.0 s: the fingers closed on air (grasp_missed).",
+        "Asked for: pick up the red cup  (fast, kitchen, seed 3)",
+        'Because "pick up the red cup" failed twice, the last time first:',
+        "     60.0 s  the fingers closed on air (grasp_missed: gap 0.001 m)",
+        "             then: no recovery: tried 1 times",
+        "     31.0 s  the fingers closed on air (grasp_missed: gap 0.001 m)",
+        "             while closing the left fingers, for 1.0 s",
+        "             then: look again, then retry (1 of 2)",
+        "               look for the red cup: done in 1.0 s",
+        "What happened around it:",
+        "     29.0 s  fault injected: move (target red_cup)",
+        "What to do: check where the object is.",
+    )
+
+
+def test_a_success_tells_what_had_to_be_recovered():
+    again = {"step": PICK["step"], "id": "1+1"}
+    told = why(journal(*FAILS, (50.0, "done", again), job("done"), ("outcome", {"code": "done"})))
+    assert told.status == "done"
+    assert told.lines[2:] == (
+        "On the way:",
+        '  "pick up the red cup"',
+        "     31.0 s  the fingers closed on air (grasp_missed: gap 0.001 m)",
+        "             while closing the left fingers, for 1.0 s",
+        "             then: look again, then retry (1 of 2)",
+        "               look for the red cup: done in 1.0 s",
+        "     50.0 s  done",
+    )
+
+
+def test_a_prompt_at_which_nothing_was_asked_is_no_run_that_was_cut_off():
+    told = why([Event(0, 0.0, "run", {"text": "prompt", "attended": True})])
+    assert (told.status, told.text) == ("idle", "Nothing was asked for.")
+    assert why([Event(0, 0.0, "run", {"text": "squat"})]).status == "cut off"
+
+
+def test_a_run_that_was_killed_tells_where_it_was():
+    told = why(journal(*FAILS[:4]))
+    assert told.status == "cut off"
+    assert told.verdict == "The journal ends at 30.0 s without an outcome: it was cut off."
+    assert 'doing "pick up the red cup" since 2.0 s (28.0 s), closing the left' in told.text
+    assert "humanoid resume" in told.text
+
+
+def test_a_run_under_way_tells_what_it_does_and_its_trouble_so_far():
+    told = why(journal(*FAILS), live=True)
+    assert told.status == "going on"
+    assert "Trouble so far:" in told.text
+    assert 'doing "pick up the red cup" since 35.0 s' in told.text
+    assert "resume" not in told.text
+
+
+def test_a_stop_tells_who_wanted_it_and_how_long_it_took():
+    told = why(
+        journal(
+            *FAILS[:4],
+            (33.0, "stop", {"why": "stopped on request"}),
+            (33.0, "stopping", PICK),
+            (34.5, "stopped", {**PICK, "took_s": 1.5}),
+            (34.5, "step", {"step": "come to a stand", "id": "", "attempt": 0}),
+            (34.8, "done", {"step": "come to a stand", "id": ""}),
+            (34.8, "outcome", {"code": "cancelled", "cause": "stopped on request", "took_s": 33.8}),
+        )
+    )
+    assert told.status == "stopped"
+    assert told.verdict == "Stopped after 33.8 s: stopped on request."
+    assert "It came to rest in 1.8 s." in told.lines
+    assert "come to a stand" not in told.text
+    assert "closing the left fingers, for 3.0 s" in told.text
+
+
+def test_a_failure_from_above_tells_what_it_interrupted_and_what_was_measured():
+    lost = {
+        "code": "localisation_lost",
+        "cause": "no fix for 2.0 s",
+        "evidence": {"fix_age_s": 2.0},
+    }
+    told = why(
+        journal(
+            *FAILS[:4],
+            (31.0, "health", {"name": "localisation", "level": "HOLD", **lost}),
+            (31.0, "hold", {"why": "no fix for 2.0 s"}),
+            (51.0, "abort", lost),
+            (51.0, "stopping", PICK),
+            (51.5, "outcome", {**lost, "took_s": 50.5}),
+        )
+    )
+    assert told.lines[0].startswith("Failed after 50.5 s: no fix for 2.0 s (localisation_lost)")
+    assert "Measured: fix age 2 s." in told.lines
+    assert "     31.0 s  hold: no fix for 2.0 s" in told.lines
+    assert "     31.0 s  it stood still: no fix for 2.0 s" in told.lines
+
+
+def test_of_several_jobs_the_newest_is_explained():
+    first = journal(*FAILS, (50.0, "failure", {**PICK, **MISSED}), job("failed", **MISSED))
+    second = [
+        Event(20, 60.0, "job", {"job": 2, "text": "squat", "state": "running", "urgent": False}),
+        Event(21, 60.0, "step", {"step": "squat", "id": "1", "attempt": 0}),
+        Event(22, 65.0, "done", {"step": "squat", "id": "1"}),
+        Event(23, 65.0, "job", {"job": 2, "text": "squat", "state": "done", "urgent": False}),
+    ]
+    told = why([*first, *second])
+    assert told.status == "done"
+    assert told.text.startswith("Done after 5.0 s.\nAsked for: squat")
+    assert "red cup" not in told.text
+
+
+def test_lost_events_are_told():
+    events = journal(*FAILS)
+    assert "2 events are missing" in why([*events[:4], *events[6:]]).text
+
+
+def test_old_journals_without_ids_and_jobs_are_understood():
+    told = why(
+        journal(
+            RUN,
+            ("step", {"step": "walk"}),
+            ("failure", {"step": "walk", "code": "no_path", "cause": "no way"}),
+            ("recovery", {"step": "walk", "code": "no_path", "remedy": "wait", "count": "1 of 2"}),
+            ("step", {"step": "stand and wait"}),
+            ("done", {"step": "stand and wait"}),
+            ("step", {"step": "walk"}),
+            ("done", {"step": "walk"}),
+            ("outcome", {"code": "done", "took_s": 7.0}),
+        )
+    )
+    assert told.lines[2:] == (
+        "On the way:",
+        '  "walk"',
+        "      3.0 s  no way (no_path)",
+        "             then: wait (1 of 2)",
+        "               stand and wait: done in 1.0 s",
+        "      8.0 s  done",
+    )
+
+
+EVENTS = st.builds(
+    Event,
+    st.integers(0, 50),
+    st.floats(0, 100),
+    st.sampled_from(
+        ["run", "job", "step", "phase", "done", "failure", "recovery", "no recovery", "hold",
+         "abort", "stopping", "stopped", "health", "fault", "outcome", "pause", "said", "new"]
+    ),
+    st.dictionaries(
+        st.sampled_from(["step", "id", "code", "cause", "state", "job", "fault", "evidence"]),
+        st.sampled_from(["a", "b", "1", "1+1", "done", "failed", "running", 1, {"x_m": 1.0}, None]),
+    ),
+)  # fmt: skip
+
+
+@given(st.lists(EVENTS, max_size=30), st.booleans())
+def test_no_journal_breaks_it(events, live):
+    told = why(events, live=live)
+    assert told.verdict
+    assert told.lines[0] == told.verdict
+
+
+@pytest.mark.parametrize(
+    ("measured", "said"),
+    [
+        ({"gap_m": 0.0012}, "gap 0.0012 m"),
+        ({"temperature_c": 81.26}, "temperature 81.3 °C"),
+        ({"blocker": "chair", "replans": 3}, "blocker chair, replans 3"),
+        ({"m": 2.0}, "m 2"),
+        ({"ok": True}, "ok True"),
+    ],
+)
+def test_measurements_are_told_with_their_units(measured, said):
+    assert wording.evidence(measured) == said

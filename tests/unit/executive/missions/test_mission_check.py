@@ -1,0 +1,370 @@
+"""Mission files: everything that is wrong is found at once, and hostile files are refused fast."""
+
+from __future__ import annotations
+
+import json
+import time
+
+import jsonschema
+import pytest
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from ruamel.yaml import YAML
+
+from executive.frontends.missions import commands
+from executive.missions import nodes
+from executive.missions.check import Options, check
+from executive.missions.load import FOLDER, shipped
+from executive.missions.plan import forecast
+from executive.missions.template import template
+from executive.skills.parameters import NavigateParams, PickParams, SayParams, WaitParams
+from executive.trees import parts as p
+from robot.errors import ConfigError
+from tests.fakes.missions import known_settings  # noqa: F401, a fixture
+
+SECOND = 1.0
+
+
+@pytest.fixture
+def write(tmp_path):
+    def _write(text: str, name: str = "it.yaml"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return _write
+
+
+def mission(steps: str, more: str = "") -> str:
+    return f"name: it\n{more}steps:\n{steps}"
+
+
+def leaves(part: p.Part) -> list[p.Part]:
+    return [node for _, node in p.walk(part) if isinstance(node, p.Leaf)]
+
+
+def problems(path, **options) -> list[str]:
+    with pytest.raises(ConfigError) as error:
+        check(path, Options(**options))
+    return [str(problem).removeprefix(str(path)) for problem in error.value.problems]
+
+
+# --- what is well -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", shipped(), ids=lambda path: path.stem)
+def test_shipped_missions_are_well_and_name_their_schema(path):
+    assert check(path).task
+    text = path.read_text()
+    assert text.startswith("# yaml-language-server: $schema=mission.schema.json\n")
+    schema = json.loads((FOLDER / "mission.schema.json").read_text())
+    jsonschema.validate(YAML(typ="safe", pure=True).load(text), schema)
+
+
+def test_there_are_at_least_eight():
+    assert len(shipped()) >= 8
+
+
+def test_the_published_schema_is_current():
+    cure = "run: humanoid mission schema -o missions/mission.schema.json"
+    assert (FOLDER / "mission.schema.json").read_text() == commands.schema_text(), cure
+
+
+def test_a_new_mission_is_well(write):
+    assert check(write(template("my mission", file="it.yaml", schema="x"))).task
+
+
+def test_parameters_are_filled_in_with_their_types(write):
+    path = write(
+        mission(
+            """  - "pick up the {{thing}}"
+  - wait: "{{span}}"
+  - say: "{{words}} {{span}}"
+  - repeat: "{{count}}"
+    do: [{go_to: "{{where}}"}]
+""",
+            """parameters:
+  thing: {type: object, default: red cup}
+  span: {type: number, default: 1.5}
+  words: {type: text, default: "a {{b}} c"}
+  count: {type: integer, default: 2}
+  where: {type: place, default: table}
+""",
+        )
+    )
+    pick, wait, say, walk = [leaf.params for leaf in leaves(check(path).task)]
+    assert pick == PickParams(object_id="red_cup")
+    assert wait == WaitParams(duration_s=1.5)
+    assert say == SayParams(text="a {{b}} c 1.5")  # a value is a value, not a text to fill in
+    assert walk == NavigateParams(place_id="table")
+    changed = check(path, Options(params={"thing": "blue cup", "count": "3"}))
+    assert leaves(changed.task)[0].params == PickParams(object_id="blue_cup")
+
+
+def test_a_parameter_cannot_turn_a_sentence_into_another(write):
+    path = write(
+        mission(
+            '  - "pick up the {{thing}}"\n  - "go to the {{words}}"\n',
+            "parameters:\n  thing: {type: object}\n  words: {type: text, default: table}\n",
+        )
+    )
+    found = problems(path, params={"thing": "red cup and then go to the table"})
+    assert any("no object 'red cup and then go to the table'" in text for text in found)
+    assert any("only names and numbers may stand" in text for text in found)
+
+
+def test_missions_call_missions_with_arguments(write):
+    write(
+        'name: inner\nparameters: {what: {type: object}}\nsteps: [{pick: "{{what}}"}]\n',
+        "inner.yaml",
+    )
+    path = write(mission("  - {mission: inner, with: {what: blue cup}}\n"))
+    assert leaves(check(path).task)[0].params == PickParams(object_id="blue_cup")
+
+
+def test_steps_know_what_the_hands_hold_by_then(write):
+    path = write(mission("  - pick: red cup\n  - place: {object: it, on: table}\n"))
+    assert [type(leaf.params).__name__ for leaf in leaves(check(path).task)] == [
+        "PickParams",
+        "PlaceParams",
+    ]
+    path = write(mission("  - repeat: 2\n    do: [pick: red cup, pick: blue cup, pick: bottle]\n"))
+    assert problems(path) == [
+        ":4:41: both hands are full by then, with the red cup and the blue cup "
+        "(put something down first)"
+    ]
+
+
+def test_the_plan_names_every_step_and_a_time(write):
+    checked = check(FOLDER / "patrol.yaml")
+    plan = forecast(checked.task, checked.where)
+    assert plan.total_s > 10.0
+    assert plan.problems == 0
+    assert [row.path for row in plan.rows if row.kind == "step"][:2] == ["1#1.1.1.1", "1#1.1.1.2"]
+
+
+# --- what is wrong ------------------------------------------------------------------------------
+
+WRONG = [
+    ("  - pik: red cup\n", ":3:5: there is no step 'pik' (did you mean 'pick'?)"),
+    ("  - pick: red cupp\n", "no object 'red cupp' in this world (did you mean 'red cup'?)"),
+    ("  - go_to: {plcae: table}\n", ":3:13: unknown key 'plcae' (did you mean 'place'?)"),
+    ("  - go_to: tabel\n", ":3:12: there is no place 'tabel' in this world (did you"),
+    ("  - say: x\n    on_fail: {no_pth: [say: y]}\n", "failure code 'no_pth' (did you mean"),
+    ("  - say: x\n    on_fail: {cancelled: [say: y]}\n", "no failure code 'cancelled'"),
+    ('  - say: "{{wrods}}"\n', "there is no parameter 'wrods' here"),
+    ("  - say: {{words}}\n", 'a parameter stands in quotes: "{{name}}"'),
+    ("  - frobnicate the cup\n", "this sentence was not understood"),
+    ("  - pick: cup\n", "'cup' is not clear (Which cup"),
+    ("  - wait: long\n", ":3:11:"),
+    ("  - wait: -1\n", "duration_s must be 0 to"),
+    ("  - balance: {mode: stand, duration_s: soon}\n", ":3:40:"),
+    ("  - say: x\n    retry: 1000\n", "retry 1000: 1 to 100 are possible"),
+    ("  - say: x\n    timeout_s: 0\n", "should be more than 0 s"),
+    ("  - {repeat: 2}\n", "the key 'do' is missing"),
+    ("  - {say: x, pick: red cup}\n", "a step does one thing: 'pick'"),
+    ("  - {}\n", "this step does nothing"),
+    ("  - [say: x]\n", "a list where a step should be"),
+    ("  - 7\n", "not understood"),
+    ("  - mission: nowhere\n", "there is no such file"),
+    ("  - mission: it\n", "this mission calls itself: it.yaml > it.yaml"),
+    ("  - parallel: [go_to: table, pick: red cup]\n", "both need"),
+    ("  - parallel: [go_to: table]\n", "at least 2"),
+    ("  - if: {seen: red cup, holding: true}\n    then: [say: x]\n", "exactly one of"),
+    ("  - if: pigs fly\n    then: [say: x]\n", "not understood"),
+    ("  - while: {holding: true}\n    do: [say: x]\n", "the key 'at_most' is missing"),
+    ("  - for_each: X\n    in: [red cup]\n    do: [say: x]\n", "'X' is no name"),
+    ("  - for_each: x\n    in: [red cupp]\n    do: [say: x]\n", "did you mean 'red cup'"),
+    ("  - place: {object: red cup, on: kitchen}\n", "nothing can be put down"),
+    ("  - go_to: {pose: {x_m: 99, y_m: 0}}\n", "outside this world"),
+    ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: '.inf' where a number should be"),
+    ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "beyond anything"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("steps", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_a_mistake_is_named_with_its_place_and_cure(steps, words, write):
+    found = problems(write(mission(steps)))
+    assert any(words in text for text in found), found
+    assert all(text.startswith(":") for text in found)  # line and column
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("world: kitchn\n", ":2:8: unknown world"),
+        ("limits: {duration_s: -1}\n", "should be more than 0"),
+        ("limit: {duration_s: 1}\n", "did you mean 'limits'?"),
+        ("parameters: {x: {type: objct}}\n", "did you mean 'object'?"),
+        ("parameters: {x: {type: object, default: cupboard}}\n", ":2:41:"),
+        ("parameters: {x: {type: integer, default: 1.5}}\n", "should be an integer"),
+        ("parameters: {x: {type: place}}\n", "has no value"),
+        ("expect: [the moon is on the table]\n", ":2:10:"),
+        ("faults: [{fault: psh}]\n", "did you mean 'push'?"),
+        ("name: again\n", "stands here twice"),
+    ],
+)
+def test_mistakes_around_the_steps(more, words, write):
+    found = problems(write(mission("  - say: hello\n", more)))
+    assert any(words in text for text in found), found
+
+
+def test_all_mistakes_are_found_at_once(write):
+    text = mission("".join(steps for steps, _ in WRONG if "{{words}}" not in steps))
+    found = problems(write(text))
+    assert len(found) >= len(WRONG) - 5
+    assert found == sorted(found, key=lambda text: [int(n) for n in text.split(":")[1:3]])
+
+
+def test_a_step_to_begin_at_has_to_be_there(write):
+    path = write(mission("  - say: a\n  - repeat: 2\n    do: [say: b, say: c]\n"))
+    assert check(path, Options(first="2#2.1")).done == {"1/", "2#1/", "2#2?"}
+    assert problems(path, first="2#3.1") == [
+        "--from: there is no step '2#3.1' in this mission (did you mean '2#1.1'?)"
+    ]
+
+
+def test_params_have_to_be_known_and_right(write):
+    path = write(mission("  - say: a\n", "parameters: {x: {type: integer, default: 1}}\n"))
+    assert "did you mean 'x'" in problems(path, params={"xx": "1"})[0]
+    assert problems(path, params={"x": "many"})[0].startswith("--param x: the parameter 'x'")
+
+
+# --- what is hostile ----------------------------------------------------------------------------
+
+BOMB = "a: &a [x, x]\n" + "".join(
+    f"{b}: &{b} [*{a}, *{a}, *{a}, *{a}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
+)
+HOSTILE = {
+    "nothing": "",
+    "comment": "# nothing\n",
+    "a bomb of aliases": BOMB,
+    "a merge": "name: &x it\nsteps: [<<: *x]\n",
+    "10,000 levels": "name: x\nsteps:\n- " + "{do: [" * 10_000,
+    "10,000 lists": "[" * 10_000,
+    "10,000 dashes": "- " * 10_000,
+    "500,000 values": "name: x\nsteps: [" + "a," * 500_000 + "]",
+    "a long key": "name: x\n" + "k" * 500_000 + ": 1\nsteps: [say: x]\n",
+    "a long text": "name: x\nsteps:\n  - " + "walk " * 100_000,
+    "objects": "name: !!python/object/apply:os.system [x]\nsteps: []\n",
+    "control characters": "name: \x00\x01\n",
+    "many mistakes": "name: x\nsteps:\n" + "  - jump: high\n" * 20_000,
+    "10,000 sentences": "name: x\nsteps:\n"
+    + "".join(f"  - go {n} metres forward\n" for n in range(10_000)),
+    "rounds of rounds": "name: x\nsteps:\n- repeat: 1000\n  do:\n  - repeat: 1000\n"
+    "    do:\n    - repeat: 1000\n      do: [say: x, say: y]\n",
+    "each of each": "name: x\nsteps:\n" + "".join(
+        f"{'    ' * n}- for_each: x{n}\n{'    ' * n}  in: [{', '.join(['table'] * 50)}]\n"
+        f"{'    ' * n}  do:\n" for n in range(5)) + " " * 20 + "- say: x\n",
+}  # fmt: skip
+
+
+def cpu_s(work) -> float:
+    begun_s = time.process_time()
+    work()
+    return time.process_time() - begun_s
+
+
+@pytest.mark.parametrize("name", [n for n in HOSTILE if n not in ("rounds of rounds",)])
+def test_hostile_files_are_refused_whole_and_fast(name, write):
+    path = write(HOSTILE[name])
+    check(shipped()[0])  # what is built once a process is built
+    found: list[str] = []
+    assert cpu_s(lambda: found.extend(problems(path))) < 3.0 * SECOND  # the machine is shared
+    assert 1 <= len(found) <= 100
+    assert all(len(text) < 600_000 for text in found)
+
+
+def test_rounds_of_rounds_are_no_steps(write):
+    assert check(write(HOSTILE["rounds of rounds"])).task  # built as they come, round by round
+
+
+def test_a_file_of_100_mb_is_not_read(tmp_path):
+    path = tmp_path / "big.yaml"
+    with path.open("wb") as file:
+        file.truncate(100_000_000)
+    assert cpu_s(lambda: problems(path)) < SECOND
+    assert "larger than 2 MB" in problems(path)[0]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"\xff\xfen\x00a\x00", "no UTF-8"),
+        (b"name: it\nabout: caf\xe9\nsteps: [say: x]\n", "2:11: this is no UTF-8"),
+        (bytes(range(256)), "no UTF-8"),
+        (b"name: \x07\n", "control characters"),
+    ],
+)
+def test_what_is_no_text_is_refused(data, words, tmp_path):
+    path = tmp_path / "it.yaml"
+    path.write_bytes(data)
+    assert words in problems(path)[0]
+
+
+def test_folders_pipes_and_devices_are_refused(tmp_path):
+    for path in (tmp_path, "/dev/zero"):
+        with pytest.raises(ConfigError, match="no ordinary file"):
+            nodes.read_text(path)
+
+
+def test_10_000_steps_are_checked_in_a_second(write):
+    goals = ["{pick: red cup}", "{place: {object: it, on: table}}", "{say: hello}",
+             "walk to the table", "{go_to: {place: counter}, retry: 1}"]  # fmt: skip
+    path = write(mission("".join(f"  - {step}\n" for step in goals * 2000)))
+    check(path)
+    spans_s = [cpu_s(lambda: check(path)) for _ in range(3)]
+    assert len(leaves(check(path).task)) == 10_000
+    assert min(spans_s) < 2.0 * SECOND  # 0.6 s on a quiet machine (docs/missions.md)
+
+
+SAMPLES = [path.read_text() for path in shipped()]
+PIECES = ["{", "}", "[", "]", ":", "- ", "\n", "  ", '"', "'", "{{x}}", "&a ", "*a", "!!int ", "\t",
+          "steps:", "do:", "pick: ", "retry: -1", "null", "1e999", "#", "|", ">", "? ", "\x85", "é",
+          "mission: bring", "for_each: x", "parallel:", "not:", "---\n", "%YAML 9\n"]  # fmt: skip
+
+
+@settings(
+    max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(data=st.data())
+def test_mutated_missions_are_checked_or_refused_but_never_break(data, tmp_path):
+    text = data.draw(st.sampled_from(SAMPLES))
+    for _ in range(data.draw(st.integers(1, 4))):
+        start = data.draw(st.integers(0, len(text)))
+        end = min(len(text), start + data.draw(st.sampled_from([0, 1, 3, 10, 40])))
+        text = text[:start] + data.draw(st.sampled_from(PIECES)) + text[end:]
+    path = tmp_path / "it.yaml"
+    path.write_text(text, encoding="utf-8")
+    try:
+        check(path)
+    except ConfigError as error:
+        assert error.problems
+        assert all(problem.message for problem in error.problems)
+
+
+@settings(
+    max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(
+    data=st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8),
+        lambda inner: (
+            st.lists(inner, max_size=3)
+            | st.dictionaries(
+                st.sampled_from(["do", "pick", "if", "then", "retry", "say", "on_fail", "any", "x",
+                                 "parallel", "repeat", "at_most", "while", "name", "object"]),
+                inner, max_size=4,
+            )
+        ),
+        max_leaves=12,
+    )
+)  # fmt: skip
+def test_any_data_for_steps_is_checked_or_refused(data, tmp_path):
+    path = tmp_path / "it.yaml"
+    path.write_text(yaml.safe_dump({"name": "it", "steps": data}), encoding="utf-8")
+    try:
+        check(path)
+    except ConfigError as error:
+        assert error.problems
