@@ -7,6 +7,7 @@ out by the planners. Below it stand the limits in the controller.
 from __future__ import annotations
 
 from executive.meaning.knowledge import Knowledge, full_name
+from executive.skills.ability import unable
 from executive.skills.parameters import (
     BalanceParams,
     NavigateParams,
@@ -18,21 +19,15 @@ from executive.trees.parts import Part, errands
 from robot.errors import Failure, failure
 from robot.model.description import RobotDescription
 
-FINGER_MARGIN_M = 0.01
-MAX_LIFT_KG = 1.0
-ARM_REACH_M = 0.50
-SQUAT_M = 0.15
-MAX_ONE_LEG_S = 60.0
+FINGER_MARGIN_M = 0.01  # objects are never quite as wide as the map says
 
 
 def check(part: Part, knowledge: Knowledge, description: RobotDescription) -> Failure | None:
-    """The first thing in a task that this robot cannot do, or None.
-
-    The reach is that of a hand from a shoulder, by `ARM_REACH_M`, from `SQUAT_M` lower at best.
-    """
+    """The first thing in a task that this robot cannot do, or None."""
     for errand in errands(part):
         if isinstance(errand.params, Parameters):
-            refusal = _check(errand.params, knowledge, description)
+            refusal = unable(errand.params, description)
+            refusal = refusal or _check(errand.params, knowledge, description)
             if refusal is not None:
                 return refusal
     return None
@@ -48,7 +43,7 @@ def _check(
     if isinstance(params, NavigateParams):
         return _check_walk(params, knowledge)
     if isinstance(params, BalanceParams) and params.mode == "one_leg":
-        return _check_one_leg(params)
+        return _check_one_leg(params, description)
     return None
 
 
@@ -63,8 +58,9 @@ def _check_pick(
     if width_m > opening_m:
         text = f"{full_name(info)} is {width_m * 100:.0f} cm wide, the hand opens to hold "
         return failure("no_grasp", f"{text}{opening_m * 100:.0f} cm", width_m=width_m)
-    if info.mass_kg > MAX_LIFT_KG:
-        text = f"{full_name(info)} weighs {info.mass_kg:g} kg, a hand carries {MAX_LIFT_KG:g} kg"
+    most_kg = description.arms.max_lift_kg
+    if info.mass_kg > most_kg:
+        text = f"{full_name(info)} weighs {info.mass_kg:g} kg, a hand carries {most_kg:g} kg"
         return failure("invalid_goal", text, suggestion="name something lighter")
     return None
 
@@ -78,8 +74,10 @@ def _check_place(
     X = params.X_WO or (place.X_WP if place else None)
     if X is None:
         return None
-    lowest_m = description.shoulder_height_m - ARM_REACH_M - SQUAT_M
-    highest_m = description.shoulder_height_m + ARM_REACH_M
+    # A stretched arm from the shoulder; lower by as much as the legs let the shoulder down.
+    squat_m = description.walking.base_height_m - description.balance.lowest_base_m
+    lowest_m = description.shoulder_height_m - description.arm_reach_m - squat_m
+    highest_m = description.shoulder_height_m + description.arm_reach_m
     if lowest_m <= X.p[2] <= highest_m:
         return None
     name = f"the {place.name}" if place else "that spot"
@@ -99,8 +97,9 @@ def _check_walk(params: NavigateParams, knowledge: Knowledge) -> Failure | None:
     return failure("invalid_goal", text, suggestion=bounds)
 
 
-def _check_one_leg(params: BalanceParams) -> Failure | None:
-    if params.duration_s <= MAX_ONE_LEG_S:
+def _check_one_leg(params: BalanceParams, description: RobotDescription) -> Failure | None:
+    most_s = description.balance.max_one_leg_s
+    if params.duration_s <= most_s:
         return None
-    text = f"{params.duration_s:g} s on one leg is too long: at most {MAX_ONE_LEG_S:g} s"
+    text = f"{params.duration_s:g} s on one leg is too long: at most {most_s:g} s"
     return failure("invalid_goal", text)

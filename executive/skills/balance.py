@@ -12,12 +12,6 @@ from executive.skills.motions.walk import stand_still
 from executive.skills.parameters import BalanceParams
 from robot.messages import OneLeg, Side
 
-SQUAT = 0.75
-"""Base height of a squat as a part of the nominal one."""
-
-LEAN_RAD = 0.35
-LEAN_BACK_RAD = -0.2
-TURN_RAD = 0.5
 SHIFT_S = 8.0
 STANDING = ("stand", "get_up", "hold")
 PUSHED_M_S = 0.15
@@ -44,8 +38,7 @@ class Balance(ScriptedSkill):
             return
         body.phase = "standing" if wanted.mode in STANDING else f"going to {wanted.mode}"
         if wanted.mode == "squat":
-            height_m = SQUAT * body.description.walking.base_height_m
-            yield from stand_still(body, height_m=height_m)
+            yield from stand_still(body, height_m=body.description.balance.squat_base_m)
         elif wanted.mode == "lean":
             yield from self._lean()
         else:
@@ -61,11 +54,13 @@ class Balance(ScriptedSkill):
         return replace(self.parameters, duration_s=left_s)
 
     def _lean(self) -> Script[None]:
-        side = self.parameters.side or "forward"
+        side, balance = self.parameters.side or "forward", self.body.description.balance
         if side in ("left", "right"):
-            yield from stand_still(self.body, yaw_rad=TURN_RAD if side == "left" else -TURN_RAD)
+            turn_rad = balance.turn_rad if side == "left" else -balance.turn_rad
+            yield from stand_still(self.body, yaw_rad=turn_rad)
         else:
-            pitch_rad = LEAN_RAD if side == "forward" else LEAN_BACK_RAD
+            forward = side == "forward"
+            pitch_rad = balance.lean_forward_rad if forward else balance.lean_back_rad
             yield from stand_still(self.body, pitch_rad=pitch_rad)
 
     def _hold(self) -> Script[None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from executive.skills.ability import Refused, unable
 from executive.skills.balance import Balance
 from executive.skills.context import SkillContext
 from executive.skills.follow import Follow
@@ -34,7 +35,17 @@ from executive.skills.wait import Wait
 
 
 def make(parameters: SkillParams, context: SkillContext) -> Skill:
-    """The skill for these parameters; made for one goal, used once."""
+    """The skill for these parameters; made for one goal, used once.
+
+    What the body cannot do whatever the world is like is refused at once.
+    """
+    refusal = unable(parameters, context.description)
+    if refusal is not None:
+        return Refused(refusal)
+    return _make(parameters, context)
+
+
+def _make(parameters: SkillParams, context: SkillContext) -> Skill:
     match parameters:
         case NavigateParams():
             return Navigate(parameters, context)

@@ -149,7 +149,7 @@ class Pick(ScriptedSkill):
         gap_m = yield from close_fingers(body, side)
         self._X_WG_closed = body.X_WG(side)
         X_GO = centred(body.X_WG(side).inverse() @ last_seen(body, info, X_WO))
-        check_gap(info, plan, gap_m)
+        check_gap(body, info, plan, gap_m)
         body.context.holdings.take(
             Held(
                 object_id=info.id,

@@ -150,9 +150,10 @@ class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A humanoid: joint groups, limits, feet, hands, sensors, postures.
 
-    What is left out and 0 here is measured at its model when it is loaded: the height of the
-    shoulders above the floor, standing; the length of a stretched arm from the shoulder to the
-    grasp point; the radius of the circle about the feet that holds the body and its arms.
+    What is left out and 0 here is measured at its model when it is loaded: height of the shoulders
+    above the floor, standing, and their distance from the middle; length of a stretched arm, from
+    the shoulder to the grasp point; radius of the circle about the feet that holds the body and its
+    arms.
     """
 
     name: str
@@ -170,6 +171,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     gaze: Gaze
     postures: dict[str, dict[str, float]]
     shoulder_height_m: float = 0.0
+    shoulder_aside_m: float = 0.0
     arm_reach_m: float = 0.0
     body_radius_m: float = 0.0
     heating: Heating
@@ -276,6 +278,7 @@ def _measured(description: RobotDescription) -> RobotDescription:
         return description  # a name is not in the MJCF: BodyModel says which, with all others
     return msgspec.structs.replace(
         description,
+        shoulder_aside_m=description.shoulder_aside_m or found.shoulder_aside_m,
         shoulder_height_m=description.shoulder_height_m or found.shoulder_height_m,
         arm_reach_m=description.arm_reach_m or found.arm_reach_m,
         body_radius_m=description.body_radius_m or found.body_radius_m,

@@ -24,6 +24,7 @@ class Measures(msgspec.Struct, frozen=True):
     """Sizes of a standing robot [m], see `RobotDescription`."""
 
     shoulder_height_m: float
+    shoulder_aside_m: float
     arm_reach_m: float
     body_radius_m: float
 
@@ -45,10 +46,11 @@ def measure(
         data.qpos[model.joint(name).qposadr[0]] = value
     mujoco.mj_kinematics(model, data)
     feet = np.array([data.site(sole).xpos for sole in soles])
-    shoulders = [float(data.joint(arm.joints[0]).xanchor[2]) for arm in arms]
-    floor_m = float(feet[:, 2].min())
+    anchors = [data.joint(arm.joints[:2][-1]).xanchor for arm in arms] or [np.zeros(3)]
+    shoulders = np.abs(np.array(anchors) - feet.min(axis=0) * (0.0, 0.0, 1.0)).mean(axis=0)
     return Measures(
-        shoulder_height_m=sum(shoulders) / len(shoulders) - floor_m if arms else 0.0,
+        shoulder_height_m=float(shoulders[2]),
+        shoulder_aside_m=float(shoulders[1]),
         arm_reach_m=min((_length_m(data, arm) for arm in arms), default=0.0),
         body_radius_m=_radius_m(model, data, feet.mean(axis=0)[:2]),
     )

@@ -32,7 +32,8 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
         )
     others = tuple(s for s in solids_of(around) if s.id != thing.id)
     floor = Floor(others, around.map.bounds_m)
-    sides: tuple[Side, ...] = (request.side,) if request.side else ("left", "right")
+    hands = body.description.hands
+    sides: tuple[Side, ...] = (request.side,) if request.side else tuple(sorted(hands))
     robot = body.description
     options = pick_options(
         thing.shape, thing.X_WO, hand=robot.hands[sides[0]], gripping=robot.handy.gripping
