@@ -293,9 +293,9 @@ def _walk_words(walked: steady_walk.Walked, past_s: float, wall_s: float) -> lis
     return lines
 
 
-def doctor(*, as_json: bool) -> int:
+def doctor(*, robot: str, as_json: bool) -> int:
     """Examine the machine; returns the exit status, 2 if something needed is missing."""
-    findings = examination.examine()
+    findings = examination.examine(robot=robot)
     status = INVALID if any(finding.verdict == "missing" for finding in findings) else DONE
     if as_json:
         echo_json(findings)
