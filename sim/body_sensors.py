@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import MotorState
 from robot.errors import DescriptionError, Problem
+from robot.model.body import SIDES
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.motors import Motors
@@ -44,6 +45,7 @@ class BodySensors:
         self._qpos, self._qvel = data.qpos, data.qvel
         self._force, self._sensordata = data.actuator_force, data.sensordata
         self._addresses = _addresses(model, description)
+        self._wrists = [row for row, side in enumerate(SIDES) if side in description.hands]
         self._sigma = _sigma(model, description, motors)
         self._truth: Array = np.empty(len(self._sigma))
         n = motors.count
@@ -65,6 +67,8 @@ class BodySensors:
         np.negative(self._wrenches, out=self._wrenches)  # MuJoCo's wrench: parent on child
         values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
         rest = values[3 * n :]
+        wrists = np.zeros((2, 6))
+        wrists[self._wrists] = rest[18:].reshape(-1, 6)
         state = MotorState(
             stamp_s=stamp_s,
             q=values[:n],
@@ -76,7 +80,7 @@ class BodySensors:
             command_stamp_s=motors.command_stamp_s,
         )
         imu = ImuReading(stamp_s, rest[:3], rest[3:6])
-        force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), rest[18:30].reshape(2, 6))
+        force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), wrists)
         return BodySample(state, imu, force)
 
     def _next_noise(self, rng: np.random.Generator) -> Array:
@@ -89,12 +93,14 @@ class BodySensors:
 
 
 def _addresses(model: mujoco.MjModel, description: RobotDescription) -> NDArray[np.int64]:
-    """Indices into sensordata of gyro, accelerometer, then wrenches left, right; 30 of them."""
+    """Indices into sensordata: gyro, accelerometer, wrenches of ankles, of wrists with hands."""
     imu = description.sensors.imu
     names = [imu.gyro, imu.accelerometer]
-    for limbs in (description.feet, description.hands):
-        for side in ("left", "right"):
-            names += [limbs[side].force_sensor, limbs[side].torque_sensor]
+    hands = description.hands
+    for side in SIDES:
+        names += [description.feet[side].force_sensor, description.feet[side].torque_sensor]
+    for hand in [hands[side] for side in SIDES if side in hands]:
+        names += [hand.force_sensor, hand.torque_sensor]
     known = [model.sensor(index).name for index in range(model.nsensor)]
     problems = [
         Problem(f"sensor {name!r} is not in the MJCF", str(description.mjcf_path()))
@@ -121,6 +127,6 @@ def _sigma(model: mujoco.MjModel, description: RobotDescription, motors: Motors)
             motors.limit_nm * TORQUE_SHARE,
             [sensors.imu.gyro_noise_rad_s] * 3,
             [sensors.imu.accel_noise_m_s2] * 3,
-            wrench * 4,
+            wrench * (2 + len(description.hands)),
         ]
     )

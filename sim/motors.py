@@ -22,11 +22,6 @@ from robot.se3 import Array
 
 WATCHDOG_S = 0.020
 AMBIENT_C = 25.0
-# Winding temperature, first order. Design values of this plant, not of a datasheet: a motor that
-# gives CONTINUOUS of its peak torque for ever ends up RISE_K above the ambient air.
-RISE_K = 75.0
-CONTINUOUS = 0.4
-TIME_CONSTANT_S = 240.0
 HEAT_PERIOD_S = 0.05
 # What fits into a command packet; what is past it is sent as the nearest value that fits.
 MAX_Q_RAD = 12.5
@@ -89,6 +84,7 @@ class Motors:
         self.qd_index = model.jnt_dofadr[joints].copy()
         self.limit_nm: Array = np.array([motor.torque_limit_nm for motor in motors])
         self.temperature_c: Array = np.full(self.count, AMBIENT_C)
+        self._heating = description.heating
         self.command_stamp_s = -np.inf
         self.watchdog = True
         self._off: list[int] = []
@@ -158,9 +154,10 @@ class Motors:
 
     def heat(self, duration_s: float) -> None:
         """Let the windings take the losses of the last torques for `duration_s`."""
-        load = self._force / (CONTINUOUS * self.limit_nm)
-        target_c = AMBIENT_C + RISE_K * load * load
-        share = 1.0 - np.exp(-duration_s / TIME_CONSTANT_S)
+        heating = self._heating
+        load = self._force / (heating.continuous_share * self.limit_nm)
+        target_c = AMBIENT_C + heating.rise_k * load * load
+        share = 1.0 - np.exp(-duration_s / heating.time_constant_s)
         self.temperature_c += share * (target_c - self.temperature_c)
 
     def _apply(self) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import mujoco
 
+from robot.model import mjcf
 from robot.model.description import RobotDescription
 from sim import atlas, bodies, motors, placing
 from sim.paint import Paint
@@ -24,7 +25,7 @@ def compile_scene(
     Raises:
         DescriptionError: if the robot's description and its MJCF disagree.
     """
-    spec = mujoco.MjSpec.from_file(str(description.mjcf_path()))
+    spec = mjcf.spec(description.source)
     motors.install(spec, description)
     for key in list(spec.keys):
         spec.delete(key)

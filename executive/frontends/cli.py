@@ -180,11 +180,14 @@ def view(
 
 
 @app.command()
-def doctor(*, as_json: AsJson = False) -> None:
-    """Say what is there on this machine and what is missing, each with its cure."""
+def doctor(*, robot: Robot = "juno", as_json: AsJson = False) -> None:
+    """Say what is there on this machine and what is missing, each with its cure.
+
+    With a robot: whether its description, its model and its body fit each other.
+    """
     from executive.frontends.doctor import doctor
 
-    raise typer.Exit(doctor(as_json=as_json))
+    raise typer.Exit(doctor(robot=robot, as_json=as_json))
 
 
 @app.command()

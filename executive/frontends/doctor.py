@@ -43,9 +43,9 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True):
     cure: str = ""
 
 
-def doctor(*, as_json: bool) -> int:
+def doctor(*, robot: str = "juno", as_json: bool) -> int:
     """Examine the machine; returns the exit status, 2 if something needed is missing."""
-    findings = examine()
+    findings = examine(robot=robot)
     missing = any(finding.verdict == "missing" for finding in findings)
     status = ExitStatus.INVALID if missing else ExitStatus.DONE
     if as_json:
@@ -62,11 +62,11 @@ def doctor(*, as_json: bool) -> int:
     return status
 
 
-def examine(run_folder: Path = Path()) -> list[Finding]:
+def examine(run_folder: Path = Path(), *, robot: str = "juno") -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
-        _python, _libraries, _robot, _worlds, _egl, _display, _cores, _shared_memory, _microphone,
-        _voice,
+        _python, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores, _shared_memory,
+        _microphone, _voice,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -97,17 +97,25 @@ def _libraries() -> Finding:
     return Finding(name="libraries", verdict="ok", text=f"all {len(LIBRARIES)}; mujoco {mujoco}")
 
 
-def _robot() -> Finding:
-    from robot.model.body import BodyModel
+def _robot(name: str) -> Finding:
+    """Whether a robot can be used: all that it names is there, and what it says fits its body."""
     from robot.model.description import load
+    from robot.planning.fit import misfits
 
     try:
-        body = BodyModel(load())
+        body = load(name)
+        wrong = misfits(body)
     except RobotError as error:
-        return Finding(
-            name="robot", verdict="missing", text=str(error), cure="install the package again"
-        )
-    return Finding(name="robot", verdict="ok", text=f"juno, {body.count} motors")
+        cure = "install the package again" if name == "juno" else "see docs/robots.md"
+        return Finding(name="robot", verdict="missing", text=str(error), cure=cure)
+    if wrong:
+        cure = "correct the description; see docs/robots.md"
+        return Finding(name="robot", verdict="missing", text="; ".join(wrong), cure=cure)
+    lacks = [
+        part for part, there in (("neck", body.groups["head"]), ("hands", body.hands)) if not there
+    ]
+    text = f"{body.name}, {len(body.motors)} motors" + "".join(f", no {part}" for part in lacks)
+    return Finding(name="robot", verdict="ok", text=text)
 
 
 def _worlds() -> Finding:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.skills.catalogue import skill_of
+from executive.skills.catalogue import skill_of, unable
 from executive.skills.parameters import SkillParams
 from executive.trees.parts import Part, errands
 from robot.errors import Failure
@@ -15,7 +15,8 @@ def check(part: Part, world_map: WorldMap, robot: RobotDescription) -> Failure |
     for errand in errands(part):
         params = errand.params
         if isinstance(params, SkillParams):
-            refusal = skill_of(params).refusal(params, world_map, robot)
+            refusal = unable(params, robot)
+            refusal = refusal or skill_of(params).refusal(params, world_map, robot)
             if refusal is not None:
                 return refusal
     return None

@@ -18,6 +18,7 @@ from executive.skills.motions.standpoints import ROOM_M, stances_at
 from executive.skills.motions.walk import CLEARANCE_M
 from robot.errors import Failure
 from robot.messages import Place, Side, WorldMap
+from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
@@ -40,6 +41,11 @@ class Rehearsal:
     def X_WS(self) -> SE3:
         """Where the robot stands."""
         return self._stance
+
+    @property
+    def robot(self) -> RobotDescription:
+        """Who does it."""
+        return self._where.description
 
     @property
     def map(self) -> WorldMap:

@@ -36,12 +36,10 @@ class Origin(msgspec.Struct, frozen=True, kw_only=True):
 
 def of(world: Any, robot: RobotDescription) -> Origin:
     """The origin of a run that starts now."""
-    placeless = msgspec.structs.replace(robot, folder="")
-    body = msgspec.json.encode(placeless) + robot.mjcf_path().read_bytes()
     return Origin(
         software=software(),
         world=_digest(msgspec.json.encode(world, enc_hook=repr)),
-        robot=_digest(body),
+        robot=robot.digest().hex()[:16],
         versions=versions(),
     )
 

@@ -19,14 +19,7 @@ from robot.model.description import RobotDescription
 
 BalanceMode = Literal["stand", "get_up", "squat", "one_leg", "lean", "hold"]
 
-SQUAT = 0.75
-"""Base height of a squat as a part of the nominal one."""
-
-LEAN_RAD = 0.35
-LEAN_BACK_RAD = -0.2
-TURN_RAD = 0.5
 SHIFT_S = 8.0
-MAX_ONE_LEG_S = 60.0
 STANDING = ("stand", "get_up", "hold")
 PUSHED_M_S = 0.15
 THERE_AND_BACK_S: dict[BalanceMode, float] = {
@@ -61,13 +54,22 @@ class Balance(ScriptedSkill[BalanceParams]):
     resources = frozenset({"legs"})
 
     @classmethod
+    def lack(cls, wanted: BalanceParams, robot: RobotDescription) -> str:
+        """A way to get up, or a waist to lean with."""
+        if wanted.mode == "get_up":
+            return "" if robot.getting_up else "knows no way to get up"
+        bends = wanted.mode != "lean" or robot.groups["waist"]
+        return "" if bends else "has no waist to lean with"
+
+    @classmethod
     def refusal(
         cls, wanted: BalanceParams, world_map: WorldMap, robot: RobotDescription
     ) -> Failure | None:
         """What is too long for one leg."""
-        if wanted.mode != "one_leg" or wanted.duration_s <= MAX_ONE_LEG_S:
+        most_s = robot.balance.max_one_leg_s
+        if wanted.mode != "one_leg" or wanted.duration_s <= most_s:
             return None
-        text = f"{wanted.duration_s:g} s on one leg is too long: at most {MAX_ONE_LEG_S:g} s"
+        text = f"{wanted.duration_s:g} s on one leg is too long: at most {most_s:g} s"
         return failure("invalid_goal", text)
 
     @classmethod
@@ -90,8 +92,7 @@ class Balance(ScriptedSkill[BalanceParams]):
             return
         body.phase = "standing" if wanted.mode in STANDING else f"going to {wanted.mode}"
         if wanted.mode == "squat":
-            height_m = SQUAT * body.description.walking.base_height_m
-            yield from stand_still(body, height_m=height_m)
+            yield from stand_still(body, height_m=body.description.balance.squat_base_m)
         elif wanted.mode == "lean":
             yield from self._lean()
         else:
@@ -107,11 +108,13 @@ class Balance(ScriptedSkill[BalanceParams]):
         return replace(self.parameters, duration_s=left_s)
 
     def _lean(self) -> Script[None]:
-        side = self.parameters.side or "forward"
+        side, balance = self.parameters.side or "forward", self.body.description.balance
         if side in ("left", "right"):
-            yield from stand_still(self.body, yaw_rad=TURN_RAD if side == "left" else -TURN_RAD)
+            turn_rad = balance.turn_rad if side == "left" else -balance.turn_rad
+            yield from stand_still(self.body, yaw_rad=turn_rad)
         else:
-            pitch_rad = LEAN_RAD if side == "forward" else LEAN_BACK_RAD
+            forward = side == "forward"
+            pitch_rad = balance.lean_forward_rad if forward else balance.lean_back_rad
             yield from stand_still(self.body, pitch_rad=pitch_rad)
 
     def _hold(self) -> Script[None]:

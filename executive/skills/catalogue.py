@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from executive.skills.ability import Refused
 from executive.skills.balance import Balance
 from executive.skills.context import SkillContext
 from executive.skills.follow import Follow
@@ -20,6 +21,8 @@ from executive.skills.search import Search
 from executive.skills.skill import Skill
 from executive.skills.stop import Stop
 from executive.skills.wait import Wait
+from robot.errors import Failure, failure
+from robot.model.description import RobotDescription
 
 SKILLS: tuple[type[ScriptedSkill[Any]], ...] = (
     Navigate,
@@ -48,5 +51,17 @@ def skill_of(parameters: P) -> type[ScriptedSkill[P]]:
 
 
 def make(parameters: SkillParams, context: SkillContext) -> Skill:
-    """The skill for these parameters; made for one goal, used once."""
+    """The skill for these parameters; made for one goal, used once.
+
+    What the body cannot do whatever the world is like is refused at once.
+    """
+    refusal = unable(parameters, context.description)
+    if refusal is not None:
+        return Refused(refusal)
     return skill_of(parameters)(parameters, context)
+
+
+def unable(parameters: SkillParams, robot: RobotDescription) -> Failure | None:
+    """Why a robot has no body for this, or None."""
+    lack = skill_of(parameters).lack(parameters, robot)
+    return failure("unsupported", f"{robot.name} {lack}", robot=robot.name) if lack else None

@@ -12,6 +12,7 @@ from typing import Protocol
 import msgspec
 
 from robot.messages import Place, Side, WorldMap
+from robot.model.description import RobotDescription
 from robot.planning.requests import Stance
 from robot.se3 import SE3
 
@@ -33,6 +34,11 @@ class Outlook(Protocol):
     @property
     def X_WS(self) -> SE3:
         """Where the robot stands."""
+        ...
+
+    @property
+    def robot(self) -> RobotDescription:
+        """Who does it."""
         ...
 
     @property

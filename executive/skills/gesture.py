@@ -7,19 +7,21 @@ from typing import Literal
 
 import numpy as np
 
+from executive.skills.ability import no_hand
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at, turn_head
 from executive.skills.motions.pacing import BEGIN_S, turning_s
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.stow import HOME, stow_arm
+from executive.skills.motions.stow import stow_arm
 from executive.skills.motions.walk import stand_still, turn_by
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
 from robot.messages import Side
-from robot.planning.requests import Joints
+from robot.model.description import RobotDescription
+from robot.model.handling import Signs
 from robot.se3 import SE3, Array, Vector3, wrap_angle
 
 GestureKind = Literal[
@@ -27,12 +29,9 @@ GestureKind = Literal[
     "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
 ]  # fmt: skip
 
-BOW_RAD, BOW_S = 0.35, 0.8
+BOW_S = 0.8
 NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
 TIMES = 3
-RAISED: dict[str, float] = {"shoulder_pitch": -1.5, "shoulder_roll": 0.45, "elbow": -1.5}
-WAVE_RAD = 0.35
-POINT_M = (0.40, 0.34, 0.28)
 AHEAD_RAD = 0.9
 """What is further to the side than this is turned to before it is pointed at."""
 ARMS: dict[str, tuple[Side, ...]] = {
@@ -73,6 +72,23 @@ class Gesture(ScriptedSkill[GestureParams]):
     resources = frozenset({"legs", "left_arm", "right_arm", "head"})
 
     @classmethod
+    def lack(cls, wanted: GestureParams, robot: RobotDescription) -> str:
+        """A neck, a waist, a hand to point with, or arms that know the sign."""
+        kind = wanted.kind
+        if kind in HEAD_ONLY:
+            return "" if robot.groups["head"] else "has no neck"
+        if kind == "bow":
+            return "" if robot.groups["waist"] else "has no waist to bow with"
+        if kind == "point":
+            return no_hand(robot)
+        if robot.signs is None:
+            return "knows no gestures of its arms"
+        missing = [side for side in ARMS.get(kind, robot.arm_sides) if side not in robot.arm_sides]
+        if missing or not robot.arm_sides:
+            return f"has no {missing[0]} arm" if missing else "has no arms"
+        return ""
+
+    @classmethod
     def needs(cls, wanted: GestureParams) -> frozenset[Resource]:
         """The head alone for what it does alone."""
         return frozenset({"head"}) if wanted.kind in HEAD_ONLY else cls.resources
@@ -98,7 +114,7 @@ class Gesture(ScriptedSkill[GestureParams]):
         if kind in HEAD_ONLY:
             yield from self._move_head(p_W)
         elif kind == "bow":
-            yield from stand_still(self.body, pitch_rad=BOW_RAD)
+            yield from stand_still(self.body, pitch_rad=self.body.description.balance.bow_rad)
             yield from self.body.wait(BOW_S)
             yield from stand_still(self.body)
         elif kind == "point":
@@ -146,30 +162,31 @@ class Gesture(ScriptedSkill[GestureParams]):
 
     def _raise(self, *, waving: bool) -> Script[None]:
         """Raise the arms that are free, wave with them if asked for, and bring them in again."""
-        body = self.body
-        free = body.context.holdings.free_sides()
+        body, signs = self.body, self._signs()
+        free = self._free_arms()
         wanted: tuple[Side, ...] = ARMS.get(self.parameters.kind, free[:1])
         sides: tuple[Side, ...] = tuple(side for side in wanted if side in free)
         if not sides:
             raise give_up("hands_full", "there is no free hand for that")
         for side in sides:
-            yield from move_arm(body, side, self._raised(side, 0.0))
-        for turn_rad in (WAVE_RAD, -WAVE_RAD) * TIMES if waving else ():
-            yield from move_arm(body, sides[0], self._raised(sides[0], turn_rad))
+            yield from move_arm(body, side, posture_rad(body, side, signs.raised))
+        for posture in signs.waving * TIMES if waving else ():
+            yield from move_arm(body, sides[0], posture_rad(body, sides[0], posture))
         if not waving:
             yield from body.wait(1.0)
         for side in sides:
             yield from stow_arm(body, side)
 
-    def _raised(self, side: Side, turn_rad: float) -> Joints:
-        """Joints with the forearm up, turned to a side by the upper arm."""
-        description, sign = self.body.description, 1.0 if side == "left" else -1.0
-        names = description.groups[f"{side}_arm"]
-        wanted = dict(zip(names, posture_rad(self.body, side, HOME), strict=True))
-        for name, value in RAISED.items():
-            wanted[f"{side}_{name}"] = sign * value if name.endswith("roll") else value
-        wanted[f"{side}_shoulder_yaw"] = turn_rad
-        return tuple(wanted[name] for name in names)
+    def _signs(self) -> Signs:
+        """How this robot makes signs with its arms; others are refused before this is asked."""
+        signs = self.body.description.signs
+        assert signs is not None
+        return signs
+
+    def _free_arms(self) -> tuple[Side, ...]:
+        """The arms that hold nothing, right first."""
+        arms = self.body.description.arm_sides
+        return tuple(side for side in self.body.context.holdings.free_sides() if side in arms)
 
     def _point(self, p_W: Vector3) -> Script[None]:
         """Stretch the nearer free arm towards a point."""
@@ -177,19 +194,21 @@ class Gesture(ScriptedSkill[GestureParams]):
         look_at(body, p_W)
         X_SP = body.X_WS.inverse().apply(p_W)
         nearer: Side = "left" if X_SP[1] > 0.0 else "right"
-        free = body.context.holdings.free_sides()
+        hands = body.description.hands
+        free: list[Side] = [side for side in self._free_arms() if side in hands]
         if not free:
             raise give_up("hands_full", "there is no free hand to point with")
         side = nearer if nearer in free else free[0]
-        aside_m = 0.17 if side == "left" else -0.17
-        shoulder = np.array(body.X_WS.apply((0.0, aside_m, body.description.shoulder_height_m)))
-        for attempt, reach_m in enumerate(POINT_M):
+        robot, stretched_m = body.description, self._signs().pointing_m
+        aside_m = robot.shoulder_aside_m if side == "left" else -robot.shoulder_aside_m
+        shoulder = np.array(body.X_WS.apply((0.0, aside_m, robot.shoulder_height_m)))
+        for attempt, reach_m in enumerate(stretched_m):
             try:
                 yield from move_arm(body, side, _pointing(shoulder, np.array(p_W), reach_m))
                 break
             except GaveUp as end:
                 out = end.failure.code in ("out_of_reach", "goal_in_collision", "no_path")
-                if not out or attempt + 1 == len(POINT_M):
+                if not out or attempt + 1 == len(stretched_m):
                     raise
         yield from body.wait(1.0)
         yield from stow_arm(body, side)

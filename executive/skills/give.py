@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from executive.skills.ability import no_hand
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.fingers import LEAST_GAP_M, open_fingers, set_payload
+from executive.skills.motions.fingers import closed_on_air, open_fingers, set_payload
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
@@ -17,12 +18,10 @@ from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 from robot.messages import PersonInfo, Side
+from robot.model.description import RobotDescription
 from robot.se3 import SE3
 
-BEFORE_PERSON_M = 0.95
-"""From the person's middle to the feet; the hand comes half of the way."""
 FACE_M = 1.5
-HELD_OUT_M = ((0.36, 0.12, 1.02), (0.33, 0.16, 0.98), (0.30, 0.20, 0.92))
 SETTLE_S = 0.6
 PULL_N, PULLED_M, PULL_S = 3.0, 0.02, 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
@@ -49,13 +48,19 @@ class Give(ScriptedSkill[GiveParams]):
     resources = frozenset({"legs", "head", "left_arm", "right_arm", "voice"})
 
     @classmethod
+    def lack(cls, wanted: GiveParams, robot: RobotDescription) -> str:
+        """A hand."""
+        return no_hand(robot)
+
+    @classmethod
     def forecast(cls, wanted: GiveParams, outlook: Outlook) -> Forecast:
         """The way, holding it out, and letting go of it; they are taken to pull at once."""
         person = outlook.map.person(wanted.person_id)
         outlook.hand_over(wanted.object_id)
         if person is None:
             return Forecast(GIVE_S)
-        stances = stances_around(person.X_WO.p, outlook.X_WS, distance_m=BEFORE_PERSON_M)
+        before_m = outlook.robot.handy.giving.before_person_m
+        stances = stances_around(person.X_WO.p, outlook.X_WS, distance_m=before_m)
         return outlook.walk(stances).then(GIVE_S)
 
     def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
@@ -116,20 +121,22 @@ def go_before(body: Body, person: PersonInfo) -> Script[None]:
     """Stand before a person, as near as a hand-over needs."""
     body.phase = f"walking to {person.name}"
     p_W = body.X_WPerson(person.id).p
-    stances = stances_around(p_W, body.X_WS, distance_m=BEFORE_PERSON_M)
+    stances = stances_around(
+        p_W, body.X_WS, distance_m=body.description.handy.giving.before_person_m
+    )
     yield from walk_to_any(body, stances, name=person.name)
 
 
 def hold_out(body: Body, held: Held) -> Script[None]:
     """Bring the object forward at the height of a person's hands, upright."""
-    sign = 1.0 if held.side == "left" else -1.0
-    for attempt, (ahead_m, aside_m, height_m) in enumerate(HELD_OUT_M):
+    sign, places = 1.0 if held.side == "left" else -1.0, body.description.handy.giving.held_out_m
+    for attempt, (ahead_m, aside_m, height_m) in enumerate(places):
         X_SG = body.X_WS.inverse() @ body.X_WG(held.side)
         at = SE3((ahead_m, sign * aside_m, height_m), X_SG.quat_wxyz)
         try:
             yield from move_arm(body, held.side, body.X_WS @ at, keep_upright=held.upright)
         except GaveUp as end:
-            if attempt + 1 == len(HELD_OUT_M) or end.failure.code not in NOT_THERE:
+            if attempt + 1 == len(places) or end.failure.code not in NOT_THERE:
                 raise
         else:
             return
@@ -146,7 +153,7 @@ def pulled(body: Body, side: Side, *, ask_again: str) -> Script[bool]:
         yield
         hand = body.hand(side)
         given_way_m = math.dist(hand.X_NG.p, X_NG_rest.p)
-        if hand.opening_m < LEAST_GAP_M:
+        if closed_on_air(body, hand.opening_m):
             return True
         if abs(hand.load_n - rest_n) < PULL_N and given_way_m < PULLED_M:
             since_s = math.inf

@@ -12,6 +12,7 @@ from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
 from executive.skills.parameters import SkillParams, exactly_one, finite
 from executive.skills.scripted import ScriptedSkill
+from robot.model.description import RobotDescription
 from robot.se3 import Vector3
 
 FACE_HEIGHT_M = 1.5
@@ -45,6 +46,12 @@ class Look(ScriptedSkill[LookParams]):
     summary = "turn the head towards something, or to all sides"
     takes = LookParams
     resources = frozenset({"head"})
+
+    @classmethod
+    def lack(cls, wanted: LookParams, robot: RobotDescription) -> str:
+        """A neck, or a waist that turns instead."""
+        turns = robot.groups["head"] or robot.gaze.waist_yaw_rad > 0.0
+        return "" if turns else "has no neck, and does not turn its waist to see"
 
     @classmethod
     def forecast(cls, wanted: LookParams, outlook: Outlook) -> Forecast:

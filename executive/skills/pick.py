@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 
+from executive.skills.ability import no_hand
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
@@ -39,7 +40,6 @@ LIFT_M_S = 0.12
 LOWER_M_S = 0.06
 OPEN_MARGIN_M = 0.045
 FINGER_MARGIN_M = 0.01
-MAX_LIFT_KG = 1.0
 GRASPS = 2
 REACH_CORRECTIONS = 2
 MOVE_OVER_COST_PER_M = 0.5
@@ -66,6 +66,11 @@ class Pick(ScriptedSkill[PickParams]):
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
     @classmethod
+    def lack(cls, wanted: PickParams, robot: RobotDescription) -> str:
+        """A hand."""
+        return no_hand(robot, wanted.side)
+
+    @classmethod
     def refusal(
         cls, wanted: PickParams, world_map: WorldMap, robot: RobotDescription
     ) -> Failure | None:
@@ -79,8 +84,9 @@ class Pick(ScriptedSkill[PickParams]):
         if width_m > opening_m:
             text = f"{info.full_name} is {width_m * 100:.0f} cm wide, the hand opens to hold "
             return failure("no_grasp", f"{text}{opening_m * 100:.0f} cm", width_m=width_m)
-        if info.mass_kg > MAX_LIFT_KG:
-            text = f"{info.full_name} weighs {info.mass_kg:g} kg, a hand carries {MAX_LIFT_KG:g} kg"
+        most_kg = robot.arms.max_lift_kg
+        if info.mass_kg > most_kg:
+            text = f"{info.full_name} weighs {info.mass_kg:g} kg, a hand carries {most_kg:g} kg"
             return failure("invalid_goal", text, suggestion="name something lighter")
         return None
 
@@ -189,7 +195,7 @@ class Pick(ScriptedSkill[PickParams]):
         gap_m = yield from close_fingers(body, side)
         self._X_WG_closed = body.X_WG(side)
         X_GO = centred(body.X_WG(side).inverse() @ last_seen(body, info, X_WO))
-        check_gap(info, plan, gap_m)
+        check_gap(body, info, plan, gap_m)
         body.context.holdings.take(
             Held(
                 object_id=info.id,

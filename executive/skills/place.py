@@ -7,6 +7,7 @@ import math
 
 import msgspec
 
+from executive.skills.ability import no_hand
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
@@ -45,8 +46,6 @@ OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
-ARM_REACH_M = 0.50
-SQUAT_M = 0.15
 PLACE_S = 14.0
 """Of putting down, the walk there left out: for the forecast."""
 
@@ -82,12 +81,18 @@ class PutDown(ScriptedSkill[PlaceParams]):
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
     @classmethod
+    def lack(cls, wanted: PlaceParams, robot: RobotDescription) -> str:
+        """A hand."""
+        return no_hand(robot)
+
+    @classmethod
     def refusal(
         cls, wanted: PlaceParams, world_map: WorldMap, robot: RobotDescription
     ) -> Failure | None:
         """What is higher or lower than a hand gets.
 
-        The reach is that of a hand from a shoulder, by `ARM_REACH_M`, from `SQUAT_M` lower at best.
+        The reach is that of a stretched arm from the shoulder, lower by as much as the legs let the
+        shoulder down.
         """
         place = world_map.place(wanted.place_id or "")
         if wanted.place_id is not None and place is None:
@@ -96,8 +101,9 @@ class PutDown(ScriptedSkill[PlaceParams]):
         X = wanted.X_WO or (place.X_WP if place else None)
         if X is None:
             return None
-        lowest_m = robot.shoulder_height_m - ARM_REACH_M - SQUAT_M
-        highest_m = robot.shoulder_height_m + ARM_REACH_M
+        squat_m = robot.walking.base_height_m - robot.balance.lowest_base_m
+        lowest_m = robot.shoulder_height_m - robot.arm_reach_m - squat_m
+        highest_m = robot.shoulder_height_m + robot.arm_reach_m
         if lowest_m <= X.p[2] <= highest_m:
             return None
         name = f"the {place.name}" if place else "that spot"

@@ -63,6 +63,12 @@ class ScriptedSkill(ABC, Generic[P]):
         return cls.resources
 
     @classmethod
+    def lack(cls, wanted: P, robot: RobotDescription) -> str:
+        """What a robot has no body for, in words that follow its name; empty if nothing."""
+        del wanted, robot
+        return ""
+
+    @classmethod
     def refusal(
         cls,
         wanted: P,

@@ -17,17 +17,13 @@ from robot.messages import Activity, HoldArm, MoveArm, MoveHand, Side
 from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
-DAMPING = 0.03
-HAND_GAIN_1_S = 6.0
-MAX_ERROR_M = 0.05
-MAX_JOINT_RATE_RAD_S = 2.5
-WINDUP_RAD = 0.35
-POSITION_DONE_M = 0.006
+DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
+MAX_ERROR_M = 0.05  # what is further off is approached at this error's speed
+POSITION_DONE_M = 0.006  # half of what a grasp forgives
 ROTATION_DONE_RAD = 0.04
 GIVE_UP_S = 1.5
 GIVE_UP_ERROR_M = 0.02
-JOINT_DONE_RAD = 0.06
-BRAKE_RAD_S2, BRAKE_RAD_S3 = 12.0, 200.0  # twice what planned motions take: 2 rad/s end in 0.23 s
+JOINT_DONE_RAD = 0.06  # more than the servos sag under what a hand carries
 
 
 class Arm:
@@ -41,6 +37,7 @@ class Arm:
     def __init__(self, body: BodyModel, side: Side, q_start: Array) -> None:
         """Hold the posture it starts in."""
         self.body = body
+        self.limits = body.description.arms
         self.side: Side = side
         self.motors = as_index(np.array(body.description.indices(f"{side}_arm")))
         self.dofs = as_index(body.dof_of[self.motors])
@@ -111,8 +108,8 @@ class Arm:
             np.where(free, self.q, measured),
             np.where(free, self.qd, 0.0),
             np.where(free, self.qdd, 0.0),
-            acceleration=BRAKE_RAD_S2,
-            jerk=BRAKE_RAD_S3,
+            acceleration=self.limits.brake_rad_s2,
+            jerk=self.limits.brake_rad_s3,
         )
 
     def update(
@@ -176,18 +173,18 @@ class Arm:
         self._report(line, distance, angle)
         if distance > MAX_ERROR_M:
             error[:3] *= MAX_ERROR_M / distance
-        twist = HAND_GAIN_1_S * error
+        twist = self.limits.line_rate_1_s * error
         twist[:3] += velocity
         jac = self._jac
         mujoco.mj_jacSite(model, data, jac[:3], jac[3:], site)
         arm = jac[:, self.dofs]
         damped = arm @ arm.T + DAMPING**2 * np.eye(6)
         rate = arm.T @ np.linalg.solve(damped, twist)
-        peak = float(np.abs(rate).max())
-        if peak > MAX_JOINT_RATE_RAD_S:
-            rate *= MAX_JOINT_RATE_RAD_S / peak
-        q = self.q + rate * dt_s
-        q = np.minimum(np.maximum(q, measured - WINDUP_RAD), measured + WINDUP_RAD)
+        peak, fastest = float(np.abs(rate).max()), self.limits.line_speed_rad_s
+        if peak > fastest:
+            rate *= fastest / peak
+        q, lead = self.q + rate * dt_s, self.limits.line_lead_rad
+        q = np.minimum(np.maximum(q, measured - lead), measured + lead)
         q = np.minimum(np.maximum(q, self.lower), self.upper)
         self.q, self.qd = q, rate
         self.qdd[:] = 0.0

@@ -16,7 +16,7 @@ import numpy as np
 
 from robot.kinematics.dynamics import Dynamics
 from robot.model.body import BodyModel
-from robot.model.description import Keyframe
+from robot.model.keyframes import Keyframe
 from robot.se3 import Array
 
 SPEED_SHARE = 0.75

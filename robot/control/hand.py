@@ -1,7 +1,8 @@
 """One hand: opening and force of its two coupled fingers.
 
-As people do, it grips harder when what it holds is pulled at: with the force that `FRICTION` asks
-for, times a margin, but never less than it was told, nor more than the motor bears for a moment.
+As people do, it grips harder when what it holds is pulled at: with the force that the friction of
+its pads asks for, times a margin, but never less than it was told, nor more than the motor bears
+for a moment.
 """
 
 from __future__ import annotations
@@ -16,19 +17,12 @@ from robot.se3 import SE3, Array, Vector3
 
 OPENING_DONE_M = 0.004
 STILL_M_S = 0.004
-CLOSE_RATE_M_S = 0.12
 SETTLE_S = 0.3
 GIVE_UP_S = 2.0
 LOAD_TIME_S = 0.15
-FRICTION = 0.4
-"""The least, between a finger and what it holds (the hand study of the robot's description)."""
 MARGIN = 1.25
-PEAK_SHARE = 0.9
-"""Of the motor's peak force, for as long as it pulls and `TIGHT_S` after that."""
 PULL_TIME_S, TIGHT_S = 0.01, 1.0
 STOPPED = "stopped by something"
-HELD_N = 2.0
-"""A motor that closes with more than this holds something."""
 
 
 class HandControl:
@@ -37,6 +31,7 @@ class HandControl:
     def __init__(self, body: BodyModel, side: Side, q_start: Array) -> None:
         """Hold the opening it starts with."""
         self.hand = body.description.hands[side]
+        self.gripping = body.description.handy.gripping
         self.side: Side = side
         self.motor = body.description.motor_names.index(self.hand.motor)
         self.row = 0 if side == "left" else 1
@@ -46,7 +41,7 @@ class HandControl:
         self.target: float = float(q_start[self.motor])
         self._reference = self.target
         self._force_n = self.hand.max_force_n
-        self._most_n = PEAK_SHARE * float(body.torque_limit_nm[self.motor])
+        self._most_n = self.gripping.peak_share * float(body.torque_limit_nm[self.motor])
         self._pull_n: Vector3 = (0.0, 0.0, 0.0)  # in the axes of N
         self._tight_n = 0.0
         self._tight_s = 0.0
@@ -68,7 +63,7 @@ class HandControl:
     def keep(self, state: MotorState) -> None:
         """Go on with the grip that another controller left: close with the force that is felt."""
         force_n = -float(state.tau[self.motor])
-        if force_n > HELD_N:
+        if force_n > self.gripping.held_n:
             self.target, self._force_n = 0.0, min(self.hand.max_force_n, force_n)
             self.activity = Activity(id=0, status="done", detail=STOPPED)
 
@@ -85,7 +80,7 @@ class HandControl:
         load = -z - self._weight_n
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
-        step = CLOSE_RATE_M_S * dt_s
+        step = self.gripping.closing_m_s * dt_s
         self._reference += max(-step, min(step, self.target - self._reference))
         self._tighten(dt_s, (-x, -y, load))
         force_n = max(self._force_n, self._tight_n)
@@ -107,7 +102,7 @@ class HandControl:
         gain = min(1.0, dt_s / PULL_TIME_S)
         x, y, z = (was + gain * (now - was) for was, now in zip(self._pull_n, pull_n, strict=True))
         self._pull_n = (x, y, z)
-        needed_n = MARGIN * math.hypot(x, y, z) / (2.0 * FRICTION)
+        needed_n = MARGIN * math.hypot(x, y, z) / (2.0 * self.gripping.friction)
         if needed_n <= max(self._force_n, self._tight_n):
             return
         self.pulls += not self._tight_n

@@ -17,20 +17,10 @@ from robot.model.body import SIDES, BodyModel
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array, wrap_angle
 
-LOWEST_SHARE = 0.68
-HEIGHT_RATE_M_S = 0.12
-WAIST_RATE_RAD_S = 0.5
-WALK_HEIGHT_TOLERANCE_M = 0.02
-ACCELERATION_M_S2 = 0.35
-TURN_ACCELERATION_RAD_S2 = 0.8
-HEIGHT_GAINS = (80.0, 18.0)
-PELVIS_GAINS = (100.0, 20.0)
-WAIST_GAINS = (100.0, 20.0)
-POSTURE_DAMPING_1_S = 10.0
-SWING_GAINS = (400.0, 40.0)
-SWING_TURN_GAINS = (300.0, 35.0)
-STANCE_DAMPING = 30.0
-MAX_COM_ACC_M_S2 = 6.0
+WALK_HEIGHT_TOLERANCE_M = 0.02  # it steps once it is about as tall as the gait is planned for
+POSTURE_DAMPING_1_S = 10.0  # of the legs' joints, which nothing else tells how to move
+STANCE_DAMPING_1_S = 30.0  # of a sole on the floor: its slipping ends within 0.1 s
+MAX_COM_ACC_M_S2 = 6.0  # more than friction gives is never asked for
 
 
 class Legs:
@@ -58,9 +48,14 @@ class Legs:
         self._waist = self._posture[whole.waist]
         self._posture_kp: Array = np.zeros(count)
         self._posture_kd: Array = np.full(count, POSTURE_DAMPING_1_S)
-        self._posture_kp[whole.waist], self._posture_kd[whole.waist] = WAIST_GAINS
+        self._balance = balance = self.description.balance
+        self._tasks = tasks = balance.tasks
+        self._posture_kp[whole.waist] = tasks.waist.kp_1_s2
+        self._posture_kd[whole.waist] = tasks.waist.kd_1_s
         self._waist_goal = self._waist.copy()
         self._waist_moves = False
+        self._waist_turns = body.turns("waist")
+        self._posed = False
         self._whole = whole
         self._upright: Array = np.zeros(4)
         self._tilt: Array = np.zeros(3)
@@ -74,9 +69,11 @@ class Legs:
         """Finish stepping, then hold this height and trunk."""
         nominal = self.description.walking.base_height_m
         height = nominal if command.height_m is None else command.height_m
-        self._height_goal_m = max(LOWEST_SHARE * nominal, min(nominal + 0.02, height))
+        balance = self._balance
+        self._height_goal_m = max(balance.lowest_base_m, min(balance.highest_base_m, height))
         self._waist_goal = self._waist_posture(command.yaw_rad, command.pitch_rad)
         self._waist_moves = True
+        self._posed = command.yaw_rad != 0.0 or command.pitch_rad != 0.0
         self._end_walk()
         self.gait.wish = None if self.gait.phase == "stand" else Twist()
         self._start(command.id)
@@ -113,6 +110,17 @@ class Legs:
         self.gait.lift(command.side, command.duration_s)
         self._start(command.id)
 
+    @property
+    def waist_is_free(self) -> bool:
+        """Whether the waist may be turned to look: it stands, and no command asks for a lean."""
+        return self.gait.phase == "stand" and not self._posed
+
+    def turn_waist(self, yaw_rad: float, pitch_rad: float) -> bool:
+        """Turn the waist to look about; False where it is there already, or goes no further."""
+        self._waist_goal = self._waist_posture(yaw_rad, pitch_rad)
+        self._waist_moves = float(np.abs(self._waist_goal - self._waist).max()) > 1e-3
+        return self._waist_moves
+
     def _start(self, command_id: int) -> None:
         self.activity = Activity(id=command_id, status="running")
 
@@ -120,18 +128,15 @@ class Legs:
         self._height_goal_m = self.description.walking.base_height_m
         self._waist_goal = np.zeros_like(self._waist)
         self._waist_moves = True
+        self._posed = False
 
     def _end_walk(self) -> None:
         self._expires_s = math.inf
         self._twist_goal = Twist()
 
     def _waist_posture(self, yaw_rad: float, pitch_rad: float) -> Array:
-        goal = np.zeros_like(self._waist)
-        for k, name in enumerate(self.description.groups["waist"]):
-            if name.endswith("yaw"):
-                goal[k] = yaw_rad
-            elif name.endswith("pitch"):
-                goal[k] = pitch_rad
+        wanted = {"roll": 0.0, "pitch": pitch_rad, "yaw": yaw_rad}
+        goal = np.array([wanted[turn] for turn in self._waist_turns])
         motors = self.description.indices("waist")
         lower, upper = self.body.lower_rad[motors], self.body.upper_rad[motors]
         return np.minimum(np.maximum(goal, lower), upper)
@@ -155,12 +160,12 @@ class Legs:
 
     def _ramp(self, dt_s: float) -> None:
         """Move height, waist and twist towards their goals at bounded rates."""
-        step = HEIGHT_RATE_M_S * dt_s
+        step = self._balance.height_m_s * dt_s
         change = max(-step, min(step, self._height_goal_m - self.height_m))
         self.height_m += change
         self._height_rate_m_s = change / dt_s
         if self._waist_moves:
-            turn = WAIST_RATE_RAD_S * dt_s
+            turn = self._balance.waist_rad_s * dt_s
             change = self._waist_goal - self._waist
             self._waist += np.minimum(np.maximum(change, -turn), turn)
             self._waist_moves = float(np.abs(change).max()) > 1e-9
@@ -169,10 +174,12 @@ class Legs:
         wish = self.gait.wish
         if isinstance(wish, Twist):
             goal = self._twist_goal
-            tall = self.height_m > self.description.walking.base_height_m - WALK_HEIGHT_TOLERANCE_M
+            walking = self.description.walking
+            tall = self.height_m > walking.base_height_m - WALK_HEIGHT_TOLERANCE_M
             if not tall:
                 goal = Twist()
-            dv, dw = ACCELERATION_M_S2 * dt_s, TURN_ACCELERATION_RAD_S2 * dt_s
+            dv = walking.acceleration_m_s2 * dt_s
+            dw = walking.turn_acceleration_rad_s2 * dt_s
             self.gait.wish = Twist(
                 _towards(wish.forward_m_s, goal.forward_m_s, dv),
                 _towards(wish.left_m_s, goal.left_m_s, dv),
@@ -219,9 +226,10 @@ class Legs:
         """The pendulum's, about the commanded ZMP; up and down, the pelvis' height's."""
         most, stiffness = MAX_COM_ACC_M_S2, omega * omega
         x, y = (max(-most, min(most, stiffness * (com[k] - zmp[k]))) for k in (0, 1))
-        kp, kd = HEIGHT_GAINS
+        task = self._tasks.height
         rate_error = self._height_rate_m_s - float(dynamics.data.qvel[2])
-        return x, y, kp * (self.height_m - float(dynamics.data.qpos[2])) + kd * rate_error
+        error = self.height_m - float(dynamics.data.qpos[2])
+        return x, y, task.kp_1_s2 * error + task.kd_1_s * rate_error
 
     def _own_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
         """Of the pelvis: upright, facing the heading of the feet; of the joints: the posture."""
@@ -231,9 +239,9 @@ class Legs:
         wanted[0], wanted[3] = math.cos(half), math.sin(half)
         qpos, qvel = data.qpos, data.qvel
         mujoco.mju_subQuat(error, wanted, qpos[3:7])
-        kp, kd = PELVIS_GAINS
+        task = self._tasks.pelvis
         acc = np.empty(3 + whole.active_count)
-        acc[:3] = kp * error - kd * qvel[3:6]
+        acc[:3] = task.kp_1_s2 * error - task.kd_1_s * qvel[3:6]
         posture = acc[3:]
         np.subtract(self._posture, qpos[whole.active_qpos], out=posture)
         posture *= self._posture_kp
@@ -246,14 +254,14 @@ class Legs:
         """Still on the floor, or along the swing; `velocity` of both soles, 12 values."""
         swing, v = ref.swing, velocity[6 * i : 6 * i + 6]
         if ref.contact[i] or swing is None:
-            return [-STANCE_DAMPING * value for value in v]
-        kp, kd = SWING_GAINS
+            return [-STANCE_DAMPING_1_S * value for value in v]
+        kp, kd = self._tasks.swing.kp_1_s2, self._tasks.swing.kd_1_s
         x, y, yaw = swing.position
         wanted, rate = (x, y, swing.z), (*swing.velocity[:2], swing.vz)
         feed = (*swing.acceleration[:2], swing.az)
         p = dynamics.sole_position[i].tolist()
         acc = [feed[k] + kp * (wanted[k] - p[k]) + kd * (rate[k] - v[k]) for k in range(3)]
-        turn_kp, turn_kd = SWING_TURN_GAINS
+        turn_kp, turn_kd = self._tasks.swing_turn.kp_1_s2, self._tasks.swing_turn.kd_1_s
         (cosine, _, tilt_y), (sine, _, tilt_x), _ = dynamics.sole_rotation[i].tolist()
         yaw_error = wrap_angle(yaw - math.atan2(sine, cosine))
         tilt = (tilt_x, -tilt_y, yaw_error)  # z x (sole's z) levels the sole

@@ -12,7 +12,7 @@ from robot.control import screening, starting
 from robot.control.arm import Arm
 from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
-from robot.control.head import Head
+from robot.control.head import Head, WaistGaze
 from robot.control.legs import Legs
 from robot.control.limits import Limits
 from robot.control.payload import Payloads
@@ -51,6 +51,8 @@ from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 
+ARM_CHANNEL: dict[Side, Channel] = {"left": "left_arm", "right": "right_arm"}
+HAND_CHANNEL: dict[Side, Channel] = {"left": "left_hand", "right": "right_hand"}
 BUS_PERIOD_S = 0.002
 UNSOLVED_TO_DAMP = 20
 NEEDS: frozenset[Capability] = frozenset({"position", "torque", "gains"})
@@ -91,7 +93,7 @@ class ControlLoop:
         self.posture = Posture(self.estimator, self.dynamics)
         self.legs = Legs(body, self.whole, left, right, X_NB.p[2])
         self.arms: dict[Side, Arm] = {
-            side: Arm(body, side, state.q) for side in self.description.hands
+            side: Arm(body, side, state.q) for side in self.description.arm_sides
         }
         self.hands: dict[Side, HandControl] = {
             side: HandControl(body, side, state.q) for side in self.description.hands
@@ -100,7 +102,9 @@ class ControlLoop:
             side: data.site_xmat[int(body.model.sensor(hand.force_sensor).objid[0])].reshape(3, 3)
             for side, hand in self.description.hands.items()
         }
-        self.head = Head(body, state.q)
+        neck = bool(self.description.groups["head"])
+        self.head = Head(body, state.q) if neck else WaistGaze(body, self.legs)
+        self._refused: dict[Channel, Activity] = {}  # by parts that this robot has not
         self._reference: Reference | None = None
         self._gyro, self._accel = sample.imu.gyro_rad_s.copy(), sample.imu.accel_m_s2.copy()
         self._samples = 0
@@ -125,7 +129,7 @@ class ControlLoop:
         """Take one command; `state().activities` answers with its id."""
         if not self._started:
             return
-        refusal = screening.problem(command)
+        refusal = screening.problem(command, self.description)
         if refusal:
             self._refuse(command, refusal)
         elif isinstance(command, Damp):
@@ -153,14 +157,15 @@ class ControlLoop:
         """Answer a command that cannot be meant; what the body does goes on."""
         failed = Activity(id=command.id, status="failed", detail=why)
         channel = screening.channel(command)
-        if channel == "head":
-            self.head.activity = failed
-        elif channel == "legs":
-            self.legs.activity = failed
-        elif channel.endswith("_arm"):
-            self.arms["left" if channel == "left_arm" else "right"].activity = failed
+        side: Side = "left" if channel.startswith("left") else "right"
+        parts = {"head": self.head, "legs": self.legs}
+        part = parts.get(channel) or (self.arms if channel.endswith("_arm") else self.hands).get(
+            side
+        )
+        if part is None:
+            self._refused[channel] = failed
         else:
-            self.hands["left" if channel == "left_hand" else "right"].activity = failed
+            part.activity = failed
 
     def trip(self, why: str) -> None:
         """Damp from the next tick on, until a Stand arms the motors again."""
@@ -291,7 +296,7 @@ class ControlLoop:
         rest_acc = np.zeros(body.model.nv)
         q_des, qd_des = state.q.copy(), np.zeros(body.count)
         for side, arm in self.arms.items():
-            load = self.hands[side].load_n
+            load = self.hands[side].load_n if side in self.hands else 0.0
             arm.update(dt_s, dynamics, state.q[arm.motors], load_n=load, standing=standing)
             q_des[arm.motors], qd_des[arm.motors] = arm.q, arm.qd
             rest_acc[arm.dofs] = arm.qdd
@@ -386,13 +391,12 @@ class ControlLoop:
             "legs": self.legs.activity,
             "head": self.head.activity,
         }
-        if "left" in self.arms:
-            result["left_arm"] = self.arms["left"].activity
-            result["left_hand"] = self.hands["left"].activity
-        if "right" in self.arms:
-            result["right_arm"] = self.arms["right"].activity
-            result["right_hand"] = self.hands["right"].activity
-        return result
+        for side in SIDES:
+            if side in self.arms:
+                result[ARM_CHANNEL[side]] = self.arms[side].activity
+            if side in self.hands:
+                result[HAND_CHANNEL[side]] = self.hands[side].activity
+        return result | self._refused
 
 
 def _vector(values: Array) -> tuple[float, float, float]:

@@ -9,16 +9,20 @@ from typing import Any, cast
 import msgspec
 
 from robot.messages import BodyCommand, Channel, Grip, HoldArm, Look, MoveArm, MoveHand, Payload
+from robot.model.description import RobotDescription
 
-MAX_PAYLOAD_KG = 3.0
 
-
-def problem(command: BodyCommand) -> str:
-    """Why a command is refused, empty if it is not."""
+def problem(command: BodyCommand, robot: RobotDescription) -> str:
+    """Why this robot refuses a command, empty if it does not."""
     if not _finite(msgspec.to_builtins(command, enc_hook=float)):
         return "a number in the command is not finite"
-    if isinstance(command, Payload) and not 0.0 <= command.mass_kg <= MAX_PAYLOAD_KG:
-        return f"a hand carries 0 to {MAX_PAYLOAD_KG:g} kg"
+    if isinstance(command, Grip | Payload | MoveHand) and command.side not in robot.hands:
+        return f"this robot has no {command.side} hand"
+    if isinstance(command, MoveArm | HoldArm) and command.side not in robot.arm_sides:
+        return f"this robot has no {command.side} arm"
+    most_kg = robot.arms.max_payload_kg
+    if isinstance(command, Payload) and not 0.0 <= command.mass_kg <= most_kg:
+        return f"a hand carries 0 to {most_kg:g} kg"
     return ""
 
 

@@ -35,8 +35,6 @@ STRAINED_SWING_WEIGHT = 60.0  # else the foot that is to catch it hovers short o
 WAIST_WEIGHT = 4.0
 POSTURE_WEIGHT = 0.02
 FORCE_WEIGHT = 1e-5
-FRICTION = 0.6
-COP_MARGIN_M = 0.005
 CONE_ROWS = 17
 EQUALITY = 5  # DAQP's mark of a row that is always active
 KEEP_EQUALITIES = -1  # DAQP eliminates none of them first, which for six costs more than it saves
@@ -139,14 +137,17 @@ class WholeBody:
         closed-form formulae of the contact wrench cone for rectangular support areas", 2015.
         """
         shape = self.body.description.feet[SIDES[foot]]
-        half_x, half_y = shape.half_length_m - COP_MARGIN_M, shape.half_width_m - COP_MARGIN_M
+        balance = self.body.description.balance
+        half_x = shape.half_length_m - balance.cop_margin_m
+        half_y = shape.half_width_m - balance.cop_margin_m
+        friction = balance.friction
         rows: list[list[float]] = []
         for sign in (1.0, -1.0):
-            rows.append([sign, 0, -FRICTION, 0, 0, 0])
-            rows.append([0, sign, -FRICTION, 0, 0, 0])
+            rows.append([sign, 0, -friction, 0, 0, 0])
+            rows.append([0, sign, -friction, 0, 0, 0])
             rows.append([0, 0, -half_y, sign, 0, 0])
             rows.append([0, 0, -half_x, 0, sign, 0])
-            about, held = FRICTION * sign, -FRICTION * (half_x + half_y)
+            about, held = friction * sign, -friction * (half_x + half_y)
             for a in (1.0, -1.0):
                 for b in (1.0, -1.0):
                     rows.append([a * half_y, b * half_x, held, a * about, b * about, sign])

@@ -6,7 +6,7 @@ an equality couples (the second finger of a hand) are filled in from the motors.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import mujoco
 import numpy as np
@@ -14,10 +14,14 @@ from numpy.typing import NDArray
 
 from robot.errors import DescriptionError, Problem
 from robot.messages import Side
+from robot.model import mjcf
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 
+Turn = Literal["roll", "pitch", "yaw"]
+"""About which axis of its link a joint turns: x, y, z."""
 SIDES: tuple[Side, Side] = ("left", "right")
+TURNS: tuple[Turn, ...] = ("roll", "pitch", "yaw")
 
 
 class BodyModel:
@@ -39,12 +43,7 @@ class BodyModel:
             DescriptionError: if the MJCF lacks what the description names.
         """
         self.description = description
-        try:
-            self.model: Any = mujoco.MjModel.from_xml_path(str(description.mjcf_path()))
-        except ValueError as error:
-            raise DescriptionError(
-                [Problem(f"the MJCF does not compile: {error}", str(description.mjcf_path()))]
-            ) from None
+        self.model: Any = mjcf.compiled(description.source)
         self._check_names()
         model = self.model
         motors = description.motors.values()
@@ -66,6 +65,7 @@ class BodyModel:
         self.grasp_site = {
             side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
         }
+        self._check_postures()
         couplings = self._couplings()
         order = np.argsort(np.concatenate([self.qpos_of, couplings[0]]))
         self._joint_qpos = as_index(np.concatenate([self.qpos_of, couplings[0]])[order])
@@ -99,6 +99,29 @@ class BodyModel:
         ]
         if problems:
             raise DescriptionError(problems)
+
+    def _check_postures(self) -> None:
+        """Every posture must be inside the joints' ranges."""
+        description, problems = self.description, list[Problem]()
+        for name in description.postures:
+            for k, value in enumerate(description.posture(name)):
+                low, high = float(self.lower_rad[k]), float(self.upper_rad[k])
+                if not low <= value <= high:
+                    motor = description.motor_names[k]
+                    text = (
+                        f"posture {name!r} puts {motor} to {value:g}, it goes {low:g} to {high:g}"
+                    )
+                    problems.append(Problem(text, description.folder or None))
+        if problems:
+            raise DescriptionError(problems)
+
+    def turns(self, group: str) -> list[Turn]:
+        """About which axis each joint of a group turns, in the group's order."""
+        axes = [
+            self.model.jnt_axis[self.model.dof_jntid[self.dof_of[i]]]
+            for i in self.description.indices(group)
+        ]
+        return [TURNS[int(np.argmax(np.abs(axis)))] for axis in axes]
 
     def _couplings(self) -> tuple[Any, Any, Any, Any]:
         """Joints tied to a motor's joint by a linear joint equality."""
@@ -153,6 +176,8 @@ class BodyModel:
 
 def as_index(indices: NDArray[np.int64]) -> slice | NDArray[np.int64]:
     """A slice where the indices run on without a gap (views instead of copies), else themselves."""
+    if not len(indices):
+        return slice(0, 0)
     first, last = int(indices[0]), int(indices[-1])
     if np.array_equal(indices, np.arange(first, last + 1)):
         return slice(first, last + 1)

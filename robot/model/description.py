@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 
 from robot import config
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError, DescriptionError, Problem
 from robot.messages import Side
+from robot.model import measures, mjcf
+from robot.model.gait import Balance, Walking
+from robot.model.handling import Arms, Handling, Signs
+from robot.model.keyframes import GettingUp
+from robot.model.published import Published
 
 
 class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -87,6 +93,35 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     range_m: float
 
 
+class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Turning the camera towards a point.
+
+    Attributes:
+        rate_rad_s: of the neck's joints.
+        done_rad: how near they are to come to where they should be.
+        waist_yaw_rad: most that a robot without a neck turns its waist to a side to see.
+        waist_pitch_rad: the same, backward (negative) and forward.
+    """
+
+    rate_rad_s: float
+    done_rad: float
+    waist_yaw_rad: float = 0.0
+    waist_pitch_rad: tuple[float, float] = (0.0, 0.0)
+
+
+class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How the motors' windings warm up, first order (`sim.motors` emulates it).
+
+    A motor that gives `continuous_share` of its peak torque for ever ends up `rise_k` warmer than
+    the air.
+    """
+
+    rise_k: float
+    continuous_share: float
+    time_constant_s: float
+    source: str
+
+
 class Battery(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What the robot lives on: capacity, and what draws on it (`sim.battery` emulates it).
 
@@ -110,62 +145,16 @@ class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     encoder_noise_rad: float
 
 
-class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Gait of this body: see robot/control/walking."""
-
-    base_height_m: float
-    stance_width_m: float
-    min_stance_width_m: float
-    single_support_s: float
-    double_support_s: float
-    step_height_m: float
-    max_step_length_m: float
-    max_step_width_m: float
-    max_step_turn_rad: float
-    max_forward_m_s: float
-    max_backward_m_s: float
-    max_sideways_m_s: float
-    max_turn_rad_s: float
-
-
-class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One stage of a motion: the joints named move to their values, the others stay.
-
-    `duration_s` is the least it takes (the joints' speed may ask for more), `hold_s` how long it
-    then rests. With `needs` it begins only if the trunk is so by then; else the motion is missed.
-    """
-
-    name: str
-    duration_s: float
-    posture: dict[str, float]
-    hold_s: float = 0.0
-    needs: Literal["front", "upright"] | None = None
-
-
-class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What gets it up, by how it lies.
-
-    From the `front` into a squat on both soles; over its `left` or `right` side onto the front.
-    From the back it goes over the side that is lower.
-    """
-
-    front: tuple[Keyframe, ...]
-    left: tuple[Keyframe, ...]
-    right: tuple[Keyframe, ...]
-
-
-class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the robot gets up from the floor: with at most so many motions."""
-
-    tries: int
-    motions: Motions
-
-
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A humanoid: joint groups, limits, feet, hands, sensors, postures.
 
     `drivers` names what moves and senses it, by device (`robot.drivers.registry`); one that is not
     named is simulated.
+
+    What is left out and 0 here is measured at its model when it is loaded: height of the shoulders
+    above the floor, standing, and their distance from the middle; length of a stretched arm, from
+    the shoulder to the grasp point; radius of the circle about the feet that holds the body and its
+    arms.
     """
 
     name: str
@@ -178,14 +167,25 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     hands: dict[Side, Hand]
     sensors: Sensors
     walking: Walking
+    balance: Balance
+    arms: Arms
+    gaze: Gaze
     postures: dict[str, dict[str, float]]
-    shoulder_height_m: float
-    body_radius_m: float
+    shoulder_height_m: float = 0.0
+    shoulder_aside_m: float = 0.0
+    arm_reach_m: float = 0.0
+    body_radius_m: float = 0.0
+    heating: Heating
+    overlay: str | None = None
+    published: Published | None = None
+    handling: Handling | None = None
+    signs: Signs | None = None
     battery: Battery | None = None
     getting_up: GettingUp | None = None
     drivers: dict[str, str] = {}
     folder: str = ""
     file: str = ""
+    mjcf_folder: str = ""
 
     @property
     def motor_names(self) -> tuple[str, ...]:
@@ -201,9 +201,38 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Where the description lies."""
         return Path(self.folder) / self.file
 
+    @property
+    def arm_sides(self) -> tuple[Side, ...]:
+        """The arms that it has, left first; each may or may not have a hand."""
+        sides: tuple[Side, Side] = ("left", "right")
+        return tuple(side for side in sides if self.groups[f"{side}_arm"])
+
+    @property
+    def handy(self) -> Handling:
+        """What the hands are good for.
+
+        Raises:
+            DescriptionError: if the robot has none.
+        """
+        if self.handling is None:
+            raise DescriptionError(f"{self.name} has no hands")
+        return self.handling
+
     def mjcf_path(self) -> Path:
         """Where the MJCF lies."""
-        return Path(self.folder) / self.mjcf
+        return Path(self.mjcf_folder or self.folder) / self.mjcf
+
+    @property
+    def source(self) -> mjcf.Source:
+        """Where the model comes from."""
+        overlay = None if self.overlay is None else str(Path(self.folder) / self.overlay)
+        without = () if self.published is None else self.published.without
+        return mjcf.Source(str(self.mjcf_path()), overlay, without)
+
+    def digest(self) -> bytes:
+        """SHA-256 of the description and its MJCF, wherever they lie, 32 bytes."""
+        placeless = msgspec.structs.replace(self, folder="", mjcf_folder="")
+        return hashlib.sha256(msgspec.json.encode(placeless) + self.source.content()).digest()
 
     def posture(self, name: str) -> tuple[float, ...]:
         """Joint values of a named posture in motor order; `nominal` fills what it leaves out."""
@@ -215,7 +244,8 @@ def load(name_or_path: str = "juno") -> RobotDescription:
     """Load a shipped robot by name, or any robot by the path of its YAML file.
 
     Raises:
-        ConfigError: if there is no such robot or the file is wrong (file, line, nearest name).
+        ConfigError: if there is no such robot, the file is wrong (file, line, nearest name), or a
+            published model that it names is not on this machine.
     """
     path = Path(name_or_path)
     if path.suffix not in (".yaml", ".yml"):
@@ -226,48 +256,85 @@ def load(name_or_path: str = "juno") -> RobotDescription:
             hint = config.nearest(name_or_path, names)
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
     description = config.load(path, RobotDescription)
-    description = msgspec.structs.replace(description, folder=str(path.parent), file=path.name)
+    published, mjcf_folder = description.published, path.parent
+    if published is not None:
+        mjcf_folder = published.find(description.mjcf, description=path)
+    description = msgspec.structs.replace(
+        description, folder=str(path.parent), file=path.name, mjcf_folder=str(mjcf_folder)
+    )
     _check(description, str(path))
-    return description
+    return _measured(description)
+
+
+def _measured(description: RobotDescription) -> RobotDescription:
+    """With what is left out of the file and can be seen at the model."""
+    model = mjcf.compiled(description.source)
+    joints = {name: motor.joint for name, motor in description.motors.items()}
+    arms = [
+        measures.Arm(
+            joints=tuple(joints[name] for name in description.groups[f"{side}_arm"]),
+            tip=description.hands[side].grasp_site if side in description.hands else "",
+        )
+        for side in description.arm_sides
+    ]
+    nominal = zip(joints.values(), description.posture("nominal"), strict=True)
+    soles = [foot.sole_site for foot in description.feet.values()]
+    try:
+        found = measures.measure(model, dict(nominal), arms=arms, soles=soles)
+    except KeyError:
+        return description  # a name is not in the MJCF: BodyModel says which, with all others
+    return msgspec.structs.replace(
+        description,
+        shoulder_aside_m=description.shoulder_aside_m or found.shoulder_aside_m,
+        shoulder_height_m=description.shoulder_height_m or found.shoulder_height_m,
+        arm_reach_m=description.arm_reach_m or found.arm_reach_m,
+        body_radius_m=description.body_radius_m or found.body_radius_m,
+    )
+
+
+GROUPS = ("left_leg", "right_leg", "waist", "head", "left_arm", "right_arm")
 
 
 def _check(description: RobotDescription, file: str) -> None:
     """Names inside the file must point at each other."""
     motors = list(description.motors)
-    problems: list[Problem] = []
-
-    def want(name: str, where: str) -> None:
-        if name not in motors:
-            hint = config.nearest(name, motors)
-            problems.append(
-                Problem(f"{where} names motor {name!r}, not in motors", file, suggestion=hint)
-            )
-
-    needed = ("left_leg", "right_leg", "waist", "head", "left_arm", "right_arm")
-    for group in needed:
-        if group not in description.groups:
-            hint = f"every robot has the groups {', '.join(needed)}"
-            problems.append(Problem(f"joint group {group!r} is missing", file, suggestion=hint))
-    for group, names in description.groups.items():
-        for name in names:
-            want(name, f"group {group!r}")
-    for side, hand in description.hands.items():
-        want(hand.motor, f"{side} hand")
-    if "nominal" not in description.postures:
-        problems.append(Problem("posture 'nominal' is missing", file))
-    for posture, values in description.postures.items():
-        for name in values:
-            want(name, f"posture {posture!r}")
-    for keyframe in _keyframes(description):
-        for name in keyframe.posture:
-            want(name, f"keyframe {keyframe.name!r}")
+    problems = [
+        Problem(f"{where} names motor {name!r}, not in motors", file, suggestion=nearest)
+        for where, name in _named_motors(description)
+        if name not in motors
+        for nearest in [config.nearest(name, motors)]
+    ]
+    problems += [Problem(message, file, suggestion=hint) for message, hint in _missing(description)]
     if problems:
         raise ConfigError(problems)
 
 
-def _keyframes(description: RobotDescription) -> tuple[Keyframe, ...]:
-    """Every keyframe of getting up, if it knows how."""
-    if description.getting_up is None:
-        return ()
-    motions = description.getting_up.motions
-    return (*motions.front, *motions.left, *motions.right)
+def _named_motors(description: RobotDescription) -> Iterator[tuple[str, str]]:
+    """Where a motor is named, and how."""
+    for group, names in description.groups.items():
+        yield from ((f"group {group!r}", name) for name in names)
+    for side, hand in description.hands.items():
+        yield f"{side} hand", hand.motor
+    for posture, values in description.postures.items():
+        yield from ((f"posture {posture!r}", name) for name in values)
+    if description.getting_up is not None:
+        motions = description.getting_up.motions
+        for keyframe in (*motions.front, *motions.left, *motions.right):
+            yield from ((f"keyframe {keyframe.name!r}", name) for name in keyframe.posture)
+
+
+def _missing(description: RobotDescription) -> Iterator[tuple[str, str]]:
+    """What is not there though it has to be, and a hint."""
+    postures, groups = list(description.postures), description.groups
+    for group in [group for group in GROUPS if group not in groups]:
+        yield f"joint group {group!r} is missing", f"every robot has the groups {', '.join(GROUPS)}"
+    if "nominal" not in postures:
+        yield "posture 'nominal' is missing", "it is how the robot stands"
+    for side in [side for side in description.hands if not groups.get(f"{side}_arm")]:
+        yield f"there is a {side} hand, and no motor in {side}_arm", "name the arm's motors"
+    if description.hands and description.handling is None:
+        yield "there are hands, and no 'handling'", "say what they are good for, as juno.yaml does"
+    signs = description.signs
+    for posture in () if signs is None else (signs.raised, *signs.waving):
+        if posture not in postures:
+            yield f"signs name posture {posture!r}", config.nearest(posture, postures) or ""

@@ -31,8 +31,6 @@ TILT_RAD = 0.35
 LINE_M = 0.03
 SEEDS = 24
 GOALS = 3
-SPEED_RAD_S, ACCELERATION_RAD_S2 = 2.0, 6.0
-"""Ordinary speed of an arm: what the whole body balances easily; motors may ask for less."""
 
 
 @dataclass(slots=True)
@@ -306,6 +304,6 @@ def _timed(
 
 def _limits(body: Body, arm: Arm, speed: float) -> tuple[Array, Array]:
     """Velocities [rad/s] and accelerations [rad/s2], shape (n,)."""
-    top = body.model.velocity_limit_rad_s[arm.motors]
-    most = np.full(len(top), speed**2 * ACCELERATION_RAD_S2)
-    return speed * np.minimum(SPEED_RAD_S, 0.8 * top), most
+    top, arms = body.model.velocity_limit_rad_s[arm.motors], body.description.arms
+    most = np.full(len(top), speed**2 * arms.acceleration_rad_s2)
+    return speed * np.minimum(arms.speed_rad_s, 0.8 * top), most

@@ -36,6 +36,8 @@ class Standing:
 class Arm:
     """One arm as a chain from its root T (the trunk's last link) to the grasp point.
 
+    Without a hand the chain ends at its last link.
+
     Attributes:
         chain: the hinges, in its group's order.
         motors: their motor indices, shape (k,).
@@ -53,7 +55,9 @@ class Arm:
         first = model.jnt_bodyid[body.joint_id(description.motors[names[0]].joint)]
         root = model.body(int(model.body_parentid[first])).name
         self.side: Side = side
-        self.chain = Chain(model, root, description.hands[side].grasp_site)
+        last = model.body(int(model.jnt_bodyid[body.joint_id(description.motors[names[-1]].joint)]))
+        hand = description.hands.get(side)
+        self.chain = Chain(model, root, last.name if hand is None else hand.grasp_site)
         joints = tuple(description.motors[name].joint for name in names)
         if joints != self.chain.joints:
             raise DescriptionError(
@@ -71,7 +75,7 @@ class Body:
         """Compile the robot."""
         self.description = description
         self.model = BodyModel(description)
-        self.arms: dict[Side, Arm] = {side: Arm(self.model, side) for side in SIDES}
+        self.arms: dict[Side, Arm] = {side: Arm(self.model, side) for side in description.arm_sides}
         self.scenes = SceneCache(description)
         self.nominal = np.array(description.posture("nominal"))
         joints = [motor.joint for motor in description.motors.values()]
@@ -128,10 +132,9 @@ class Body:
         walking = description.walking
         height = posture.height_m or walking.base_height_m
         q = q.copy()
-        for motor in description.indices("waist"):
-            name = description.motor_names[motor]
-            turns = {"yaw": posture.yaw_rad, "pitch": posture.pitch_rad}
-            q[motor] = next((v for end, v in turns.items() if name.endswith(end)), 0.0)
+        wanted = {"roll": 0.0, "pitch": posture.pitch_rad, "yaw": posture.yaw_rad}
+        for motor, turn in zip(description.indices("waist"), body.turns("waist"), strict=True):
+            q[motor] = wanted[turn]
         data = body.data()
         at = np.array([0.0, 0.0, height])
         for _ in range(8):
@@ -157,9 +160,9 @@ class Body:
         """Joints of an arm with its hand out level in front, above the height of the elbow."""
         standing = self.standing(UPRIGHT)
         sign = 1.0 if side == "left" else -1.0
-        height = 0.85 * self.description.shoulder_height_m
+        ahead, aside, height = self.description.handy.reaching.raised_hand_m
         arm = self.arms[side]
-        X_TG = standing.X_ST[side].inverse() @ SE3((0.32, sign * 0.2, height))
+        X_TG = standing.X_ST[side].inverse() @ SE3((ahead, sign * aside, height))
         q = self.nominal[arm.motors][None]
         return arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), q, iterations=60).q[0]
 

@@ -13,7 +13,7 @@ from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.scene import Scene
 from robot.planning.solids import solid
-from robot.planning.stances import LEANS, Candidates
+from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
 STAND_CLEARANCE_M = 0.03
@@ -24,7 +24,6 @@ SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
 RAISE_M = (0.10, 0.06, 0.03, 0.0)
 PULL_M = (0.0, 0.06, 0.12, 0.18)
 STEP_M = 0.05
-REACH_UPRIGHT_M = 0.36
 END = "the end of its reach"
 
 
@@ -38,6 +37,7 @@ class Checker:
         """For one problem."""
         self.body = body
         self.problem = problem
+        self._reaching = body.description.handy.reaching
 
     def prepare(self, candidate: Candidates, side: Side, main: Targets) -> None:
         """Set up its scenes: the object in its place, or held."""
@@ -45,7 +45,7 @@ class Checker:
         self.side: Side = side
         self.arm = self.body.arms[side]
         self.candidate = candidate
-        self.lean = LEANS[int(candidate.lean[0])]
+        self.lean = self._reaching.leans[int(candidate.lean[0])]
         option: HandOption = problem.options[int(candidate.option[0])]
         self.option = option
         at = main.pose(0) @ option.X_GO @ problem.shape.X_BodyShape
@@ -104,7 +104,7 @@ class Checker:
         row = np.zeros(len(RAISE_M), dtype=int)
         touch: str | None = END
         for pull in PULL_M:
-            back = (max(0.0, ahead - REACH_UPRIGHT_M) + pull) * forward
+            back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
             p = np.stack([target.p[0] + [0, 0, raised] - back for raised in RAISE_M])
             targets, q0 = Targets(target.R[row], p), np.tile(q_near, (len(p), 1))
             reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
@@ -165,7 +165,7 @@ class Checker:
 
     def _standing(self, share: float) -> tuple[SE3, Array]:
         """X_SB and all motors between upright (0) and the posture (1)."""
-        leaning = self.body.standing(self.lean.posture(self.side), self.side)
+        leaning = self.body.standing(posture_of(self.lean, self.side), self.side)
         if share == 1.0:
             return leaning.X_SB, leaning.q.copy()
         upright = self.body.standing(UPRIGHT, self.side)
@@ -193,7 +193,7 @@ class Checker:
 
     def _leaning(self, scene: Scene, q: Array, finger: float) -> str | None:
         """What is touched while the trunk leans, or straightens up, with the arm still."""
-        if self.lean == LEANS[0]:
+        if self.lean == self._reaching.leans[0]:
             return None
         for share in (0.35, 0.7, 1.0):
             touch = self._touch(

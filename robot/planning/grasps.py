@@ -14,14 +14,9 @@ import numpy as np
 from robot.errors import Failure, failure
 from robot.messages import Shape
 from robot.model.description import Hand
+from robot.model.handling import Gripping
 from robot.se3 import SE3, Array, wrap_angle
 
-SLACK_M = 0.012
-"""The object is at least this much narrower than the opened hand [m]."""
-HOLD_DEPTH_M = 0.035
-"""The grasp point is at most this far behind the near face of the object [m]."""
-FINGERTIP_M = 0.030
-"""Reach of the pads past the grasp point [m]."""
 TIP_CLEARANCE_M = 0.022
 """Between the fingertips and the object at the pre-grasp [m]."""
 MIN_HEIGHT_M = 0.035
@@ -57,20 +52,21 @@ class HandOption:
     cost: float
 
 
-def pick_options(shape: Shape, X_WO: SE3, hand: Hand) -> list[HandOption] | Failure:
+def pick_options(
+    shape: Shape, X_WO: SE3, *, hand: Hand, gripping: Gripping
+) -> list[HandOption] | Failure:
     """All grasps of an object as it stands or lies there."""
     X_WShape = X_WO @ shape.X_BodyShape
     up = X_WShape.rotation()[2]
-    limit = hand.max_opening_m - SLACK_M
-    if shape.kind == "cylinder" and abs(up[2]) > UPRIGHT_COS:
+    limit = hand.max_opening_m - gripping.slack_m
+    if shape.kind == "cylinder":
         widths = [shape.size_m[0]]
-        found = _standing_cylinder(shape, X_WO, X_WShape, limit)
-    elif shape.kind == "cylinder":
-        widths = [shape.size_m[0]]
-        found = _lying_cylinder(shape, X_WO, X_WShape, limit)
+        stands = abs(up[2]) > UPRIGHT_COS
+        around = _standing_cylinder if stands else _lying_cylinder
+        found = around(shape, X_WO, X_WShape, gripping) if widths[0] <= limit else []
     else:
         widths = list(shape.size_m)
-        found = _box(shape, X_WO, X_WShape, limit)
+        found = _box(shape, X_WO, X_WShape, gripping, limit_m=limit)
     if found:
         return found
     return failure(
@@ -81,7 +77,9 @@ def pick_options(shape: Shape, X_WO: SE3, hand: Hand) -> list[HandOption] | Fail
     )
 
 
-def held_option(X_GO: SE3, shape: Shape, *, yaws: tuple[float, ...] | None) -> HandOption:
+def held_option(
+    X_GO: SE3, shape: Shape, *, yaws: tuple[float, ...] | None, gripping: Gripping
+) -> HandOption:
     """The one way the hand is on what it holds, the object upright at yaw 0 (or those given)."""
     X_OG = X_GO.inverse()
     rotation = X_OG.rotation()
@@ -96,7 +94,7 @@ def held_option(X_GO: SE3, shape: Shape, *, yaws: tuple[float, ...] | None) -> H
         headings=headings,
         X_GO=X_GO,
         opening_m=0.0,
-        back_m=min(near, HOLD_DEPTH_M + 0.01) + FINGERTIP_M + TIP_CLEARANCE_M,
+        back_m=min(near, gripping.hold_depth_m + 0.01) + gripping.fingertip_m + TIP_CLEARANCE_M,
         cost=0.0,
     )
 
@@ -110,6 +108,7 @@ def hand_rotation(tilt_rad: float) -> Array:
 def _option(
     X_WO: SE3,
     centre_W: Array,
+    gripping: Gripping,
     *,
     heading: float | None,
     tilt: float,
@@ -120,7 +119,7 @@ def _option(
 ) -> HandOption:
     """A grasp whose point is `lift` above the shape's centre, its near face `depth` away."""
     R0 = hand_rotation(tilt)
-    hold = min(depth, HOLD_DEPTH_M)
+    hold = min(depth, gripping.hold_depth_m)
     local = np.array([-(depth - hold), 0.0, lift])
     turn = 0.0 if heading is None else heading
     c, s = math.cos(turn), math.sin(turn)
@@ -133,7 +132,7 @@ def _option(
         headings=None if heading is None else (heading,),
         X_GO=X_WG.inverse() @ X_WO,
         opening_m=width,
-        back_m=hold / max(0.5, math.cos(tilt)) + FINGERTIP_M + TIP_CLEARANCE_M,
+        back_m=hold / max(0.5, math.cos(tilt)) + gripping.fingertip_m + TIP_CLEARANCE_M,
         cost=cost,
     )
 
@@ -149,15 +148,16 @@ def _lifts(height_m: float) -> list[tuple[float, float]]:
     return sorted(lifts.items())
 
 
-def _standing_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
+def _standing_cylinder(
+    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping
+) -> list[HandOption]:
     diameter, _, height = shape.size_m
-    if diameter > limit_m:
-        return []
     centre = np.array(X_WShape.p)
     return [
         _option(
             X_WO,
             centre,
+            gripping,
             heading=None,
             tilt=tilt,
             lift=lift,
@@ -170,20 +170,19 @@ def _standing_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -
     ]
 
 
-def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
+def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping) -> list[HandOption]:
     """From above, the fingers on both sides of it.
 
     A hand that looks along its axis can set it upright again; the other way round it cannot well.
     """
     diameter = shape.size_m[0]
     axis = X_WShape.rotation()[:, 2]
-    if diameter > limit_m:
-        return []
     along = math.atan2(axis[1], axis[0])
     return [
         _option(
             X_WO,
             np.array(X_WShape.p),
+            gripping,
             heading=wrap_angle(along + turn),
             tilt=tilt,
             lift=LYING_LIFT_M,
@@ -196,7 +195,9 @@ def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> l
     ]
 
 
-def _box(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOption]:
+def _box(
+    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping, *, limit_m: float
+) -> list[HandOption]:
     """On two opposite upright faces that are near enough to each other."""
     rotation = X_WShape.rotation()
     vertical = int(np.argmax(np.abs(rotation[2])))
@@ -215,6 +216,7 @@ def _box(shape: Shape, X_WO: SE3, X_WShape: SE3, limit_m: float) -> list[HandOpt
                         _option(
                             X_WO,
                             np.array(X_WShape.p),
+                            gripping,
                             heading=wrap_angle(yaw + turn),
                             tilt=tilt,
                             lift=lift,

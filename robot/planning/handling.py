@@ -45,6 +45,7 @@ def search(
         problem.options,
         problem.references,
         floor,
+        reaching=body.description.handy.reaching,
         sides=sides,
         start=start,
         radius_m=body.description.body_radius_m + 0.02,

@@ -68,28 +68,32 @@ class _Link:
 
 
 class Chain:
-    """The hinges between a body and a site further out, and their limits.
+    """The hinges between a body and a site (or a body) further out, and their limits.
 
     Attributes:
         joints: names from the body outwards.
         lower, upper: limits, shape (k,) [rad].
     """
 
-    def __init__(self, model: mujoco.MjModel, body: str, site: str) -> None:
-        """Follow the bodies from the site inwards to `body`.
+    def __init__(self, model: mujoco.MjModel, body: str, tip: str) -> None:
+        """Follow the bodies from the tip, a site or a body, inwards to `body`.
 
         Raises:
-            ValueError: if the site is not a descendant of the body, or a joint is no hinge.
+            ValueError: if the tip is not a descendant of the body, or a joint is no hinge.
         """
         self.body = body
         root = model.body(body).id
-        tip_id = model.site(site).id
-        at = int(model.site_bodyid[tip_id])
-        self._tip = (_matrix(model.site_quat[tip_id]), model.site_pos[tip_id].copy())
+        site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, tip)
+        if site >= 0:
+            at = int(model.site_bodyid[site])
+            self._tip = (_matrix(model.site_quat[site]), model.site_pos[site].copy())
+        else:
+            at = int(model.body(tip).id)
+            self._tip = (np.eye(3), np.zeros(3))
         links: list[_Link] = []
         while at != root:
             if at == 0:
-                raise ValueError(f"site {site!r} does not hang on body {body!r}")
+                raise ValueError(f"{tip!r} does not hang on body {body!r}")
             count, first = int(model.body_jntnum[at]), int(model.body_jntadr[at])
             if count > 1 or (count and model.jnt_type[first] != mujoco.mjtJoint.mjJNT_HINGE):
                 raise ValueError(f"body {model.body(at).name!r} moves on other than one hinge")

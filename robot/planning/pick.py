@@ -15,14 +15,10 @@ from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
 from robot.planning.solids import Solid, solids_of
-from robot.planning.stances import LEANS
+from robot.planning.stances import posture_of
 from robot.se3 import SE3, Array
 
 LIFTS_M = (0.10, 0.06, 0.04)
-CARRY_AHEAD_M = (0.20, 0.26, 0.32)
-CARRY_ASIDE_M = (0.10, 0.18, 0.26)
-CARRY_UP_M = (0.10, 0.17, 0.24)
-CARRY_TURNS_RAD = (-0.3, 0.2, 0.7)
 CARRY_CLEARANCE_M = 0.02
 
 
@@ -36,8 +32,12 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
         )
     others = tuple(s for s in solids_of(around) if s.id != thing.id)
     floor = Floor(others, around.map.bounds_m)
-    sides: tuple[Side, ...] = (request.side,) if request.side else ("left", "right")
-    options = pick_options(thing.shape, thing.X_WO, body.description.hands[sides[0]])
+    hands = body.description.hands
+    sides: tuple[Side, ...] = (request.side,) if request.side else tuple(sorted(hands))
+    robot = body.description
+    options = pick_options(
+        thing.shape, thing.X_WO, hand=robot.hands[sides[0]], gripping=robot.handy.gripping
+    )
     if isinstance(options, Failure):
         return options
     names = {info.id: info.name for info in around.map.objects}
@@ -63,16 +63,17 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
             f"{problem.what} cannot be held upright near the body with this grasp",
             blocked_by="the body",
         )
-    return _plan(choice, thing, carry)
+    return _plan(body, choice, thing, carry)
 
 
-def _plan(choice: Choice, thing: ObjectPose, carry: Joints) -> PickPlan:
+def _plan(body: Body, choice: Choice, thing: ObjectPose, carry: Joints) -> PickPlan:
     X_WG = choice.main.pose(0)
+    lean = body.description.handy.reaching.leans[int(choice.candidate.lean[0])]
     return PickPlan(
         side=choice.side,
         standoff=choice.candidate.standoff_of(0),
         stance=choice.candidate.stance_of(0),
-        posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
+        posture=posture_of(lean, choice.side),
         ready_rad=_joints(choice.q_ready),
         X_OG=thing.X_WO.inverse() @ X_WG,
         X_WG_pre=choice.back.pose(0),
@@ -94,14 +95,14 @@ def carry_posture(
     """
     side, arm = choice.side, body.arms[choice.side]
     sign = 1.0 if side == "left" else -1.0
-    standing = body.standing(UPRIGHT)
+    standing, carrying = body.standing(UPRIGHT), body.description.handy.reaching.carrying
     grid = np.array(
         [
             (x, sign * y, z, -sign * turn)
-            for x in CARRY_AHEAD_M
-            for y in CARRY_ASIDE_M
-            for z in CARRY_UP_M
-            for turn in CARRY_TURNS_RAD
+            for x in carrying.ahead_m
+            for y in carrying.aside_m
+            for z in carrying.up_m
+            for turn in carrying.turns_rad
         ]
     )
     n = len(grid)

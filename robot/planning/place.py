@@ -15,7 +15,7 @@ from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.solids import solids_of
-from robot.planning.stances import LEANS
+from robot.planning.stances import posture_of
 from robot.se3 import Array
 
 LIFTS_M = (0.05, 0.03, 0.02)
@@ -27,8 +27,6 @@ EDGE_M = 0.025
 """Between an object and the edge of what it is put on [m]."""
 GAP_M = 0.04
 """Between two objects, or an object and the fingers around another [m]."""
-FINGERS_M = 0.070
-"""Half the width of the opened hand [m]."""
 
 
 def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
@@ -51,7 +49,8 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
     if request.target is not None:
         spots, cost = np.array([request.target.p]), np.zeros(1)
     else:
-        spots, cost = _free_spots(place, shape, objects, request.seed)
+        half_m = body.description.handy.gripping.half_width_m
+        spots, cost = _free_spots(place, shape, objects, hand_half_m=half_m, seed=request.seed)
         labels = floor.regions(body.description.body_radius_m)
         walkable = (labels > 0) & (labels == floor.home(labels, *request.start[:2]))
         far = floor.distance_to_m(walkable, spots[:, :2])
@@ -64,11 +63,12 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
                 objects=float(len(objects)),
             )
     names = {info.id: info.name for info in around.map.objects}
+    yaws, gripping = _yaws(request), body.description.handy.gripping
     problem = HandlingProblem(
         kind="place",
         object_id=request.held.id,
         shape=shape,
-        options=[held_option(request.held.X_GO, shape, yaws=_yaws(request))],
+        options=[held_option(request.held.X_GO, shape, yaws=yaws, gripping=gripping)],
         references=spots,
         reference_cost=cost,
         others=others,
@@ -79,16 +79,17 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
     choice = search(
         body, problem, floor, sides=(request.side,), start=request.start, seed=request.seed
     )
-    return choice if isinstance(choice, Failure) else _plan(choice, request)
+    return choice if isinstance(choice, Failure) else _plan(body, choice, request)
 
 
-def _plan(choice: Choice, request: PlaceRequest) -> PlacePlan:
+def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
     X_WG = choice.main.pose(0)
+    lean = body.description.handy.reaching.leans[int(choice.candidate.lean[0])]
     return PlacePlan(
         side=choice.side,
         standoff=choice.candidate.standoff_of(0),
         stance=choice.candidate.stance_of(0),
-        posture=LEANS[int(choice.candidate.lean[0])].posture(choice.side),
+        posture=posture_of(lean, choice.side),
         ready_rad=tuple(choice.q_ready.tolist()),
         X_WO=X_WG @ request.held.X_GO,
         X_WG_pre=choice.up.pose(0),
@@ -117,7 +118,12 @@ def _radius(shape: Shape) -> float:
 
 
 def _free_spots(
-    place: Place, shape: Shape, objects: tuple[ObjectPose, ...], seed: int
+    place: Place,
+    shape: Shape,
+    objects: tuple[ObjectPose, ...],
+    *,
+    hand_half_m: float,
+    seed: int,
 ) -> tuple[Array, Array]:
     """Spots for the object's origin, shape (m, 3), and their costs (m,).
 
@@ -140,7 +146,7 @@ def _free_spots(
         gap = np.minimum(gap, distance - _radius(thing.shape))
     cost = 0.15 * np.hypot(x, y) + 0.6 * np.maximum(0.0, 0.25 - gap)
     cost = cost + 0.05 * np.random.default_rng(seed).random(len(cost))
-    free = gap > max(radius, FINGERS_M) + GAP_M
+    free = gap > max(radius, hand_half_m) + GAP_M
     return spots[free], cost[free]
 
 

@@ -10,7 +10,7 @@ from robot.messages import Side
 from robot.planning.body import Arm, Body
 from robot.planning.grasps import HandOption
 from robot.planning.numerics import Indices, Mask
-from robot.planning.stances import LEANS, Candidates
+from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
 WOBBLE = ((0.02, 0.02, 0.03), (0.02, -0.02, -0.03), (-0.02, 0.02, -0.03), (-0.02, -0.02, 0.03))
@@ -94,7 +94,8 @@ def targets_of(candidates: Candidates, options: list[HandOption], references: Ar
 
 def trunks_of(body: Body, side: Side, candidates: Candidates, *, upright: bool = False) -> Trunks:
     """Where the arm hangs at every candidate's stance, in its posture (or standing upright)."""
-    poses = [body.standing(lean.posture(side), side).X_ST[side] for lean in LEANS]
+    leans = body.description.handy.reaching.leans
+    poses = [body.standing(posture_of(lean, side), side).X_ST[side] for lean in leans]
     lean = np.zeros_like(candidates.lean) if upright else candidates.lean
     R_ST = np.stack([pose.rotation() for pose in poses])[lean]
     return Trunks(candidates.stance, R_ST, np.array([pose.p for pose in poses])[lean])

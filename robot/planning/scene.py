@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 
 from robot.messages import Side
+from robot.model import mjcf
 from robot.model.description import RobotDescription
 from robot.planning.numerics import Indices, Mask
 from robot.planning.requests import Held
@@ -78,7 +79,9 @@ class Scene:
         self._is_solid = np.array([owner.startswith("solid:") for owner in self._owner])
         self.names = [owner.removeprefix("solid:") for owner in self._owner]
         self._held = np.array([owner == HELD for owner in self._owner])
-        self._arms = {side: self._geoms_below(self._shoulder(side)) for side in self.robot.hands}
+        self._arms = {
+            side: self._geoms_below(self._shoulder(side)) for side in self.robot.arm_sides
+        }
         self.trunk_geoms = ~np.any([self._is_solid, *self._arms.values()], axis=0)
         self._grasp_sites = {
             side: model.site(hand.grasp_site).id for side, hand in self.robot.hands.items()
@@ -234,23 +237,29 @@ class SceneCache:
         return scene
 
 
-_SPECS: dict[str, mujoco.MjSpec] = {}
+_SPECS: dict[mjcf.Source, mujoco.MjSpec] = {}
 _LOCK = threading.Lock()
 
 
 def _robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     """The robot's MJCF without what never touches anything; read once."""
-    path = str(robot.mjcf_path())
+    key = robot.source
     with _LOCK:
-        if path not in _SPECS:
-            spec = mujoco.MjSpec.from_file(path)
+        if key not in _SPECS:
+            spec = mjcf.spec(key)
             for geom in list(spec.geoms):
                 if geom.contype == 0 and geom.conaffinity == 0:
                     spec.delete(geom)
+            used = {geom.meshname for geom in spec.geoms}
+            for mesh in [mesh for mesh in spec.meshes if mesh.name not in used]:
+                spec.delete(mesh)
             for sensor in list(spec.sensors):
                 spec.delete(sensor)
-            _SPECS[path] = spec
-        return _SPECS[path].copy()
+            # Nothing has a weight here; but a link whose mass came from a geom that is gone would
+            # be refused.
+            spec.compiler.boundmass = spec.compiler.boundinertia = 1e-6
+            _SPECS[key] = spec
+        return _SPECS[key].copy()
 
 
 def _compile(

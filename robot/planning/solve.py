@@ -38,6 +38,9 @@ class Solver:
             return plan_base_path(self.body, request)
         if isinstance(request, ArmRequest):
             return plan_arm(self.body, request)
+        robot = self.body.description
+        if not robot.hands:
+            return failure("unsupported", f"{robot.name} has no hands", robot=robot.name)
         if isinstance(request, PickRequest):
             return plan_pick(self.body, request)
         return plan_place(self.body, request)

@@ -13,6 +13,7 @@ from itertools import product
 import numpy as np
 
 from robot.messages import Side
+from robot.model.handling import Lean, Reaching
 from robot.planning import numerics
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
@@ -21,56 +22,28 @@ from robot.planning.requests import BodyPosture, Stance
 from robot.se3 import Array
 
 HEADINGS = 24
-NARROW_M = 0.09
-"""Least distance of the stance's middle to any outline: trunk and feet [m]."""
-ROOMY_M, NARROW_COST_PER_M = 0.16, 2.0
-"""A stance nearer to an outline than this costs so much a metre."""
-STEP_IN_M = (0.25, 0.32, 0.40, 0.48, 0.56)
-"""Lengths of the last straight steps from the standoff, tried in this order [m]."""
-ARM_ROOM_M = 0.42
-"""Clearance of a standoff at which the arm can be raised freely [m]."""
+NARROW_COST_PER_M = 2.0
+"""Of a metre nearer to an outline than is roomy."""
 TIGHT_COST = 0.25
-"""Cost of a standoff that has only room for the body."""
-CHUNK = 6000
-FAR_M, FAR_COST_PER_M = 0.32, 1.5
-"""Further ahead of the feet the arm is stretched, which costs so much a metre [m]."""
-ASIDE_M = (0.06, 0.13, 0.20, 0.27, 0.34)
-BEST_ASIDE_M, ASIDE_COST_PER_M = 0.20, 0.8
+"""Of a standoff that has only room for the body."""
+FAR_COST_PER_M, ASIDE_COST_PER_M = 1.5, 0.8
+"""Of a metre that the arm is stretched ahead, or off its best distance to the side."""
 TURNS_RAD, TURN_COST_PER_RAD = (-0.4, 0.0, 0.4), 0.12
+"""Of the hand, from how it points by itself."""
+CHUNK = 6000
+"""So many stances are looked at together: numpy's overhead is small, few are looked at in vain."""
 OPTION_SHARE = 0.5
 """Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
 JITTER = 0.12
 """Random cost that spreads the first candidates."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lean:
-    """A posture, how far ahead it is meant for, what it costs, how many candidates it may have."""
-
-    pitch_rad: float
-    yaw_rad: float
-    ahead_m: tuple[float, ...]
-    cost: float
-    quota: int
-    height_m: float | None = None
-
-    def posture(self, side: Side) -> BodyPosture:
-        """With the shoulder of `side` turned forward."""
-        sign = -1.0 if side == "left" else 1.0
-        return BodyPosture(
-            height_m=self.height_m, pitch_rad=self.pitch_rad, yaw_rad=sign * self.yaw_rad
-        )
-
-
-TALL_M = 0.605
-"""Base height for reaching up: the most a controller allows over the ordinary 0.587 [m]."""
-LEANS = (
-    Lean(0.0, 0.0, (0.22, 0.26, 0.30, 0.34, 0.38, 0.42), 0.0, 480),
-    Lean(0.0, 0.0, (0.34, 0.38, 0.42), 0.10, 240, height_m=TALL_M),
-    Lean(0.25, 0.0, (0.36, 0.40, 0.44, 0.48), 0.20, 320),
-    Lean(0.40, 0.30, (0.42, 0.46, 0.50, 0.54), 0.40, 320),
-    Lean(0.30, 0.0, (0.28, 0.34, 0.40), 0.60, 160, height_m=0.46),
-)
+def posture_of(lean: Lean, side: Side) -> BodyPosture:
+    """How to stand in a lean, with the shoulder of `side` turned forward."""
+    sign = -1.0 if side == "left" else 1.0
+    return BodyPosture(
+        height_m=lean.base_height_m, pitch_rad=lean.pitch_rad, yaw_rad=sign * lean.yaw_rad
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +103,7 @@ def propose(
     references: Array,
     floor: Floor,
     *,
+    reaching: Reaching,
     sides: tuple[Side, ...],
     start: Stance,
     radius_m: float,
@@ -143,6 +117,7 @@ def propose(
         options: grasps.
         references: where the object's origin may be, shape (m, 3).
         floor: free space.
+        reaching: of the robot.
         sides: hands to use.
         start: where the robot is now.
         radius_m: of the body with its arms, where it turns and walks.
@@ -155,9 +130,9 @@ def propose(
     costs: list[Array] = []
     kinds: list[Indices] = []
     for side, (i, lean), (j, option), (k, reference) in product(
-        sides, enumerate(LEANS), enumerate(options), enumerate(references)
+        sides, enumerate(reaching.leans), enumerate(options), enumerate(references)
     ):
-        _around(option, reference, side, lean, into=(stances, headings, costs))
+        _around(option, reference, side, lean, reaching, into=(stances, headings, costs))
         kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
     stance, heading, cost = (np.concatenate(part) for part in (stances, headings, costs))
     tags = np.concatenate(kinds)
@@ -166,19 +141,19 @@ def propose(
     cost = cost + reference_cost[tags[:, 1]] + walk_cost_per_m * walk
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
-    standoffs = _Standoffs(floor, start, radius_m)
+    standoffs = _Standoffs(floor, start, radius_m, reaching)
     kept: list[Indices] = []
     backs: list[Array] = []
-    left = np.array([lean.quota for lean in LEANS])
+    left = np.array([lean.quota for lean in reaching.leans])
     share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
-    left -= share.reshape(len(LEANS), -1).sum(axis=1)
+    left -= share.reshape(len(reaching.leans), -1).sum(axis=1)
     for first in range(0, total, CHUNK):
         rows = order[first : first + CHUNK]
         kind = tags[rows, 2] * len(options) + tags[rows, 0]
         rows = rows[(left[tags[rows, 2]] > 0) | (share[kind] > 0)]
         clearance = floor.clearances_m(stance[rows, :2])
-        cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, ROOMY_M - clearance)
-        rows = rows[clearance >= NARROW_M]
+        cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, reaching.roomy_m - clearance)
+        rows = rows[clearance >= reaching.narrow_m]
         back, tight = standoffs.lengths(stance[rows])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
@@ -220,13 +195,15 @@ def _around(
     reference: Array,
     side: Side,
     lean: Lean,
+    reaching: Reaching,
     *,
     into: tuple[list[Array], list[Array], list[Array]],
 ) -> None:
     """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
-    grid = np.array(list(product(lean.ahead_m, ASIDE_M, TURNS_RAD)))
-    natural = -sign * (0.75 - 3.0 * grid[:, 1]) * (0.5 if lean.pitch_rad else 1.0)
+    grid = np.array(list(product(lean.ahead_m, reaching.aside_m, TURNS_RAD)))
+    inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
+    natural = -sign * inward * (0.5 if lean.pitch_rad else 1.0)
     beta = natural + grid[:, 2]
     if option.headings is None:
         repeats = HEADINGS
@@ -241,14 +218,14 @@ def _around(
     px = reference[0] + ch * option.offset[0] - sh * option.offset[1]
     py = reference[1] + sh * option.offset[0] + ch * option.offset[1]
     y = sign * aside
-    far = np.maximum(0.0, ahead - FAR_M) if lean.pitch_rad == 0.0 else 0.0
+    far = np.maximum(0.0, ahead - reaching.far_m) if lean.pitch_rad == 0.0 else 0.0
     into[0].append(np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1))
     into[1].append(heading)
     into[2].append(
         option.cost
         + lean.cost
         + FAR_COST_PER_M * far
-        + ASIDE_COST_PER_M * np.abs(aside - BEST_ASIDE_M)
+        + ASIDE_COST_PER_M * np.abs(aside - reaching.best_aside_m)
         + TURN_COST_PER_RAD * np.abs(turn)
     )
 
@@ -259,8 +236,9 @@ class _Standoffs:
     A place with room for the arm is preferred to one that only has room for the body.
     """
 
-    def __init__(self, floor: Floor, start: Stance, radius_m: float) -> None:
+    def __init__(self, floor: Floor, start: Stance, radius_m: float, reaching: Reaching) -> None:
         self._floor = floor
+        self._reaching = reaching
         self._radius = radius_m
         self._labels = floor.regions(radius_m)
         self._home = floor.home(self._labels, start[0], start[1])
@@ -270,8 +248,8 @@ class _Standoffs:
         result = np.zeros(len(stance))
         tight = np.zeros(len(stance), dtype=bool)
         back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
-        for room in (ARM_ROOM_M, self._radius):
-            for length in STEP_IN_M:
+        for room in (self._reaching.arm_room_m, self._radius):
+            for length in self._reaching.step_in_m:
                 rows = np.flatnonzero(result == 0.0)
                 at = stance[rows, :2] + length * back[rows]
                 label = self._floor.label_at(self._labels, at)

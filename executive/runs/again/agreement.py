@@ -17,7 +17,6 @@ import msgspec
 from executive.journal.journal import Event
 from executive.meaning.knowledge import Knowledge, stands_on
 from executive.skills.holding import Held
-from executive.skills.motions.fingers import LEAST_GAP_M
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.trees.build import finished
@@ -107,7 +106,9 @@ class _Hands:
         """What the world model has in closed hands, with the grip as the journal knows it."""
         for track in self.world.tracks:
             side, X_WO = track.held_by, track.X_WO
-            if side is None or X_WO is None or self.body.hands[side].opening_m < LEAST_GAP_M:
+            if side is None or X_WO is None:
+                continue
+            if self.body.hands[side].opening_m < self.robot.handy.gripping.least_gap_m:
                 continue
             before = known.get(side)
             if before is not None and before.object_id == track.id:

@@ -6,9 +6,6 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.script import Script, give_up
 from robot.messages import Grip, Payload, Side
 
-LEAST_GAP_M = 0.006
-"""Below this the fingers have closed on air (effort cannot tell)."""
-
 SETTLED_M_S = 0.004
 SETTLE_S = 0.25
 FINGER_TIMEOUT_S = 3.0
@@ -41,11 +38,16 @@ def set_payload(body: Body, side: Side, mass_kg: float) -> None:
     body.send(Payload(**body.header(), side=side, mass_kg=mass_kg))
 
 
+def closed_on_air(body: Body, gap_m: float) -> bool:
+    """Whether fingers that are so far apart hold nothing (effort cannot tell)."""
+    return gap_m < body.description.handy.gripping.least_gap_m
+
+
 def check_grips(body: Body) -> None:
     """Give up when a hand has lost what it held: its fingers have met."""
     for held in body.context.holdings.all():
         gap_m = body.hand(held.side).opening_m
-        if gap_m < LEAST_GAP_M:
+        if closed_on_air(body, gap_m):
             body.context.holdings.release(held.side)
             set_payload(body, held.side, 0.0)
             name = body.object_info(held.object_id).name

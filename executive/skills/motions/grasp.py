@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.fingers import LEAST_GAP_M
+from executive.skills.motions.fingers import closed_on_air
 from executive.skills.motions.gaze import check_camera, fresh_track
 from executive.skills.motions.script import give_up
 from executive.skills.motions.support import pose_on_support, tilt
@@ -74,9 +74,9 @@ def last_seen(body: Body, info: ObjectInfo, X_WO: SE3) -> SE3:
     return pose_on_support(body, info.id, track.X_WO)
 
 
-def check_gap(info: ObjectInfo, plan: PickPlan, gap_m: float) -> None:
+def check_gap(body: Body, info: ObjectInfo, plan: PickPlan, gap_m: float) -> None:
     """Give up unless the fingers have closed on the object, where it is as wide as planned."""
-    if gap_m < LEAST_GAP_M:
+    if closed_on_air(body, gap_m):
         cause = f"the fingers closed on air, not on the {info.name}"
     elif abs(gap_m - plan.opening_m) > GAP_TOLERANCE_M:
         cause = f"the fingers pinched the {info.name} off its middle"

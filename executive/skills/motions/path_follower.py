@@ -12,7 +12,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from robot.model.description import Walking
+from robot.model.gait import Walking
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 

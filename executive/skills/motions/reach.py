@@ -151,7 +151,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return True
-        if near_hand(body, body.X_WG(side).p) is not None:
+        if side in body.state.hands and near_hand(body, body.X_WG(side).p) is not None:
             yield from _yield_to_people(body, side)
             return False
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):

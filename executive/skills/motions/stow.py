@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.skills.motions.body_access import SIDES, Body
+from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import is_at, move_arm, posture_rad
@@ -16,7 +16,7 @@ STEP_BACK_M = 0.30
 
 def stow_arms(body: Body) -> Script[None]:
     """Bring both arms in, each where it is not yet: home, or to how it carries what it holds."""
-    for side in SIDES:
+    for side in body.description.arm_sides:
         yield from stow_arm(body, side)
 
 

@@ -20,7 +20,7 @@ from executive.skills.motions.planning import ask, pose_of, stance_of
 from executive.skills.motions.script import Script, give_up
 from executive.skills.motions.support import surroundings
 from robot.messages import Obstacle, Stand, Walk
-from robot.model.description import Walking
+from robot.model.gait import Walking
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3, wrap_angle
 

@@ -15,11 +15,7 @@ SHORTEST_SHARE = 0.5
 LONGEST_SHARE = 1.35
 TIME_COST_M_S = 0.1  # 0.1 s off the planned time is as bad as landing 1 cm off the planned place
 MISS_WEIGHT = 10.0  # of a landing that the leg cannot reach, or not in time
-SWING_SPEED_M_S = 2.0  # mean, to the landing
-DEADBAND_M = 0.02
-REACH_FORWARD_M = 0.42
-REACH_SIDE_M = 0.50
-CATCH_WIDTH_M = 0.12  # between the feet of a step that catches a push
+DEADBAND_M = 0.02  # errors that the next step takes back anyway only shake the swing foot
 
 
 @dataclass(slots=True)
@@ -78,7 +74,9 @@ class Catch:
             landing = self.reachable(wanted)
             missed = math.hypot(landing.x - wanted.x, landing.y - wanted.y)
             way = math.hypot(landing.x - x, landing.y - y)
-            short = max(0.0, way - SWING_SPEED_M_S * (duration_s - self.past_s))
+            short = max(
+                0.0, way - self.planner.walking.catching.swing_m_s * (duration_s - self.past_s)
+            )
             off = TIME_COST_M_S * (duration_s - self.planned_s)
             return MISS_WEIGHT * (missed**2 + short**2) + dx**2 + dy**2 + off**2
 
@@ -94,10 +92,10 @@ class Catch:
 
     def reachable(self, landing: Sole) -> Sole:
         """Keep a landing where the swing leg can put it without crossing the other."""
-        s = sign_of(self.side)
+        s, reach = sign_of(self.side), self.planner.walking.catching
         forward, left, turn = self.support.relative(landing)
-        forward = max(-REACH_FORWARD_M, min(REACH_FORWARD_M, forward))
-        width = min(CATCH_WIDTH_M, self.planner.walking.min_stance_width_m)
-        left = s * max(width, min(REACH_SIDE_M, s * left))
+        forward = max(-reach.forward_m, min(reach.forward_m, forward))
+        width = min(reach.width_m, self.planner.walking.min_stance_width_m)
+        left = s * max(width, min(reach.side_m, s * left))
         landing = self.support.offset(forward, left, turn_rad=turn)
         return self.planner.apart(self.support, landing, self.side)

@@ -10,12 +10,9 @@ import math
 import msgspec
 
 from robot.messages import Side
-from robot.model.description import Foot, Walking
+from robot.model.description import Foot
+from robot.model.gait import Walking
 from robot.se3 import wrap_angle
-
-INWARD_TURN_RAD = 0.08
-GAP_M = 0.015
-"""Between the soles, seen along the standing one: a turned foot's heel comes near its neighbour."""
 
 
 class Sole(msgspec.Struct, frozen=True):
@@ -114,7 +111,7 @@ class FootstepPlanner:
         forward, left, turn = support.relative(landing)
         half_x, half_y = self._foot.half_length_m, self._foot.half_width_m
         inner = half_x * abs(math.sin(turn)) + half_y * abs(math.cos(turn))
-        width, s = half_y + GAP_M + inner, sign_of(side)
+        width, s = half_y + self.walking.sole_gap_m + inner, sign_of(side)
         if s * left >= width:
             return landing
         return support.offset(forward, s * width, turn_rad=turn)
@@ -157,5 +154,5 @@ class FootstepPlanner:
         inward = limits.stance_width_m - limits.min_stance_width_m
         outward = min(limits.max_step_width_m, 2.0 * limits.max_sideways_m_s * time_s)
         dy = s * max(-inward, min(outward, s * dy))
-        turn = s * max(-INWARD_TURN_RAD, min(limits.max_step_turn_rad, s * turn))
+        turn = s * max(-limits.inward_turn_rad, min(limits.max_step_turn_rad, s * turn))
         return dx, dy, turn

@@ -30,8 +30,6 @@ from robot.model.description import RobotDescription
 from robot.se3 import wrap_angle
 
 HORIZON_STEPS = 4
-START_S = 0.55
-STOP_S = 0.40
 URGENT_START_S = 0.06
 SETTLE_S = 0.25
 TOUCHDOWN_LOAD = 0.02
@@ -44,10 +42,8 @@ TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
 INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
-ZMP_MARGIN_M = 0.008
 URGENT_DOUBLE_S = 0.05
 URGENT_M = 0.03
-HIP_M = 0.038  # the ZMP beyond the sole that turning the trunk is worth for a while
 
 Phase = Literal["stand", "double", "single"]
 
@@ -112,7 +108,7 @@ class Gait:
         self.support = side
         self._one_leg_s = duration_s
         self._landings = [self.planted[other(side)]]
-        self._start_double(1.2, self._stance_centre())
+        self._start_double(self.description.balance.one_leg_shift_s, self._stance_centre())
 
     def settled(self) -> bool:
         """Standing, with nothing left to do."""
@@ -195,7 +191,7 @@ class Gait:
                 is None
             ):
                 swing = support
-            self._begin(swing=swing, start_s=START_S)
+            self._begin(swing=swing, start_s=self.description.walking.start_s)
 
     def _escapes(self, xi: Point) -> bool:
         """Is the DCM where no ZMP inside the support brings it back?"""
@@ -251,7 +247,9 @@ class Gait:
             self._start_double(duration_s, self._zmp_of(self.planted[before]))
         else:
             self._landings = []
-            self._start_double(STOP_S + unused_s, self._zmp_of(self.planted[before]))
+            self._start_double(
+                self.description.walking.stop_s + unused_s, self._zmp_of(self.planted[before])
+            )
 
     def _start_double(self, duration_s: float, zmp: Point) -> None:
         self.phase, self.phase_s, self.duration_s = "double", 0.0, duration_s
@@ -294,7 +292,8 @@ class Gait:
 
     def _hull(self, soles: list[Sole]) -> SupportPolygon:
         foot = self.description.feet["left"]
-        return SupportPolygon(soles, foot.half_length_m, foot.half_width_m, margin_m=ZMP_MARGIN_M)
+        margin_m = self.description.balance.zmp_margin_m
+        return SupportPolygon(soles, foot.half_length_m, foot.half_width_m, margin_m=margin_m)
 
     def _replan(self, zmp: Point) -> None:
         """Segments from now: the rest of this phase, then the footsteps ahead."""
@@ -322,7 +321,7 @@ class Gait:
         stance = stance_of(last, current)
         centre = (stance.x, stance.y)
         if len(self._landings) < HORIZON_STEPS:
-            segments.append(Segment(foot, centre, STOP_S))
+            segments.append(Segment(foot, centre, walking.stop_s))
             terminal = centre
         else:
             end = self._zmp_of(self._landings[-1])
@@ -378,7 +377,7 @@ class Gait:
         gain = 1.0 + DCM_GAIN_1_S / self.omega_1_s
         x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
         y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
-        beyond_m = 0.0 if self.phase == "stand" else HIP_M
+        beyond_m = 0.0 if self.phase == "stand" else self.description.balance.trunk_zmp_m
         return self._polygon.clip((x, y), beyond_m=beyond_m)
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
@@ -390,7 +389,8 @@ class Gait:
         elif self.phase == "single":
             self._integral = [0.0, 0.0]
         command = self._command(xi, xi_ref, zmp_ref)
-        strain = max(0.0, min(1.0, -self._polygon.margin_m(command) / HIP_M))
+        beyond_m = -self._polygon.margin_m(command)
+        strain = max(0.0, min(1.0, beyond_m / self.description.balance.trunk_zmp_m))
         contact, share = [True, True], [2.0, 2.0]
         swing_side: Side | None = None
         heading = self._stance().yaw

@@ -9,7 +9,6 @@ from executive.meaning import request
 from executive.missions.plan import forecast
 from executive.missions.rehearsal import Rehearsal
 from executive.skills.catalogue import skill_of
-from executive.skills.give import BEFORE_PERSON_M
 from executive.skills.motions.pacing import walking_s
 from executive.trees.parts import errands
 from robot.model.description import load
@@ -91,7 +90,9 @@ def test_what_is_given_away_is_brought_to_the_person_and_gone_from_the_hand():
         assert told.problem == ""
         assert told.takes_s > 10.0
     anna = outlook.map.person("anna")
-    assert math.dist(outlook.X_WS.p[:2], anna.X_WO.p[:2]) == pytest.approx(BEFORE_PERSON_M)
+    assert math.dist(outlook.X_WS.p[:2], anna.X_WO.p[:2]) == pytest.approx(
+        JUNO.handy.giving.before_person_m
+    )
     assert outlook.place_of("red_cup") is None
     assert not outlook.carrying
 

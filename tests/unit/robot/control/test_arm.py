@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.control.arm import BRAKE_RAD_S2, BRAKE_RAD_S3, MAX_JOINT_RATE_RAD_S, Arm, Line
+from robot.control.arm import Arm, Line
 from robot.messages import HoldArm, MoveArm, MoveHand
 from robot.se3 import SE3, rotation_vector
 
@@ -130,7 +130,7 @@ def test_the_hand_follows_a_line_to_its_end(body, dynamics, delta, side):
     turn = rotation_vector(goal.rotation() @ bench.X_NG.rotation().T)
     assert np.linalg.norm(turn) < 0.04
     assert off_line_m(bench.X_NG.p, start.p, goal.p) < 0.006
-    assert max(rates) <= MAX_JOINT_RATE_RAD_S + 1e-9
+    assert max(rates) <= body.description.arms.line_speed_rad_s + 1e-9
 
 
 def test_the_hand_stays_in_the_world_while_the_body_sways(bench):
@@ -279,14 +279,15 @@ def test_an_arm_that_is_told_to_hold_comes_to_rest_without_a_jerk(bench, kind, b
                                  positions_rad=(tuple(goal),)))  # fmt: skip
     bench.run(before_s)
     q, qd, qdd = bench.arm.q, bench.arm.qd.copy(), bench.arm.qdd.copy()
+    limits = bench.body.description.arms
     hold(bench)
     for _ in range(200):
         bench.run(DT_S)
         arm = bench.arm
-        most = np.maximum(BRAKE_RAD_S2, np.abs(qdd)) + 1e-9
+        most = np.maximum(limits.brake_rad_s2, np.abs(qdd)) + 1e-9
         assert (np.abs(arm.q - q) <= (np.abs(qd) + most * DT_S) * DT_S + 1e-9).all()
         assert (np.abs(arm.qd - qd) <= most * DT_S).all()
-        assert (np.abs(arm.qdd - qdd) <= BRAKE_RAD_S3 * DT_S + 1e-9).all()
+        assert (np.abs(arm.qdd - qdd) <= limits.brake_rad_s3 * DT_S + 1e-9).all()
         q, qd, qdd = arm.q, arm.qd.copy(), arm.qdd.copy()
         if arm.activity.status == "done":
             break

@@ -7,8 +7,6 @@ import pytest
 from robot.control.walking.catching import (
     DEADBAND_M,
     LONGEST_SHARE,
-    REACH_FORWARD_M,
-    REACH_SIDE_M,
     SHORTEST_SHARE,
     Catch,
 )
@@ -61,8 +59,8 @@ def test_the_landing_goes_where_the_dcm_goes_less_a_deadband(catch, angle_rad):
 def test_no_landing_is_out_of_reach_or_on_the_other_foot(catch, juno, dx_m, dy_m):
     step = catch(dx_m, dy_m)
     forward, left, _ = step.support.relative(step.landing(step.shift(PLANNED_S)))
-    assert abs(forward) <= REACH_FORWARD_M + 1e-9
-    assert 2.0 * juno.feet["left"].half_width_m < left <= REACH_SIDE_M + 1e-9
+    assert abs(forward) <= juno.walking.catching.forward_m + 1e-9
+    assert 2.0 * juno.feet["left"].half_width_m < left <= juno.walking.catching.side_m + 1e-9
 
 
 @pytest.mark.parametrize("past_s", [0.02, 0.15, 0.3])

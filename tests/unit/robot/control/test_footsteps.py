@@ -7,7 +7,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from robot.control.walking.footsteps import (
-    GAP_M,
     FootstepPlanner,
     Sole,
     Target,
@@ -70,7 +69,7 @@ def within_limits(side, landing, support):
         for y in (-FOOT.half_width_m, FOOT.half_width_m):
             corner = landing.offset(x, y)
             _, corner_left, _ = support.relative(corner)
-            assert s * corner_left >= FOOT.half_width_m + GAP_M - 1e-9
+            assert s * corner_left >= FOOT.half_width_m + WALKING.sole_gap_m - 1e-9
 
 
 @given(twists, st.sampled_from(["left", "right"]))

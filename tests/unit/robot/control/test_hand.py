@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot.control.hand import CLOSE_RATE_M_S, GIVE_UP_S, PEAK_SHARE, HandControl
+from robot.control.hand import GIVE_UP_S, HandControl
 from robot.messages import Grip
 from robot.se3 import SE3
 from tests.fakes.motors import motor_state
@@ -90,7 +90,7 @@ def test_fingers_do_not_slam(bench):
     bench.grip(0.1)
     before = bench.update(0.0)
     after = bench.update(0.0)
-    assert abs(after - before) <= CLOSE_RATE_M_S * DT_S + 1e-12
+    assert abs(after - before) <= bench.control.gripping.closing_m_s * DT_S + 1e-12
 
 
 def test_fingers_that_never_rest_fail(bench):
@@ -143,7 +143,11 @@ def test_what_is_pulled_at_is_gripped_harder_at_once_and_no_longer_than_needed(b
 def test_no_pull_asks_for_more_than_the_motor_gives_nor_for_less_than_nothing(bench, load):
     holding(bench)
     force_n = pulled(bench, load, 0.5)
-    assert 15.0 < force_n <= PEAK_SHARE * bench.body.torque_limit_nm[bench.motor]
+    assert (
+        15.0
+        < force_n
+        <= bench.control.gripping.peak_share * bench.body.torque_limit_nm[bench.motor]
+    )
     assert min(bench.q) >= min(bench.body.lower_rad)
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from robot.control.whole_body import COP_MARGIN_M, FRICTION, Task, WholeBody
+from robot.control.whole_body import Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
 from robot.model.body import SIDES, as_index
 from robot.physics import GRAVITY_M_S2
@@ -90,13 +90,14 @@ def test_mujoco_moves_as_the_solution_says(body, whole, seed, contact):
     np.testing.assert_allclose(free.qacc / scale, solution.acc / scale, atol=1e-5)
 
 
-def corner_forces(foot):
+def corner_forces(foot, balance):
     """Wrenches of the edges of the friction pyramids at a sole's corners, as columns."""
-    x, y = foot.half_length_m - COP_MARGIN_M, foot.half_width_m - COP_MARGIN_M
+    x, y = foot.half_length_m - balance.cop_margin_m, foot.half_width_m - balance.cop_margin_m
+    friction = balance.friction
     columns = []
     for corner in ((x, y, 0.0), (x, -y, 0.0), (-x, y, 0.0), (-x, -y, 0.0)):
-        for along in (FRICTION, -FRICTION):
-            for across in (FRICTION, -FRICTION):
+        for along in (friction, -friction):
+            for across in (friction, -friction):
                 force = np.array([along, across, 1.0])
                 columns.append(np.concatenate([force, np.cross(corner, force)]))
     return np.column_stack(columns)
@@ -115,7 +116,8 @@ def test_wrenches_are_ones_that_a_floor_can_give(body, whole, seed, contact, eff
             continue
         slack = TOLERANCE * max(1.0, wrench[2])
         assert -slack <= wrench[2] <= task.max_force_n[i] + slack
-        _, missing = nnls(corner_forces(body.description.feet[side]), wrench)
+        robot = body.description
+        _, missing = nnls(corner_forces(robot.feet[side], robot.balance), wrench)
         assert missing <= 4.0 * slack
 
 

@@ -85,6 +85,8 @@ def test_every_name_of_the_description_must_be_in_the_mjcf(edited, pattern, repl
         (r"  head: \[head_yaw, head_pitch\]\n", "", "joint group 'head' is missing"),
         (r"    left_knee: 1.0", "    left_kne: 1.0", "posture 'nominal'"),
         (r"  left_knee: \{joint[^\n]*\n", "", "names motor 'left_knee', not in motors"),
+        (r"raised: raised", "raised: risen", "signs name posture 'risen'"),
+        (r"(?s)handling:.*?\n\nsigns", "signs", "there are hands, and no 'handling'"),
         (r"torque_limit_nm: 139", "torque_limit: 139", "unknown key 'torque_limit'"),
     ],
 )
@@ -100,11 +102,10 @@ def test_a_broken_mjcf_is_named(edited):
         BodyModel(description.load(path))
 
 
-def test_postures_are_inside_the_joint_limits(juno, body):
-    for name in juno.postures:
-        q = np.array(juno.posture(name))
-        assert (q >= body.lower_rad).all(), name
-        assert (q <= body.upper_rad).all(), name
+def test_a_posture_outside_the_joint_limits_is_named(edited):
+    path = edited("juno.yaml", r"left_elbow: -1.35", "left_elbow: 0.6")
+    with pytest.raises(DescriptionError, match=r"'nominal' puts left_elbow to 0.6, it goes -2.3"):
+        BodyModel(description.load(path))
 
 
 def test_written_joints_are_read_back_and_mimics_follow(juno, body):

@@ -6,7 +6,7 @@ from scipy.interpolate import CubicSpline
 
 from robot.errors import Failure
 from robot.messages import Side
-from robot.planning.arm_path import ACCELERATION_RAD_S2, SPEED_RAD_S
+from robot.model import description
 from robot.planning.body import UPRIGHT, Body
 from robot.planning.requests import ArmPlan, ArmRequest, Joints, Surroundings
 from robot.planning.solids import solids_of
@@ -14,6 +14,7 @@ from robot.planning.solve import Solver
 from robot.se3 import SE3
 from tests.fakes.planning_room import held_cup, on_table, surroundings
 
+ARMS = description.load().arms
 STANCE = (1.02, 0.8, 0.0)
 SIDE: Side = "right"
 OVER_TABLE = (-0.16, -0.2)
@@ -56,7 +57,7 @@ def solve(solver: Solver, asked: ArmRequest) -> ArmPlan:
 def dense(plan: ArmPlan, step_rad: float) -> np.ndarray:
     """The trajectory as the controller interpolates it, no two points further apart."""
     spline = CubicSpline(plan.times_s, plan.positions_rad, bc_type="clamped")
-    count = int(plan.duration_s * 2 * SPEED_RAD_S * 7**0.5 / step_rad)
+    count = int(plan.duration_s * 2 * ARMS.speed_rad_s * 7**0.5 / step_rad)
     return spline(np.linspace(0.0, plan.duration_s, count))
 
 
@@ -83,8 +84,8 @@ def test_speed_and_acceleration_are_inside_the_limits(solver: Solver) -> None:
     plan = solve(solver, request(solver.body, over_table()))
     spline = CubicSpline(plan.times_s, plan.positions_rad, bc_type="clamped")
     at = np.linspace(0.0, plan.duration_s, 300)
-    assert (np.abs(spline(at, 1)) <= 1.02 * SPEED_RAD_S).all()
-    assert (np.abs(spline(at, 2)) <= 1.06 * ACCELERATION_RAD_S2).all()
+    assert (np.abs(spline(at, 1)) <= 1.02 * ARMS.speed_rad_s).all()
+    assert (np.abs(spline(at, 2)) <= 1.06 * ARMS.acceleration_rad_s2).all()
     slow = solve(solver, request(solver.body, over_table(), speed=0.5))
     assert slow.duration_s > 1.6 * plan.duration_s
 

@@ -15,7 +15,9 @@ AT = SE3((1.0, 2.0, 0.8))
 
 
 def options(body: Body, shape: Shape, X_WO: SE3 = AT) -> list[HandOption]:
-    found = pick_options(shape, X_WO, body.description.hands["right"])
+    robot = body.description
+    hand, gripping = robot.hands["right"], robot.handy.gripping
+    found = pick_options(shape, X_WO, hand=hand, gripping=gripping)
     assert isinstance(found, list)
     return found
 
@@ -58,15 +60,17 @@ def test_a_lying_bottle_is_taken_from_above(body: Body) -> None:
 
 
 def test_what_is_too_wide_has_no_grasp(body: Body) -> None:
-    hand = body.description.hands["right"]
-    found = pick_options(Shape(kind="box", size_m=(0.2, 0.3, 0.1)), AT, hand)
+    hand, gripping = body.description.hands["right"], body.description.handy.gripping
+    box = Shape(kind="box", size_m=(0.2, 0.3, 0.1))
+    found = pick_options(box, AT, hand=hand, gripping=gripping)
     assert isinstance(found, Failure)
     assert (found.code, found.evidence["width_m"]) == ("no_grasp", pytest.approx(0.1))
 
 
-def test_a_held_thing_is_put_down_as_it_is_held() -> None:
+def test_a_held_thing_is_put_down_as_it_is_held(body: Body) -> None:
     X_GO = SE3.from_rpy(0.1, -0.2, 0.4, (0.01, 0.0, 0.02))
-    option = held_option(X_GO, Shape(kind="box", size_m=(0.06, 0.06, 0.1)), yaws=(0.5,))
+    box, gripping = Shape(kind="box", size_m=(0.06, 0.06, 0.1)), body.description.handy.gripping
+    option = held_option(X_GO, box, yaws=(0.5,), gripping=gripping)
     assert option.headings is not None
     turn = SE3.from_xy_yaw(0.0, 0.0, option.headings[0])
     X_OG = turn @ SE3.from_rotation(option.R0, option.offset)

@@ -1,0 +1,150 @@
+"""How a body uses its arms and hands: speeds, loads, reach, and from where it reaches out."""
+
+from __future__ import annotations
+
+import msgspec
+
+from robot.se3 import Vector3
+
+
+class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Motions of an arm, see robot/control/arm.py and robot/planning/arm_path.py.
+
+    Attributes:
+        speed_rad_s, acceleration_rad_s2: of planned motions, each joint.
+        brake_rad_s2, brake_rad_s3: of coming to rest.
+        line_rate_1_s: how fast an error of the hand on a line is taken back.
+        line_speed_rad_s: most of a joint on a line.
+        line_lead_rad: most that a joint's target runs ahead of the joint.
+        max_lift_kg: heaviest thing to pick up.
+        max_payload_kg: heaviest that the controller believes to be in a hand.
+    """
+
+    speed_rad_s: float
+    acceleration_rad_s2: float
+    brake_rad_s2: float
+    brake_rad_s3: float
+    line_rate_1_s: float
+    line_speed_rad_s: float
+    line_lead_rad: float
+    max_lift_kg: float
+    max_payload_kg: float
+
+
+class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What both hands have in common, see robot/control/hand.py and robot/planning/grasps.py.
+
+    Attributes:
+        closing_m_s: how fast the opening's reference changes, along one finger.
+        friction: least of a pad on what it holds.
+        held_n: a motor that closes with more holds something.
+        peak_share: of the motor's peak force, what a tightened grip may take.
+        least_gap_m: a smaller opening of closed fingers means that they hold nothing.
+        fingertip_m: reach of the pads past the grasp point.
+        hold_depth_m: most that the grasp point is behind the near face of an object.
+        slack_m: by how much the opened hand is wider than what it takes.
+        half_width_m: of the opened hand, along its closing direction.
+    """
+
+    closing_m_s: float
+    friction: float
+    held_n: float
+    peak_share: float
+    least_gap_m: float
+    fingertip_m: float
+    hold_depth_m: float
+    slack_m: float
+    half_width_m: float
+
+
+class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A posture to reach out in.
+
+    Attributes:
+        pitch_rad: of the waist, forward.
+        yaw_rad: of the waist, the reaching shoulder forward.
+        ahead_m: distances of the grasp point ahead of the feet that it is good for.
+        cost: how little it is liked beside the others.
+        quota: how many candidates of it a search looks at.
+        base_height_m: of the base; None: as for walking.
+    """
+
+    pitch_rad: float = 0.0
+    yaw_rad: float = 0.0
+    ahead_m: tuple[float, ...]
+    cost: float
+    quota: int
+    base_height_m: float | None = None
+
+
+class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Where a hand may hold something near the body, from the base: every combination is tried.
+
+    `ahead_m`, `aside_m` (outwards), `up_m` place the grasp point, `turns_rad` (inwards) its
+    heading.
+    """
+
+    ahead_m: tuple[float, ...]
+    aside_m: tuple[float, ...]
+    up_m: tuple[float, ...]
+    turns_rad: tuple[float, ...]
+
+
+class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Where to stand and how, so that a hand gets somewhere; see robot/planning/stances.py.
+
+    Attributes:
+        leans: postures, the upright one first.
+        far_m: further ahead of the feet an upright robot's arm is stretched.
+        aside_m, best_aside_m: distances of the grasp point from the middle, to the arm's side.
+        inward_rad, inward_rad_m: the hand points inwards by the first less the second times its
+            distance from the middle.
+        upright_m: furthest ahead of the feet that the raised hand is carried, upright.
+        raised_hand_m: grasp point of a hand held out level, in S, of the left hand.
+        step_in_m: lengths of the last straight steps before a stance, in the order of trying.
+        arm_room_m: clearance of a standing place at which an arm can be raised freely.
+        narrow_m, roomy_m: least clearance of a stance's middle, and that which costs nothing.
+        carrying: of things in the hand.
+    """
+
+    leans: tuple[Lean, ...]
+    far_m: float
+    aside_m: tuple[float, ...]
+    best_aside_m: float
+    inward_rad: float
+    inward_rad_m: float
+    upright_m: float
+    raised_hand_m: Vector3
+    step_in_m: tuple[float, ...]
+    arm_room_m: float
+    narrow_m: float
+    roomy_m: float
+    carrying: Carrying
+
+
+class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Handing things over.
+
+    Attributes:
+        before_person_m: from the person's middle to the feet; the hand comes half of the way.
+        held_out_m: grasp points to hold something out at, in S, of the left hand, best first.
+    """
+
+    before_person_m: float
+    held_out_m: tuple[Vector3, ...]
+
+
+class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a robot's hands are good for."""
+
+    gripping: Gripping
+    reaching: Reaching
+    giving: Giving
+
+
+class Signs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Gestures: names of postures, and how far a pointing hand is stretched from the shoulder."""
+
+    raised: str
+    waving: tuple[str, ...]
+    pointing_m: tuple[float, ...]

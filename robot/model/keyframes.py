@@ -1,0 +1,40 @@
+"""Motions of a body that are played back: keyframe by keyframe."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+
+class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One stage of a motion: the joints named move to their values, the others stay.
+
+    `duration_s` is the least it takes (the joints' speed may ask for more), `hold_s` how long it
+    then rests. With `needs` it begins only if the trunk is so by then; else the motion is missed.
+    """
+
+    name: str
+    duration_s: float
+    posture: dict[str, float]
+    hold_s: float = 0.0
+    needs: Literal["front", "upright"] | None = None
+
+
+class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What gets it up, by how it lies.
+
+    From the `front` into a squat on both soles; over its `left` or `right` side onto the front.
+    From the back it goes over the side that is lower.
+    """
+
+    front: tuple[Keyframe, ...]
+    left: tuple[Keyframe, ...]
+    right: tuple[Keyframe, ...]
+
+
+class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How the robot gets up from the floor: with at most so many motions."""
+
+    tries: int
+    motions: Motions

@@ -1,0 +1,135 @@
+"""A robot's MJCF: one file, or a published one with an overlay of our own laid over it.
+
+An overlay is MJCF as well. Its bodies, wherever they stand in its tree, mean those of the same name
+in the published model: what stands in them is added there; a joint or a geom whose name is there
+already, an `inertial`, `option`, `compiler` and `default` lend it their attributes instead. Bodies
+of new names, and whatever stands in other sections, are added as they are.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import msgspec
+import mujoco
+
+from robot.errors import DescriptionError, Problem
+
+SETTINGS = frozenset({"option", "compiler", "inertial"})
+"""Elements that an overlay changes rather than repeats."""
+
+
+class Source(msgspec.Struct, frozen=True):
+    """Where a model comes from: its file, what is laid over it, meshes that are left out."""
+
+    path: str
+    overlay: str | None = None
+    without: tuple[str, ...] = ()
+
+    def content(self) -> bytes:
+        """What is in the files."""
+        files = (self.path,) if self.overlay is None else (self.path, self.overlay)
+        return b"".join(Path(file).read_bytes() for file in files)
+
+
+def spec(source: Source) -> mujoco.MjSpec:
+    """The robot alone, to be compiled or put into a scene.
+
+    Raises:
+        DescriptionError: if it cannot be read, or overlay and published model do not fit.
+    """
+    try:
+        if source.overlay is None:
+            return mujoco.MjSpec.from_file(source.path)
+        return mujoco.MjSpec.from_string(_laid_over(source, Path(source.overlay)))
+    except (ValueError, ET.ParseError) as error:
+        raise DescriptionError([_broken(source, error)]) from None
+
+
+def compiled(source: Source) -> mujoco.MjModel:
+    """The robot alone. Raises DescriptionError as `spec` does."""
+    try:
+        return spec(source).compile()
+    except ValueError as error:
+        raise DescriptionError([_broken(source, error)]) from None
+
+
+def _broken(source: Source, error: Exception) -> Problem:
+    return Problem(f"the MJCF does not compile: {error}", source.overlay or source.path)
+
+
+def _laid_over(source: Source, overlay_path: Path) -> str:
+    """The published model with the overlay, as MJCF; meshes by their full path."""
+    base, overlay = ET.parse(source.path).getroot(), ET.parse(overlay_path).getroot()
+    _full_paths(base, Path(source.path).resolve().parent)
+    _robot_alone(base)
+    _leave_out(base, source.without)
+    bodies = {body.get("name"): body for body in base.iter("body")}
+    for section in overlay:
+        own = base.find(section.tag)
+        if own is None:
+            base.append(section)
+        elif section.tag in SETTINGS:
+            own.attrib.update(section.attrib)
+        elif section.tag == "default":
+            _defaults(own, section)
+        elif section.tag == "worldbody":
+            _bodies(own, section, bodies)
+        else:
+            own.extend(section)
+    return ET.tostring(base, encoding="unicode")
+
+
+def _full_paths(base: ET.Element, folder: Path) -> None:
+    compiler = base.find("compiler")
+    if compiler is None:
+        compiler = ET.SubElement(base, "compiler")
+    for kind in ("meshdir", "texturedir", "assetdir"):
+        if kind in compiler.attrib or kind == "meshdir":
+            compiler.set(kind, str(folder / compiler.get(kind, "")))
+
+
+def _robot_alone(base: ET.Element) -> None:
+    """Without keyframes, which an added joint makes too short, and without light of its own."""
+    for keyframe in base.findall("keyframe"):
+        base.remove(keyframe)
+    for world in base.findall("worldbody"):
+        for light in world.findall("light"):
+            world.remove(light)
+
+
+def _leave_out(base: ET.Element, meshes: tuple[str, ...]) -> None:
+    for body in base.iter("body"):
+        for geom in [geom for geom in body.findall("geom") if geom.get("mesh") in meshes]:
+            body.remove(geom)
+
+
+def _defaults(own: ET.Element, added: ET.Element) -> None:
+    """Attributes for classes that are there, and classes that are not."""
+    classes = {one.get("class"): one for one in own.iter("default")}
+    for child in added:
+        there = classes.get(child.get("class")) if child.tag == "default" else own.find(child.tag)
+        if there is None:
+            own.append(child)
+        elif child.tag == "default":
+            _defaults(there, child)
+        else:
+            there.attrib.update(child.attrib)
+
+
+def _bodies(own: ET.Element, added: ET.Element, bodies: dict[str | None, ET.Element]) -> None:
+    """What stands in a body of the overlay, put into the published one."""
+    for child in added:
+        name = child.get("name")
+        if child.tag == "body" and name in bodies:
+            _bodies(bodies[name], child, bodies)
+        elif child.tag in SETTINGS:
+            there = own.find(child.tag)
+            own.append(child) if there is None else there.attrib.update(child.attrib)
+        else:
+            same = [one for one in own.findall(child.tag) if name and one.get("name") == name]
+            for one in same:
+                one.attrib.update(child.attrib)
+            if not same:
+                own.append(child)

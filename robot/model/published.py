@@ -1,0 +1,48 @@
+"""Models that others publish: found where people keep them, never copied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+import robot
+from robot.errors import DescriptionError, Problem
+
+CHECKOUT = Path(robot.__file__).resolve().parent.parent
+"""The folder that this project is in, where it is run from its sources."""
+
+
+class Published(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A model with meshes that is not ours to ship.
+
+    Attributes:
+        places: folders that may hold it, the first that does is taken; `~` is the home folder, what
+            does not begin at a root is looked for beside the description and the checkout.
+        without: meshes whose geoms are left out.
+        cure: how to get it, for people.
+        source: who publishes it, under what licence.
+    """
+
+    places: tuple[str, ...]
+    without: tuple[str, ...] = ()
+    cure: str
+    source: str
+
+    def find(self, file: str, *, description: Path) -> Path:
+        """The folder in which `file` lies.
+
+        Raises:
+            DescriptionError: naming every place looked at, and the cure.
+        """
+        bases = (description.resolve().parent, CHECKOUT)
+        looked: list[str] = []
+        for place in self.places:
+            for base in bases:
+                folder = base / Path(place).expanduser()
+                if (folder / file).is_file():
+                    return folder
+                if str(folder) not in looked:
+                    looked.append(str(folder))
+        text = f"the published model {file} is in none of {', '.join(looked)}"
+        raise DescriptionError([Problem(text, str(description), suggestion=self.cure)])
