@@ -14,7 +14,7 @@ from robot.se3 import Array
 
 GROUPS = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # what is sensed, see UNSENSED
 UNSENSED = 4
-"""Geoms of this group are drawn and not sensed: Juno's wrists, which would stand in its lidar's plane.
+"""Geoms of this group are drawn and not sensed: Juno's wrists, which stand in its lidar's plane.
 
 They were added to look at; what it senses, and so every run, is to stay as it was.
 """
