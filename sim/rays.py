@@ -12,7 +12,12 @@ from numpy.typing import NDArray
 
 from robot.se3 import Array
 
-GROUPS = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # what is visible; 3 and up is hidden
+GROUPS = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # what is sensed, see UNSENSED
+UNSENSED = 4
+"""Geoms of this group are drawn and not sensed: Juno's wrists, which stand in its lidar's plane.
+
+They were added to look at; what it senses, and so every run, is to stay as it was.
+"""
 HIDDEN = 5  # a group that no ray meets
 STATIC = True  # hit what cannot move, too
 

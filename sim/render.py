@@ -17,6 +17,7 @@ from robot.closing import Closing
 from robot.errors import ConfigError, Problem
 from robot.se3 import Vector3
 from sim.plant import Plant
+from sim.rays import UNSENSED
 from sim.schema import World
 
 PACKAGES = "libegl1 libgl1-mesa-dri libopengl0"
@@ -53,6 +54,7 @@ class Renderer(Closing):
         self._gl: Any = None
         self._scene = mujoco.MjvScene(model, maxgeom=2000)
         self._option = mujoco.MjvOption()
+        self._option.geomgroup[UNSENSED] = 1
         self._camera = mujoco.MjvCamera()
         self._rect = mujoco.MjrRect(0, 0, width, height)
 
