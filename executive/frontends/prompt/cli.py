@@ -22,7 +22,7 @@ from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech
 from executive.journal import failures
-from executive.journal.journal import Event
+from executive.journal.journal import Event, Journal
 from executive.meaning import request
 from executive.runs.again.continuation import left_in
 from executive.runs.again.recording import Recording
@@ -125,9 +125,7 @@ def conversation(
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, table=commands.table, folder=folder, model=model, speech=speech)
-        for event in robot.session.journal.recent:
-            if event.event == "resumed":  # before anybody listened
-                _tell(event)
+        tell_what_goes_on(robot.session.journal)
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)
         yield shell
@@ -137,6 +135,13 @@ def say(text: str) -> None:
     """A line for people; above the prompt where there is one."""
     console = Console(file=sys.stdout, highlight=False)
     console.print(text, markup=False, soft_wrap=not console.is_terminal)
+
+
+def tell_what_goes_on(journal: Journal) -> None:
+    """Tell what is gone on with: that was written before anybody listened."""
+    for event in tuple(journal.recent):  # at once: the robot's thread goes on writing
+        if event.event == "resumed":
+            _tell(event)
 
 
 def _tell(event: Event) -> None:
