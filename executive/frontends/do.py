@@ -21,7 +21,7 @@ from executive.frontends.dump.writer import along
 from executive.frontends.language_model import language_model
 from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.frontends.speaking import Speech
-from executive.frontends.supervised import oversee
+from executive.frontends.supervised import FrontEnd, oversee
 from executive.meaning import request
 from executive.runs import continuation, run_folder, runtimes, steady_walk, task_run
 from executive.runs.task_run import Progress
@@ -87,7 +87,7 @@ def do(options: Do) -> int:
         "options": msgspec.to_builtins(options, enc_hook=str),
         "goals": to_builtins(understood.goals),
     }
-    return oversee("executive.frontends.do:do_overseen", task, as_json=options.as_json)
+    return oversee(FrontEnd.DO, task, as_json=options.as_json)
 
 
 def _understood(options: Do, where: request.Setting) -> request.Understood | request.Refused:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Any
 
 import typer
@@ -10,12 +11,21 @@ from executive.frontends.exit import last_words
 from robot.bringup import overseer
 
 
-def oversee(front: str, options: dict[str, Any], *, as_json: bool) -> int:
+class FrontEnd(StrEnum):
+    """What an executive can be there for; `executive.main` has the function of each."""
+
+    DO = "do"
+    LISTEN = "listen"
+    MISSION = "mission"
+    PROMPT = "prompt"
+    RESUME = "resume"
+
+
+def oversee(front: FrontEnd, options: dict[str, Any], *, as_json: bool) -> int:
     """Run a front end in an executive of its own, and start it again should it die.
 
     Args:
-        front: `module:function`, called with a `robot.bringup.overseen.Handle` and the options in
-            the child; it returns the exit status, and goes on with its run if `handle.deaths`.
+        front: which one; it goes on with its run where an executive died before it.
         options: plain data.
         as_json: nothing but JSON goes to standard output.
     """

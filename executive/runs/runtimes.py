@@ -6,14 +6,26 @@ import tempfile
 from collections.abc import Generator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
 from robot.bringup.overseen import Handle
 from robot.planning.worker import Planner
 
+if TYPE_CHECKING:
+    from robot.bringup.live import LiveRuntime
+    from robot.planning.process import ProcessPlanner
+
 Kind = Literal["fast", "live"]
+
+
+def live_parts() -> tuple[type[LiveRuntime], type[ProcessPlanner]]:
+    """What a `live` run is opened with; loading it takes a while, which a spare does beforehand."""
+    from robot.bringup.live import LiveRuntime
+    from robot.planning.process import ProcessPlanner
+
+    return LiveRuntime, ProcessPlanner
 
 
 @contextmanager
@@ -44,13 +56,11 @@ def opened(
         with FastRuntime(where.world, where.robot_name, seed=seed) as runtime:
             yield runtime, InlinePlanner(where.description)
         return
-    from robot.bringup.live import LiveRuntime
-    from robot.planning.process import ProcessPlanner
-
+    runtime_type, planner_type = live_parts()
     with ExitStack() as stack:
         logs = folder or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="humanoid-")))
-        planner = stack.enter_context(ProcessPlanner(where.description))
-        runtime = LiveRuntime(
+        planner = stack.enter_context(planner_type(where.description))
+        runtime = runtime_type(
             where.world_name,
             where.robot_name,
             folder=logs,

@@ -55,21 +55,23 @@ def oversee(
     *,
     tell: Tell,
     clock: Clock | None = None,
+    executive: Process = EXECUTIVE,
     processes: tuple[Process, ...] = PROCESSES,
 ) -> Ended:
     """Run a front end in an executive of its own, until that ends, or dies once too often.
 
     Args:
-        entry: `module:function` of the front end, called with a `Handle` and the options.
+        entry: name of the front end.
         options: plain data.
         tell: says a line to people.
         clock: the wall's; another one in tests.
+        executive: its row of the table.
         processes: of the robot.
     """
     private = private_folder.create()
     overseer = Overseer(
         Front(entry=entry, options=options), private, tell=tell, clock=clock or WallClock(),
-        processes=processes,
+        executive=executive, processes=processes,
     )  # fmt: skip
     try:
         return overseer.run()
@@ -87,6 +89,7 @@ class Overseer:
         *,
         tell: Tell,
         clock: Clock,
+        executive: Process,
         processes: tuple[Process, ...],
     ) -> None:
         """Start nothing yet."""
@@ -94,6 +97,7 @@ class Overseer:
         self._private = private
         self._tell = tell
         self._clock = clock
+        self._executive = executive
         self._processes = processes
         self._starts_s: list[float] = []
         self._crew: Supervisor | None = None
@@ -141,7 +145,7 @@ class Overseer:
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             return subprocess.Popen(
-                [*command(EXECUTIVE, self._private), str(number)], env=environment()
+                [*command(self._executive, self._private), str(number)], env=environment()
             )
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
@@ -151,7 +155,7 @@ class Overseer:
         up = self._crew is not None and self._state.failure is None
         if up and self._clock.now_s() > self._spare_due_s:
             self._spare_due_s = math.inf
-            if EXECUTIVE.may_start_again(self._starts_s, self._clock.now_s()):
+            if self._executive.may_start_again(self._starts_s, self._clock.now_s()):
                 self._spare = self._start(self._front.deaths + 1)
 
     def _judge(self, code: int) -> Ended | None:
@@ -163,8 +167,8 @@ class Overseer:
         died = "ended by a mistake" if code == CRASHED else describe_exit(code)
         if self._crew is None or self._state.failure is not None:
             return Ended(BROKEN, f"the executive {died}")
-        if not EXECUTIVE.may_start_again(self._starts_s, self._clock.now_s()):
-            often = EXECUTIVE.restarts + 1
+        if not self._executive.may_start_again(self._starts_s, self._clock.now_s()):
+            often = self._executive.restarts + 1
             return self._give_up(f"the executive {died}, {often} times within a minute")
         self._tell(f"The executive {died}. The robot finishes its step and stands; going on ...")
         deaths = self._front.deaths + 1

@@ -17,14 +17,15 @@ import json, signal, sys
 from pathlib import Path
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup
 from robot.bringup import lowering, overseer
-from robot.bringup.processes import Process
+from dataclasses import replace
+from robot.bringup.processes import EXECUTIVE, Process
 lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
 overseer.SPARE_AFTER_S = json.loads(sys.argv[2])
 STUB = "tests.fakes.stub_process"
 three = (Process("plant", STUB, "simulation", death="plant_lost"),
          Process("controller", STUB, "always", death="controller_lost"))
-ended = overseer.oversee("tests.fakes.fronts:front", json.loads(sys.argv[1]),
-                         tell=print, processes=three)
+ended = overseer.oversee("", json.loads(sys.argv[1]), tell=print, processes=three,
+                         executive=replace(EXECUTIVE, module="tests.fakes.fronts"))
 print("ended", ended.status, ended.reason)
 sys.exit(ended.status)
 """
@@ -96,7 +97,8 @@ def test_the_executives_exit_status_is_the_shells(shell, status):
 def test_ctrl_c_while_the_executive_is_loading_is_heeded(shell):
     """Before there is a robot, and before anybody could listen."""
     job = shell(ends=False, robot=False)
-    assert eventually(lambda: any("executive.main" in words for words in job.left()), within_s=60.0)
+    loading = lambda: any("tests.fakes.fronts" in words for words in job.left())  # noqa: E731
+    assert eventually(loading, within_s=60.0)
     os.killpg(job.job.pid, signal.SIGINT)
     status, text = job.end()
     assert status == 1

@@ -14,7 +14,7 @@ from executive.frontends.listening.hearing import INVALID, Options, audio_errors
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech, able
-from executive.frontends.supervised import oversee
+from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal.journal import Event
 from executive.runs import run_folder
 from intents import goals as g
@@ -48,7 +48,7 @@ def obey(options: Options) -> int:
     if options.fast:
         return converse(options)
     plain = msgspec.to_builtins(options, enc_hook=str)
-    return oversee("executive.frontends.listening.obeying:overseen", plain, as_json=False)
+    return oversee(FrontEnd.LISTEN, plain, as_json=False)
 
 
 def overseen(handle: Handle, plain: dict[str, Any]) -> int:

@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.frontends import do
-from executive.frontends.supervised import oversee
+from executive.frontends.supervised import FrontEnd, oversee
 from executive.missions.check import Checked, Options, check
 from executive.runs import mission, run_folder, task_run
 from executive.runs.mission_files import keep
@@ -50,7 +50,7 @@ def run(wanted: Run) -> int:
     said = replace(wanted.said, world=where.world_name, robot=where.robot_name)
     plain = msgspec.to_builtins(replace(wanted, said=said), enc_hook=str)
     task = {"as_json": wanted.how.as_json, "run": plain}
-    return oversee("executive.frontends.missions.run:overseen", task, as_json=wanted.how.as_json)
+    return oversee(FrontEnd.MISSION, task, as_json=wanted.how.as_json)
 
 
 def overseen(handle: Handle, task: dict[str, Any]) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -11,18 +10,15 @@ import typer
 
 from executive.frontends import do
 from executive.frontends.past_runs import printing
-from executive.frontends.supervised import oversee
+from executive.frontends.prompt import cli as prompt
+from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal import past_runs
 from executive.runs import recording, resumption, task_run
 from executive.runs.recording import Recording
 from executive.runs.resumption import CannotGoOn, Screen
 from executive.runs.run_folder import Summary
-from robot.bringup import entry
 from robot.bringup.overseen import Handle
 from robot.clock import WallClock
-
-PROMPT = "executive.frontends.prompt.cli:again"
-"""Goes on with what was done at the prompt, at the prompt."""
 
 
 def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
@@ -34,8 +30,7 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     folder = past_runs.find(run)
     recorded = resumption.check(folder)
     if recorded.header.attended:
-        again: Callable[[Recording, Path | None], int] = entry.attribute(PROMPT)
-        return again(recorded, model)
+        return prompt.again(recorded, model)
     where, changed = recording.setting(recorded)
     for change in changed:
         typer.echo(f"note: {change}, since it was recorded", err=True)
@@ -56,7 +51,7 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
 def _go_on_live(recorded: Recording, *, folder: Path, as_json: bool) -> int:
     """Go on with a live run with a new robot, as a run in `folder`; returns the exit status."""
     task = {"as_json": as_json, "left_by": str(recorded.folder), "folder": str(folder)}
-    return oversee("executive.frontends.past_runs.resume:overseen", task, as_json=as_json)
+    return oversee(FrontEnd.RESUME, task, as_json=as_json)
 
 
 def overseen(handle: Handle, task: dict[str, Any]) -> int:

@@ -21,7 +21,7 @@ from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech
-from executive.frontends.supervised import oversee
+from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal.journal import Event
 from executive.meaning import request
 from executive.runs import run_folder, runtimes
@@ -87,7 +87,7 @@ def repl(options: Options) -> int:
     if options.fast:
         return prompt(options)
     plain = msgspec.to_builtins(options, enc_hook=str)
-    return oversee("executive.frontends.prompt.cli:overseen", plain, as_json=False)
+    return oversee(FrontEnd.PROMPT, plain, as_json=False)
 
 
 def overseen(handle: Handle, plain: dict[str, Any]) -> int:
