@@ -32,6 +32,7 @@ from executive.journal.journal import Journal
 from executive.meaning import request
 from executive.runs import runtimes, task_run
 from robot.clock import WallClock
+from sim.reality import Simulation
 
 SENTENCE = "pick up the red cup and put it on the shelf"
 DUMPS = ("failure", "change")
@@ -80,7 +81,7 @@ def quiet(_executive: Executive) -> Silent:
 
 def run(sentence: str, *, folder: Path | None, dump_on: str = "", bare: bool = False) -> float:
     """Do a job in `fast`; returns the CPU time [s] from its first tick to its end."""
-    where = request.setting("kitchen", "juno")
+    where = request.setting(Simulation(), "kitchen", robot="juno")
     understood = request.request(sentence, where, ask=None)
     if isinstance(understood, request.Refused):
         raise SystemExit(understood.reason)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import tempfile
 import time
 import traceback
-from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ import msgspec
 
 from executive.engine import loop
 from executive.engine.executive import Executive
-from executive.evaluation.campaign import Run, meant, settings
+from executive.evaluation.campaign import Run, Settings, meant
 from executive.evaluation.record import Record
 from executive.journal.journal import Journal
 from executive.missions import fault_plans
@@ -24,23 +23,23 @@ from executive.skills.context import SkillContext
 from executive.skills.resources import needed_by
 from executive.trees.build import Done, build
 from executive.trees.parts import errands
-from robot.bringup import entry
 from robot.errors import Failure, failure
 from robot.planning.worker import Planner
+from robot.reality import truth
+from robot.reality.contract import Plant, Reality
 
-NUDGED, JUDGE = "sim.world:nudged", "sim.judge:judge"
 SETTLE_S = 2.0
 """Let pass before the judge looks: a robot that falls has to hit the floor."""
 RESTART_S = 3.0
 """How long an executive that was killed is away before the next one goes on."""
 
 
-def perform(run: Run) -> Record:
+def perform(run: Run, reality: Reality) -> Record:
     """Do a run to its end, whatever that is; never raises."""
     begin_s = time.perf_counter()
     try:
         with tempfile.TemporaryDirectory(prefix="humanoid-eval-") as folder:
-            record = _Trial(run, Path(folder)).carry_out()
+            record = _Trial(run, reality, Path(folder)).carry_out()
     except Exception as error:  # a run that breaks is a result as well
         text = traceback.format_exception_only(error)[-1].strip()
         record = Record(
@@ -53,11 +52,11 @@ def perform(run: Run) -> Record:
 class _Trial:
     """A robot in its world, an executive that may die, and a judge."""
 
-    def __init__(self, run: Run, folder: Path) -> None:
+    def __init__(self, run: Run, reality: Reality, folder: Path) -> None:
         self.run, self.folder = run, folder
         case, seed = run.case, run.seed
-        given = meant(case, settings(run.robot))
-        world = entry.attribute(NUDGED)(given.where.world, seed, start=case.start)
+        given = meant(case, Settings(reality, run.robot))
+        world = given.where.world.nudged(seed, start=case.start)
         self.given = given
         self.where = msgspec.structs.replace(given.where, world=world)
         self.codes: list[str] = []
@@ -68,12 +67,9 @@ class _Trial:
         """The run, and what became of it."""
         run, where = self.run, self.where
         with ExitStack() as stack:
-            runtime, planner = stack.enter_context(
-                runtimes.opened("fast", where, seed=run.seed, folder=None)
-            )
+            runtime, planner = stack.enter_context(runtimes.fast(where, seed=run.seed))
             journal = stack.enter_context(Journal(self.folder))
             journal.listen(lambda event: self._note(event.event, event.data))
-            assert isinstance(runtime, faults.Injects)
             slow = faults.SlowPlanner(planner)
             injector = faults.Injector(
                 (*self.given.faults, *(fault_plans.plan(data) for data in run.case.faults)),
@@ -88,7 +84,7 @@ class _Trial:
             reason = self._work(runtime, slow, journal, injector)
             took_s = runtime.clock.now_s()
             runtime.advance(SETTLE_S)
-            return self._record(runtime, reason, took_s=took_s, struck=len(injector.struck))
+            return self._record(runtime.plant, reason, took_s=took_s, struck=len(injector.struck))
 
     def _work(
         self,
@@ -158,11 +154,11 @@ class _Trial:
         self.recoveries += event in ("recovery", "hold")
 
     def _record(
-        self, runtime: Any, reason: Failure | None, *, took_s: float, struck: int
+        self, plant: Plant, reason: Failure | None, *, took_s: float, struck: int
     ) -> Record:
         """Judge by the simulator's truth."""
         run, case = self.run, self.run.case
-        verdict = entry.attribute(JUDGE)(runtime.plant, case.truth)
+        verdict = plant.judge(truth.read(case.truth, self.where.world_map))
         safe = verdict.upright or (case.damped and verdict.damped)
         code, cause = (reason.code, reason.cause) if reason else ("done", "")
         wrong = verdict.wrong if code == "done" else ()
@@ -183,6 +179,3 @@ class _Trial:
             struck=struck,
             source=verdict.source,
         )
-
-
-Perform = Callable[[Run], Record]

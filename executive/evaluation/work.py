@@ -16,6 +16,7 @@ from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import Record, Results, fingerprint
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.reality.contract import Reality
 
 DONE, FAILED = 0, 1
 
@@ -36,13 +37,13 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     require: float
 
 
-def evaluate(options: Options) -> int:
-    """Run a campaign, or what is left of one; returns the exit status.
+def evaluate(options: Options, reality: Reality) -> int:
+    """Run a campaign, or what is left of one, in a reality; returns the exit status.
 
     Raises:
         ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
     """
-    cases = chosen(options)
+    cases = chosen(options, reality)
     wanted = campaign.runs(
         cases, seeds=options.seeds, without_too=options.no_recovery, robot=options.robot
     )
@@ -52,7 +53,7 @@ def evaluate(options: Options) -> int:
     console = Console(stderr=True, quiet=options.as_json)
     if results.stale:
         console.print("[yellow]some results there were made by other code[/]")
-    _go_through(results, results.left(wanted), options, console)
+    _go_through(results, results.left(wanted), reality, options=options, console=console)
     found = report.report(cases, results.records.values())
     save(folder, found)
     if options.as_json:
@@ -70,7 +71,7 @@ def save(folder: Path, found: report.Report) -> None:
     (folder / "report.md").write_text(report.markdown(found), encoding="utf-8")
 
 
-def chosen(options: Options) -> tuple[Case, ...]:
+def chosen(options: Options, reality: Reality) -> tuple[Case, ...]:
     """The cases that the options mean.
 
     Faults name cases of the shipped campaign or are campaign files; missions of one's own are run
@@ -83,23 +84,23 @@ def chosen(options: Options) -> tuple[Case, ...]:
     shipped: dict[str, Case] | None = None
     for word in options.faults:
         if word.endswith((".yaml", ".yml")):
-            cases += campaign.load(word, robot=options.robot)
+            cases += campaign.load(word, reality, robot=options.robot)
             continue
         if shipped is None:
-            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED)}
+            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED, reality)}
         if word not in shipped:
             hint = nearest(word, list(shipped))
             raise ConfigError([Problem(f"unknown fault {word!r}", suggestion=hint)])
         cases.append(shipped[word])
     if not options.missions:
-        return tuple(cases) or campaign.load(campaign.SHIPPED, robot=options.robot)
+        return tuple(cases) or campaign.load(campaign.SHIPPED, reality, robot=options.robot)
     every: list[Case | None] = [*cases] or [None]
     own = [_own(mission, case, options) for mission in options.missions for case in every]
-    setting = campaign.settings(options.robot)
+    settings = campaign.Settings(reality, options.robot)
     problems = [
         Problem(f"{case.name}: {text}")
         for case in own
-        for text in campaign.problems_of(case, setting)
+        for text in campaign.problems_of(case, settings)
     ]
     if problems:
         raise ConfigError(problems)
@@ -122,10 +123,14 @@ def _own(mission: str, fault: Case | None, options: Options) -> Case:
     )
 
 
-def _go_through(results: Results, runs: list[Run], options: Options, console: Console) -> None:
+def _go_through(
+    results: Results, runs: list[Run], reality: Reality, *, options: Options, console: Console
+) -> None:
     """Do the runs that are left, keeping each record as it comes."""
     work = (
-        pool.on_ray(runs) if options.ray else pool.in_processes(runs, processes=options.processes)
+        pool.on_ray(runs, reality)
+        if options.ray
+        else pool.in_processes(runs, reality, processes=options.processes)
     )
     done = len(results.records)
     columns = (

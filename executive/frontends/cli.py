@@ -251,10 +251,10 @@ def doctor(*, as_json: AsJson = False) -> None:
 @app.command()
 def worlds() -> None:
     """List the shipped worlds with what is in them."""
-    from robot.bringup import entry
+    from executive.frontends.reality import REALITY
 
-    for name in entry.attribute("sim.world:available")():
-        world_map = entry.world_map(name)
+    for name in REALITY.names():
+        world_map = REALITY.world(name).map
         objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
         places = ", ".join(place.name for place in world_map.places)
         typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")

@@ -20,6 +20,7 @@ from executive.frontends import speaking
 from executive.frontends.dump.writer import along
 from executive.frontends.language_model import language_model
 from executive.frontends.progress import Lines, LiveTree, Silent
+from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.frontends.supervised import FrontEnd, oversee
 from executive.meaning import request
@@ -133,7 +134,7 @@ def _made(kind: type[Any], value: object) -> object:
 
 def _setting(options: Do) -> request.Setting:
     vary_seed = options.seed if options.vary else None
-    return request.setting(options.world, options.robot, vary_seed=vary_seed)
+    return request.setting(REALITY, options.world, robot=options.robot, vary_seed=vary_seed)
 
 
 def carry_out(
@@ -246,7 +247,7 @@ def refuse(refused: request.Refused, *, as_json: bool) -> int:
 
 def walk(options: Walk) -> int:
     """Walk at a twist, then stand; returns the exit status. Raises RobotError as `do` does."""
-    where = request.setting(options.world, options.robot)
+    where = request.setting(REALITY, options.world, robot=options.robot)
     refusal = steady_walk.check(options.twist, where.description)
     if refusal is not None:
         return refuse(request.refused(refusal), as_json=options.as_json)

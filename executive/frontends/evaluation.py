@@ -61,6 +61,7 @@ def evaluate(
     Exit status 1 where a case is right in fewer runs than --require.
     """
     from executive.evaluation import work
+    from executive.frontends.reality import REALITY
 
     options = work.Options(
         missions=tuple(missions or ()),
@@ -75,4 +76,4 @@ def evaluate(
         folder=resume,
         require=require,
     )
-    raise typer.Exit(work.evaluate(options))
+    raise typer.Exit(work.evaluate(options, REALITY))

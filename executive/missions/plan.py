@@ -23,7 +23,6 @@ from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.standpoints import AT_PERSON_M, ROOM_M, stances_around, stances_at
 from executive.skills.motions.walk import CLEARANCE_M
 from executive.trees import parts as p
-from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import Place
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PlacePlan, Stance
@@ -111,8 +110,10 @@ class _Forecaster:
         self._where, self._done, self._rows = where, done, rows
         self._knowledge = where.knowledge
         self._ways: dict[tuple[Stance, Stance, bool], float | Failure] = {}
-        self._stance: SE3 = entry.attribute("sim.atlas:start_pose")(where.world)
-        self._on: dict[str, str] = {item.id: item.on for item in where.world.objects}
+        self._stance: SE3 = where.world_map.start_X_WS
+        self._on: dict[str, str] = {
+            name: begin.place_id for name, begin in where.world.objects().items()
+        }
         self._hands = Hands(where)
 
     def part(self, part: p.Part, path: str, depth: int) -> float:

@@ -29,6 +29,7 @@ from executive.runs.task_run import Job, Show
 from robot.bringup.overseen import Handle
 from robot.clock import Clock
 from robot.errors import ConfigError, Problem
+from robot.reality.contract import Reality
 
 Following = Callable[[], AbstractContextManager[replay.Follow]]
 """Opens a display of how far the run is done again."""
@@ -143,11 +144,11 @@ def _catch_up(session: Session, recorded: Recording, checked: Checked, screen: S
 # --- live --------------------------------------------------------------------------------------
 
 
-def live(task: dict[str, Any], handle: Handle, screen: Screen) -> Summary:
+def live(task: dict[str, Any], handle: Handle, screen: Screen, *, reality: Reality) -> Summary:
     """Go on with a live run with a new robot, in the executive's own process."""
     left_by, folder = Path(task["left_by"]), Path(task["folder"])
     recorded = recording.load(left_by)
-    where, _ = recording.setting(recorded)
+    where, _ = recording.setting(recorded, reality)
     job = job_of(recorded, where, folder=folder)
     interrupts = Interrupts()
     with (

@@ -41,11 +41,11 @@ def header(where: Setting, *, text: str, seed: int, runtime: str, attended: bool
     """The header of a run that starts now."""
     return Header(
         text=text,
-        world=where.world_name,
+        world=where.world.name,
         robot=where.robot_name,
         seed=seed,
         runtime=runtime,
-        varied=where.vary_seed is not None,
+        varied=where.world.vary_seed is not None,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

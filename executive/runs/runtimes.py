@@ -14,10 +14,21 @@ from robot.bringup.overseen import Handle
 from robot.planning.worker import Planner
 
 if TYPE_CHECKING:
+    from robot.bringup.fast import FastRuntime
     from robot.bringup.live import LiveRuntime
     from robot.planning.process import ProcessPlanner
 
 Kind = Literal["fast", "live"]
+
+
+@contextmanager
+def fast(where: Setting, *, seed: int) -> Generator[tuple[FastRuntime, Planner]]:
+    """A `fast` runtime and its planner. Raises RobotError if a part cannot be built."""
+    from robot.bringup.fast import FastRuntime
+    from robot.planning.inline import InlinePlanner
+
+    with FastRuntime(where.world, where.robot_name, seed=seed) as runtime:
+        yield runtime, InlinePlanner(where.description)
 
 
 def live_parts() -> tuple[type[LiveRuntime], type[ProcessPlanner]]:
@@ -50,22 +61,12 @@ def opened(
         RobotError: if a part cannot be built or a process does not start.
     """
     if kind == "fast":
-        from robot.bringup.fast import FastRuntime
-        from robot.planning.inline import InlinePlanner
-
-        with FastRuntime(where.world, where.robot_name, seed=seed) as runtime:
-            yield runtime, InlinePlanner(where.description)
+        with fast(where, seed=seed) as parts:
+            yield parts
         return
     runtime_type, planner_type = live_parts()
     with ExitStack() as stack:
         logs = folder or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="humanoid-")))
         planner = stack.enter_context(planner_type(where.description))
-        runtime = runtime_type(
-            where.world_name,
-            where.robot_name,
-            folder=logs,
-            seed=seed,
-            variation_seed=where.vary_seed,
-            handle=handle,
-        )
+        runtime = runtime_type(where.world, where.robot_name, folder=logs, seed=seed, handle=handle)
         yield stack.enter_context(runtime), planner

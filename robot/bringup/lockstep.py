@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import Protocol, Self
 
-from robot.bringup import entry
 from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
@@ -16,33 +15,14 @@ from robot.drivers.motors import MotorCommand, MotorState
 from robot.drivers.simulated import SimulatedMotors
 from robot.errors import ConfigError, DriverError, Failure, failure
 from robot.link import BusLink
-from robot.messages import BodyCommand, BodyState, Message
+from robot.messages import BodyCommand, BodyState
+from robot.reality.contract import Plant
+from robot.reality.faults import Fault, Kill
 
 CONTROL_PERIOD_MS = 2
 STATE_PERIOD_MS = 20
 TAKE_OVER_MS = 10
 """How long nobody commands the motors when the controller is killed, as in `live`."""
-PARSE, APPLY = "sim.faults:parse", "sim.faults:apply"
-
-
-class Plant(Protocol):
-    """Reality's stand-in: `step` advances whole milliseconds, `sense` gives what is due."""
-
-    def read(self) -> MotorState:
-        """Measure the motors and the body's own sensors."""
-        ...
-
-    def write(self, command: MotorCommand) -> MotorCommand:
-        """Command every motor."""
-        ...
-
-    def step(self, count: int = 1) -> None:
-        """Advance; raises DriverError if the physics diverged."""
-        ...
-
-    def sense(self, now_s: float) -> Iterable[tuple[str, Message]]:
-        """Names of topics and messages of the sensors that are due."""
-        ...
 
 
 class Controller(Protocol):
@@ -76,7 +56,7 @@ class Lockstep:
     state, then what the sensors have due, then perception if they had anything.
 
     Attributes:
-        plant: the plant; tests and benchmarks reach it, the product does not.
+        plant: the plant; tests, benchmarks and the judge reach it, the product does not.
         clock: the simulated clock.
         link: the executive's handle on the body.
         restarted: what was started again, in order, a sentence each.
@@ -92,7 +72,7 @@ class Lockstep:
     ) -> None:
         """Put the parts together; `control` makes a controller, and another when one was killed."""
         self.restarted: list[str] = []
-        self.plant: Any = plant
+        self.plant = plant
         self.clock = SimulatedClock()
         self.link = BusLink(bus, self.clock)
         self._bus = bus
@@ -101,7 +81,6 @@ class Lockstep:
         self._perception = perception
         self._commands = bus.subscribe(topics.BODY_COMMAND)
         self._motors = SimulatedMotors(plant)
-        self._plant = plant
         self._time_ms = 0
         self._failure: Failure | None = None
         self._lost = False
@@ -143,19 +122,15 @@ class Lockstep:
         self._time_ms = end_ms
         self.clock.set(end_ms / 1000.0)
 
-    def inject(self, fault: Mapping[str, Any]) -> None:
-        """Make a fault (`sim.faults`, as plain data) happen now.
-
-        Raises:
-            ConfigError: if there is no such fault, or it names what is not there.
-        """
-        parsed = entry.attribute(PARSE)(fault)
-        if fault["fault"] != "kill":
-            entry.attribute(APPLY)(self._plant, parsed)
-        elif parsed.process == "controller":
-            self._kill_controller()
-        else:
-            raise ConfigError(f"the {parsed.process} is no process of its own in a fast run")
+    def inject(self, fault: Fault) -> None:
+        """Make a fault happen now. Raises ConfigError if it names what is not there."""
+        match fault:
+            case Kill(process="controller"):
+                self._kill_controller()
+            case Kill():
+                raise ConfigError(f"the {fault.process} is no process of its own in a fast run")
+            case _:
+                self.plant.suffer(fault)
 
     def _kill_controller(self) -> None:
         """Another one takes over, unless that happened too often."""
@@ -170,7 +145,7 @@ class Lockstep:
 
     def _run_until(self, end_ms: int) -> None:
         commands, motors = self._commands, self._motors
-        step = self._plant.step
+        step = self.plant.step
         while self._time_ms < end_ms:
             if self._controller is None and self._time_ms >= self._back_ms:
                 self._controller = self._control()
@@ -189,7 +164,7 @@ class Lockstep:
         self.clock.set(now_s)
         if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
-        sensed = list(self._plant.sense(now_s))
+        sensed = list(self.plant.sense(now_s))
         for name, message in sensed:
             self._bus.publish(topics.named(name), message)
         if sensed:

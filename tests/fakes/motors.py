@@ -15,6 +15,7 @@ class FakePlant:
         self.commands: list[MotorCommand] = []
         self.due: list[tuple[str, object]] = []
         self.calls: list[str] = []
+        self.suffered: list[object] = []
         self.q = np.zeros(count)
         self._diverge_at_s = diverge_at_s
 
@@ -50,6 +51,9 @@ class FakePlant:
             self.q = self.commands[-1].q_des.copy()
         if self.time_ms / 1000.0 >= self._diverge_at_s:
             raise DriverError("the simulated physics diverged")
+
+    def suffer(self, fault: object) -> None:
+        self.suffered.append(fault)
 
     def sense(self, now_s: float) -> list[tuple[str, object]]:
         self.calls.append("sense")

@@ -22,7 +22,7 @@ from robot.planning.requests import BasePathRequest, PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.synthesiser import Synthesiser
 from tests.fakes.waiting import eventually
-from tests.fakes.worlds import puppet, world_map
+from tests.fakes.worlds import mapped, puppet
 
 
 @pytest.fixture
@@ -35,17 +35,8 @@ def runtime(monkeypatch):
         made.opened = kind
         yield made, made.planner
 
-    def setting(world, robot, *, vary_seed=None):
-        return request.Setting(
-            world=None,
-            world_map=world_map(),
-            description=description.load(robot),
-            world_name=world,
-            robot_name=robot,
-        )
-
     monkeypatch.setattr(runtimes, "opened", opened)
-    monkeypatch.setattr(request, "setting", setting)
+    monkeypatch.setattr(request, "setting", mapped)
     made.opened = None
     return made
 

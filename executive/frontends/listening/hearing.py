@@ -13,6 +13,7 @@ import msgspec
 import typer
 
 from executive.frontends.language_model import language_model
+from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
 from intents.goals import to_builtins
@@ -25,7 +26,6 @@ from intents.speech.voice import Program
 from intents.state import RobotState
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
-from robot.bringup import entry
 from robot.errors import ConfigError, Problem
 
 DONE, INVALID = 0, 2
@@ -158,7 +158,7 @@ def parse_only(options: Options) -> int:
     Raises:
         RobotError: there is nothing to listen with (ConfigError).
     """
-    knowledge = Knowledge(entry.world_map(options.world))
+    knowledge = Knowledge(REALITY.world(options.world).map)
     vocabulary = knowledge.vocabulary()
     state = RobotState(entities=knowledge.entities())
     dialogue = Dialogue(vocabulary, confirm=False, fallback=language_model(options.model))

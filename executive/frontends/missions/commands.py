@@ -11,6 +11,7 @@ import typer
 from executive.frontends import do as common
 from executive.frontends.missions.run import Run
 from executive.frontends.missions.run import run as run_mission
+from executive.frontends.reality import REALITY
 from executive.missions import load
 from executive.missions.check import Options, check
 from executive.missions.plan import forecast, lines
@@ -61,7 +62,7 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
         path = load.find(name)
         record: dict[str, Any] = {"file": str(path), "problems": []}
         try:
-            checked = check(path, options)
+            checked = check(path, REALITY, options)
             record["steps"] = sum(1 for _ in errands(checked.task))
         except ConfigError as error:
             record["problems"] = [msgspec.to_builtins(problem) for problem in error.problems]
@@ -87,7 +88,7 @@ def _say_checked(record: dict[str, Any]) -> None:
 
 def plan(name: str, options: Options, *, as_json: bool) -> int:
     """Show a dry run. Raises ConfigError with what is wrong in the file."""
-    checked = check(load.find(name), options)
+    checked = check(load.find(name), REALITY, options)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
         common.echo_json(made)
@@ -149,7 +150,7 @@ def export_file(name: str, output: Path | None, *, xml: bool) -> int:
     from executive.missions.btcpp import exporting
 
     assert xml, "there is one format"
-    return _write(exporting.xml_of(load.find(name)), output)
+    return _write(exporting.xml_of(load.find(name), REALITY), output)
 
 
 def _write(text: str, output: Path | None) -> int:

@@ -10,6 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.frontends import do
+from executive.frontends.reality import REALITY
 from executive.frontends.supervised import FrontEnd, oversee
 from executive.missions.check import Checked, Options, check
 from executive.runs import mission, run_folder, task_run
@@ -39,7 +40,7 @@ def run(wanted: Run) -> int:
     Raises:
         RobotError: something in the file is wrong (ConfigError), or a part does not start.
     """
-    checked = check(Path(wanted.path), wanted.said)
+    checked = check(Path(wanted.path), REALITY, wanted.said)
     folder = wanted.how.folder or _folder(checked)
     run_folder.check_free(folder)
     copy = str(keep(checked, folder))
@@ -47,7 +48,7 @@ def run(wanted: Run) -> int:
     if wanted.how.fast:
         return do.work_off(_job(checked, wanted), wanted.how)
     where = checked.where  # found beside the file, maybe, and not beside its copy
-    said = replace(wanted.said, world=where.world_name, robot=where.robot_name)
+    said = replace(wanted.said, world=where.world.name, robot=where.robot_name)
     plain = msgspec.to_builtins(replace(wanted, said=said), enc_hook=str)
     task = {"as_json": wanted.how.as_json, "run": plain}
     return oversee(FrontEnd.MISSION, task, as_json=wanted.how.as_json)
@@ -62,7 +63,7 @@ def overseen(handle: Handle, task: dict[str, Any]) -> int:
         RobotError: as `run` does.
     """
     wanted = msgspec.convert(task["run"], Run, dec_hook=lambda kind, value: kind(value))
-    checked = check(Path(wanted.kept), wanted.said)
+    checked = check(Path(wanted.kept), REALITY, wanted.said)
     return do.work_off(_job(checked, wanted), wanted.how, handle=handle)
 
 

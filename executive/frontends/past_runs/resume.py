@@ -11,6 +11,7 @@ import typer
 from executive.frontends import do
 from executive.frontends.past_runs import printing
 from executive.frontends.prompt import cli as prompt
+from executive.frontends.reality import REALITY
 from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal import past_runs
 from executive.runs import recording, resumption, task_run
@@ -31,7 +32,7 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     recorded = resumption.check(folder)
     if recorded.header.attended:
         return prompt.again(recorded, model)
-    where, changed = recording.setting(recorded)
+    where, changed = recording.setting(recorded, REALITY)
     for change in changed:
         typer.echo(f"note: {change}, since it was recorded", err=True)
     if recorded.header.runtime != "fast":
@@ -57,7 +58,8 @@ def _go_on_live(recorded: Recording, *, folder: Path, as_json: bool) -> int:
 def overseen(handle: Handle, task: dict[str, Any]) -> int:
     """The executive's side of a live run that is gone on with; returns the exit status."""
     as_json = bool(task["as_json"])
-    return _ended(resumption.live(task, handle, _screen("", as_json=as_json)), as_json=as_json)
+    screen = _screen("", as_json=as_json)
+    return _ended(resumption.live(task, handle, screen, reality=REALITY), as_json=as_json)
 
 
 def _screen(name: str, *, as_json: bool) -> Screen:

@@ -20,6 +20,7 @@ from executive.frontends.prompt import commands
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
+from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal.journal import Event
@@ -98,7 +99,7 @@ def overseen(handle: Handle, plain: dict[str, Any]) -> int:
 
 def _setting(options: Options) -> request.Setting:
     vary_seed = options.seed if options.vary else None
-    return request.setting(options.world, options.robot, vary_seed=vary_seed)
+    return request.setting(REALITY, options.world, robot=options.robot, vary_seed=vary_seed)
 
 
 def prompt(options: Options, *, handle: Handle | None = None) -> int:

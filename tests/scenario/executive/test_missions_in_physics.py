@@ -7,8 +7,9 @@ import json
 import pytest
 
 from executive.frontends.missions import commands
-from executive.missions.check import Options, check
+from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
+from tests.fakes.missions import check
 
 LONG = ("bring", "tidy", "greet", "patrol")
 

@@ -18,6 +18,7 @@ from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.terminal import Terminal
+from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request
@@ -32,7 +33,7 @@ from tests.fakes.waiting import eventually
 def shell_in(
     folder: Path, world: str = "kitchen", model: LanguageModel | None = None
 ) -> Iterator[Shell]:
-    where = request.setting(world, "juno")
+    where = request.setting(REALITY, world, robot="juno")
     robot = Robot(
         lambda: runtimes.opened("fast", where, seed=0, folder=folder),
         where=where,

@@ -8,8 +8,10 @@ from robot.bus.bus import LocalBus
 from robot.bus.timing import Lateness
 from robot.clock import SimulatedClock
 from robot.drivers.shared_memory import MotorServer, SharedMotors
-from sim import faults, world
-from sim.live import FAULT, PATIENCE_S, LivePlant
+from robot.reality import faults
+from robot.reality.faults import FAULT
+from sim import world
+from sim.live import PATIENCE_S, LivePlant
 from sim.plant import Plant
 
 

@@ -14,14 +14,14 @@ from ruamel.yaml import YAML
 
 from executive.frontends.missions import commands
 from executive.missions import nodes
-from executive.missions.check import Options, check
+from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
 from executive.missions.plan import forecast
 from executive.missions.template import template
 from executive.skills.parameters import NavigateParams, PickParams, SayParams, WaitParams
 from executive.trees import parts as p
 from robot.errors import ConfigError
-from tests.fakes.missions import known_settings  # noqa: F401, a fixture
+from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
 
 SECOND = 1.0
 

@@ -8,9 +8,10 @@ from executive.missions.pacing import walking_s
 from executive.missions.plan import forecast
 from robot.model.description import load
 from robot.planning.requests import BasePath
+from sim.reality import Simulation
 
 JUNO = load("juno")
-KITCHEN = request.setting("kitchen", "juno")
+KITCHEN = request.setting(Simulation(), "kitchen", robot="juno")
 TASK = request.request("pick up the red cup and put it on the shelf", KITCHEN).task
 
 

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from executive.meaning.request import setting
-from executive.missions.check import Options, check
+from executive.missions.check import Options
 from executive.runs import mission_jobs
 from executive.runs.mission import origin
 from executive.runs.mission_files import keep
 from executive.trees.parts import errands
 from robot.errors import ConfigError
+from tests.fakes.missions import check, known
 
 MAIN = "name: main\nworld: empty\nsteps:\n  - mission: ../parts/part.yaml\n  - wave\n"
 PART = "name: part\nworld: empty\nsteps:\n  - say hello\n"
-WHERE = setting("empty", "juno")
+WHERE = known("empty", robot="juno")
 
 
 @pytest.fixture
