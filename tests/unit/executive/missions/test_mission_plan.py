@@ -8,7 +8,8 @@ from executive.missions.pacing import walking_s
 from executive.missions.plan import forecast
 from robot.model.description import load
 from robot.planning.requests import BasePath
-from sim.reality import Simulation
+from sim.reality import SimulatedWorld, Simulation
+from sim.world import load as load_world
 
 JUNO = load("juno")
 KITCHEN = request.setting(Simulation(), "kitchen", robot="juno")
@@ -40,12 +41,12 @@ def test_a_pick_and_a_place_are_planned_with_the_hand_and_from_where_the_robot_i
 
 
 def test_what_no_hand_reaches_is_told():
-    things = KITCHEN.world.objects
+    entries = load_world("kitchen")
     moved = tuple(
         replace(thing, on="doorway", at_m=(0.0, 0.0)) if thing.id == "red_cup" else thing
-        for thing in things
+        for thing in entries.objects
     )
-    where = replace(KITCHEN, world=replace(KITCHEN.world, objects=moved))
+    where = replace(KITCHEN, world=SimulatedWorld(replace(entries, objects=moved)))
     pick, place = (row for row in forecast(TASK, where).rows if row.kind == "step")
     assert "short of the red cup" in pick.problem
     assert place.problem == ""  # nothing is known against it
