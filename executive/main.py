@@ -1,6 +1,6 @@
-"""The executive as a process of its own, under an overseer that starts it again when it dies.
+"""The executive as a process of its own, under a launcher that starts it again when it dies.
 
-It runs the front end that it is told to (`robot.bringup.overseen.Front`): a task, a mission, the
+It runs the front end that it is told to (`robot.bringup.mailbox.Front`): a task, a mission, the
 prompt. It has the terminal of the process above it; both are in one group, so Ctrl-C comes here.
 """
 
@@ -19,8 +19,8 @@ import msgspec
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
 from executive.frontends.supervised import FrontEnd
-from robot.bringup.overseen import FRONT_FILE, Front, Handle
-from robot.bringup.overseer import CRASHED
+from robot.bringup.mailbox import FRONT_FILE, Front, Handle
+from robot.bringup.processes import CRASHED
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
 from robot.errors import RobotError
@@ -75,7 +75,7 @@ def main(
         return run(Handle(folder, deaths=front.deaths), front.options)
     except (RobotError, KeyboardInterrupt) as error:
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
-    except Exception:  # the overseer starts another one, which goes on where this one was
+    except Exception:  # the launcher starts another one, which goes on where this one was
         traceback.print_exc()
         return CRASHED
 
@@ -88,7 +88,7 @@ def _turn(folder: Path, number: int, load: Callable[[str], Run]) -> tuple[Run, F
     stop = signal.getsignal(signal.SIGINT)
     if _read(folder).deaths < number:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the overseer held it back
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the launcher held it back
     clock = WallClock()
     from executive.runs import runtimes  # now that Ctrl-C is heard: it takes a second
 

@@ -11,7 +11,7 @@ from typing import cast
 import msgspec
 
 from intents import goals as g
-from intents.english.lexer import singular
+from intents.english.words.lexer import singular
 from intents.goals import OPERATOR, Goal, ObjectQuery, Person
 from intents.vocabulary import Vocabulary
 

@@ -5,9 +5,9 @@ import re
 import msgspec
 from msgspec.structs import replace
 
-from intents.english import lexicon
-from intents.english.corrections import substitute
-from intents.english.lexer import tokenize
+from intents.english.substitution import substitute
+from intents.english.words import lexicon
+from intents.english.words.lexer import tokenize
 from intents.goals import Goal, ObjectQuery, Person
 from intents.grounding import Entity
 from intents.outcomes import Choice, Question

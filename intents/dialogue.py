@@ -23,6 +23,7 @@ from intents.vocabulary import Vocabulary
 __all__ = ["Context", "Dialogue"]
 
 MAX_REPEATS = 2
+"""A question is asked again so often; then it is dropped and the refusal told."""
 _WHERE = re.compile(
     r"\bwhere(?:'s|s|\s)|^\W*(?:is|are)\b|^\W*(?:do|can|have) you "
     r"(?:see|know|seen|find)\b",

@@ -13,7 +13,7 @@ said are absent (``None`` in Python).
 
 import builtins
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Literal, cast
 
 import msgspec
@@ -141,6 +141,13 @@ class Displacement(_Slots, frozen=True, kw_only=True):
     turn_rad: float | None = None
 
 
+class _OfSomething(_Goal, frozen=True, kw_only=True):
+    """It has to do with an object or a person."""
+
+    object: ObjectQuery | None = None
+    person: Person | None = None
+
+
 class GoTo(_Goal, frozen=True, kw_only=True):
     """Walk somewhere: exactly one of the slots is set; place may be "operator"."""
 
@@ -149,11 +156,8 @@ class GoTo(_Goal, frozen=True, kw_only=True):
     by: Displacement | None = None
 
 
-class Find(_Goal, frozen=True, kw_only=True):
+class Find(_OfSomething, frozen=True, kw_only=True):
     """Look for an object or a person until it is seen."""
-
-    object: ObjectQuery | None = None
-    person: Person | None = None
 
 
 class Pick(_Goal, frozen=True, kw_only=True):
@@ -224,22 +228,18 @@ class Answer(_Goal, frozen=True, kw_only=True):
     person: Person | None = None
 
 
-class Count(_Goal, frozen=True, kw_only=True):
+class Count(_OfSomething, frozen=True, kw_only=True):
     """Count objects or people and report the number."""
 
-    object: ObjectQuery | None = None
-    person: Person | None = None
     to: Person | None = None
 
 
-class Tell(_Goal, frozen=True, kw_only=True):
+class Tell(_OfSomething, frozen=True, kw_only=True):
     """Find out a property of an object or a person and report it.
 
     In JSON the object or person is the slot ``of``.
     """
 
-    object: ObjectQuery | None = None
-    person: Person | None = None
     property: str = "name"
     to: Person | None = None
 
@@ -249,11 +249,9 @@ class Tell(_Goal, frozen=True, kw_only=True):
         return self.object or self.person or ObjectQuery()
 
 
-class LookAt(_Goal, frozen=True, kw_only=True):
+class LookAt(_OfSomething, frozen=True, kw_only=True):
     """Turn the head towards an object, a person or a place."""
 
-    object: ObjectQuery | None = None
-    person: Person | None = None
     place: str | None = None
 
 
@@ -373,6 +371,15 @@ Goal = (
     | Resume | Cancel | Report | Repeat | ForEach | If
 )  # fmt: skip
 """Any goal."""
+
+
+def each(goals: Iterable[Goal]) -> Iterator[Goal]:
+    """Every goal, those inside of others included."""
+    for goal in goals:
+        yield goal
+        for slot in ("goals", "then", "else_"):
+            yield from each(cast("tuple[Goal, ...]", getattr(goal, slot, ())))
+
 
 _PERSON_ONLY = frozenset({"who", "gender", "posture", "gesture", "wearing"})
 _PERSON_PROPERTIES = frozenset({"posture", "pose", "gesture", "gender", "age", "clothes"})

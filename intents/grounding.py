@@ -12,8 +12,8 @@ from msgspec.structs import replace
 from rapidfuzz import fuzz, process
 
 from intents import relations
-from intents.english.lexer import singular
 from intents.english.trouble import listing
+from intents.english.words.lexer import singular
 from intents.goals import (
     Bring,
     Give,

@@ -11,15 +11,15 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
-from intents.english import lexicon
-from intents.english.corrections import substitute
-from intents.english.lexer import singular, tokenize
-from intents.english.names import index_of
-from intents.english.referents import Scope
-from intents.english.text import Text
+from intents.english.phrases.referents import Scope
+from intents.english.substitution import substitute
 from intents.english.trouble import Partly, ReadingError, Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import singular, tokenize
+from intents.english.words.names import index_of
+from intents.english.words.text import Text
 from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop
-from intents.grammar import Grammar
+from intents.grammar import read
 from intents.grounding import Ambiguous, Grounded, Unknown, ground, narrowed, queries
 from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
 from intents.stopping import is_stop
@@ -155,8 +155,7 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         return Refusal(reason="I heard nothing; say for example “bring me the cup”."), context
     scope = Scope(words.index, context.object, context.person, context.place)
     try:
-        grammar = Grammar(words, scope, context.goals)
-        goals = tuple(grammar.read())
+        understood = read(words, scope, context.goals)
     except Partly as partly:
         return _settled(_partly(text, partly), context, scope)
     except Unclear as unclear:
@@ -168,11 +167,11 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         return question, context
     except ReadingError as error:
         return Refusal(reason=f"{_sentence(str(error))}."), context
-    if not goals:
+    if not understood.goals:
         return Refusal(reason="I see nothing to do in that."), context
-    checked = _checked(text, goals, context)
+    checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
-        checked = replace(checked, clauses=tuple(grammar.trace))
+        checked = replace(checked, clauses=understood.clauses)
     return _settled(_remarked(checked, words), context, scope)
 
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.lexer import tokenize
 from intents.english.trouble import listing
+from intents.english.words.lexer import tokenize
 from intents.goals import ObjectQuery, ReportTopic, Tell
 from intents.grounding import Entity, Grounded, describe, describe_entity, ground
 from intents.state import RobotState

@@ -1,12 +1,11 @@
 """Goals that are read back and confirmed before anything is done: one table."""
 
-from collections.abc import Callable, Iterator
-from typing import cast
+from collections.abc import Callable
 
 from intents import goals as g
-from intents.english.lexer import singular
-from intents.english.lexicon import words
-from intents.goals import Goal, ObjectQuery
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import words
+from intents.goals import Goal, ObjectQuery, each
 
 FAR_M = 3.0
 """Walks over a distance, without a place to go to, are confirmed beyond this [m]."""
@@ -25,14 +24,6 @@ def risk(goals: tuple[Goal, ...]) -> str:
             if reason:
                 return reason
     return ""
-
-
-def each(goals: tuple[Goal, ...]) -> Iterator[Goal]:
-    """Every goal, those inside of others included."""
-    for goal in goals:
-        yield goal
-        for slot in ("goals", "then", "else_"):
-            yield from each(cast("tuple[Goal, ...]", getattr(goal, slot, ())))
 
 
 def _words_of(name: str | None) -> set[str]:

@@ -10,9 +10,10 @@ import unicodedata
 
 from rapidfuzz.distance import OSA
 
-from intents.english.lexicon import words
+from intents.english.words.lexicon import words
 
 _LOOKED_AT = 240
+"""Characters at either end of a long text: people cry first or last, and no text takes long."""
 _SHORT = 5
 """Up to so many words, a cry anywhere in them counts."""
 _WORD = re.compile(r"[^\W_]+")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from types import TracebackType
-from typing import Self
+from typing import Protocol, Self
 
 
-class Closing(ABC):
-    """A context manager whose end is `close`."""
+class Closing(Protocol):
+    """A context manager whose end is `close`; a base of classes and of protocols."""
 
     @abstractmethod
     def close(self) -> None:

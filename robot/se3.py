@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 Array: TypeAlias = NDArray[np.float64]
 Vector3: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
+NO_SINE = 1e-6
+"""Below it the sine of an angle does not say about which axis: there is no turn, or half a turn."""
 
 
 class SE3(msgspec.Struct, frozen=True):
@@ -144,6 +146,46 @@ def matrix_to_quat(rotation: Array) -> Quaternion:
     w, x, y, z = quat
     norm = math.copysign(math.sqrt(w * w + x * x + y * y + z * z), w)
     return (w / norm, x / norm, y / norm, z / norm)
+
+
+def rotation_vector(rotation: Array) -> Array:
+    """Axis times angle [rad] of a rotation matrix, shape (3,): the logarithm of SO(3).
+
+    By atan2, which keeps its digits at every angle: an arccosine of the trace loses half of them
+    near zero. Of the two of a half turn, one is given.
+    """
+    r = rotation
+    skew = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
+    sine = 0.5 * math.sqrt(float(skew @ skew))
+    cosine = 0.5 * (float(np.trace(r)) - 1.0)
+    if sine < NO_SINE:
+        return 0.5 * skew if cosine > 0.0 else math.pi * _half_turn_axis(r)
+    return skew * (math.atan2(sine, cosine) / (2.0 * sine))
+
+
+def rotation_vectors(rotations: Array) -> Array:
+    """`rotation_vector` of many to 1e-6 rad, shapes (n, 3, 3) and (n, 3).
+
+    A form of its own, as it would cost one matrix twice the time, in the loop of 500 Hz.
+    """
+    r = rotations
+    axis = np.empty((len(r), 3))
+    axis[:, 0] = 0.5 * (r[:, 2, 1] - r[:, 1, 2])
+    axis[:, 1] = 0.5 * (r[:, 0, 2] - r[:, 2, 0])
+    axis[:, 2] = 0.5 * (r[:, 1, 0] - r[:, 0, 1])
+    sine = np.sqrt(np.sum(axis**2, axis=1))
+    cosine = 0.5 * (r[:, 0, 0] + r[:, 1, 1] + r[:, 2, 2] - 1.0)
+    vectors = axis * (np.arctan2(sine, cosine) / np.maximum(sine, NO_SINE))[:, None]
+    for i in np.flatnonzero((sine < NO_SINE) & (cosine < 0.0)):
+        vectors[i] = math.pi * _half_turn_axis(r[i])
+    return vectors
+
+
+def _half_turn_axis(rotation: Array) -> Array:
+    """A unit vector a of R = 2 a a^T - I."""
+    outer = 0.5 * (rotation + np.eye(3))
+    column = outer[:, int(np.argmax(np.diag(outer)))]
+    return column / np.linalg.norm(column)
 
 
 def wrap_angle(angle_rad: float) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import struct
 import zlib
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 import msgspec
@@ -13,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from robot.closing import Closing
 from robot.errors import ConfigError, Problem
 from robot.se3 import Vector3
 from sim.plant import Plant
@@ -43,7 +43,7 @@ def overview(world: World) -> View:
     return View(at=at, distance_m=1.12 * size, heading_deg=118.0, down_deg=30.0)
 
 
-class Renderer:
+class Renderer(Closing):
     """Draws one model. A context manager: the GL context lives inside the `with`."""
 
     def __init__(self, model: mujoco.MjModel, *, width: int = 1280, height: int = 720) -> None:
@@ -67,12 +67,7 @@ class Renderer:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._context)
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Free the context."""
         if self._gl is not None:
             self._context.free()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from robot import config
+from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from sim import checks
 from sim.schema import Room, World
@@ -28,13 +28,12 @@ def load(name_or_path: str) -> World:
         if not path.exists():
             hint = config.nearest(name_or_path, available())
             raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
-    node = config.read_yaml(path)
-    world = config.convert(node, World, file=str(path))
+    node = yaml_nodes.read(path)
+    world = config.convert(node, World)
     problems = [
-        Problem(found.message, str(path), config.line_of(node, found.where),
-                suggestion=found.suggestion or None)
+        config.place(node, found.where).problem(found.message, found.suggestion)
         for found in checks.check(world)
-    ]  # fmt: skip
+    ]
     if problems:
         raise ConfigError(sorted(problems, key=lambda problem: problem.line or 0))
     return world

@@ -14,7 +14,7 @@ import msgspec
 from executive.engine.jobs import UNLIMITED, Limits
 from executive.meaning import request
 from executive.missions import fault_plans
-from robot import config
+from robot import config, yaml_nodes
 from robot.errors import CATALOGUE, ConfigError, Problem
 from robot.reality import truth
 from robot.reality.contract import Reality
@@ -90,13 +90,11 @@ def load(path: Path | str, reality: Reality, *, robot: str = "juno") -> tuple[Ca
     Raises:
         ConfigError: with file, line and the nearest valid name.
     """
-    node = config.read_yaml(path)
-    cases = config.convert(node, Campaign, file=str(path)).cases
+    node = yaml_nodes.read(path)
+    cases = config.convert(node, Campaign).cases
     settings = Settings(reality, robot)
     problems = [
-        Problem(
-            f"{case.name}: {text}", file=str(path), line=config.line_of(node, f"$.cases[{index}]")
-        )
+        config.place(node, f"$.cases[{index}]").problem(f"{case.name}: {text}")
         for index, case in enumerate(cases)
         for text in problems_of(case, settings)
     ]

@@ -28,7 +28,7 @@ from executive.runs import continuation, run_folder, runtimes, steady_walk, task
 from executive.runs.task_run import Progress
 from intents.goals import from_builtins, to_builtins
 from intents.outcomes import Question
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 from robot.errors import Failure
 from robot.messages import BodyState

@@ -23,7 +23,7 @@ LIBRARIES = {
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
     "scipy": "scipy", "typer": "typer", "rich": "rich",
     "pocketsphinx": "pocketsphinx",
-    "ruamel.yaml": "ruamel.yaml", "rapidfuzz": "rapidfuzz",
+    "yaml": "pyyaml", "rapidfuzz": "rapidfuzz",
 }  # fmt: skip
 """Module to distribution."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import TracebackType
 from typing import Self
 
 from rich.console import Console, Group
@@ -17,6 +16,7 @@ from executive.journal.journal import Event
 from executive.journal.pages import words
 from executive.journal.pages.model import State
 from executive.journal.pages.text import MARKS
+from robot.closing import Closing
 
 REFRESH_S, SELDOM_S = 0.1, 1.0
 _STYLES: dict[State, str] = {
@@ -24,23 +24,14 @@ _STYLES: dict[State, str] = {
 }  # fmt: skip
 
 
-class Silent:
+class Silent(Closing):
     """Shows nothing (`--json`)."""
 
     def update(self) -> None:
         """Show nothing."""
 
-    def __enter__(self) -> Self:
-        """Begin."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """End."""
+    def close(self) -> None:
+        """Leave the screen in order."""
 
 
 class Lines(Silent):
@@ -122,12 +113,7 @@ class LiveTree(Silent):
         self._live.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Leave the last picture standing."""
         self._live.update(self._picture(self._wall_s()), refresh=True)
         self._live.stop()

@@ -1,4 +1,4 @@
-"""Live commands from the command line's side: an overseer here, the executive in a child."""
+"""Live commands from the command line's side: a launcher here, the executive in a child."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import typer
 
 from executive.frontends.exit import last_words
-from robot.bringup import overseer
+from robot.bringup import launcher
 
 
 class FrontEnd(StrEnum):
@@ -29,7 +29,7 @@ def oversee(front: FrontEnd, options: dict[str, Any], *, as_json: bool) -> int:
         options: plain data.
         as_json: nothing but JSON goes to standard output.
     """
-    ended = overseer.oversee(front, options, tell=lambda line: typer.echo(line, err=True))
+    ended = launcher.launch(front, options, tell=lambda line: typer.echo(line, err=True))
     if ended.reason:
         cure = "see `humanoid why`; `humanoid resume` goes on where it was"
         return last_words("Broken:", [ended.reason], cure, status=ended.status, as_json=as_json)

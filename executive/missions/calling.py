@@ -8,11 +8,11 @@ from pathlib import Path
 
 from executive.missions.load import Mission, load
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.values import Bound, Scope, bind
 from robot.config import nearest
 from robot.errors import ConfigError
+from robot.yaml_nodes import Node, text_node
 
 MAX_CALLS = 16
 """Missions inside missions."""

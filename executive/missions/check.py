@@ -15,7 +15,6 @@ from executive.missions.compiling import Compiler
 from executive.missions.fault_plans import FaultPlan
 from executive.missions.load import Mission, load
 from executive.missions.names import Names
-from executive.missions.nodes import Node, parse, text_node
 from executive.missions.problems import Enough, Problems
 from executive.missions.values import Bound
 from executive.trees.build import before
@@ -23,6 +22,7 @@ from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.reality.contract import Reality
+from robot.yaml_nodes import Node, parse, text_node
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):

@@ -17,7 +17,6 @@ from executive.missions.calling import Calls
 from executive.missions.conditions import Conditions
 from executive.missions.load import Mission
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.slots import Slots
@@ -29,6 +28,7 @@ from intents import goals
 from robot.config import nearest
 from robot.errors import CATALOGUE
 from robot.model.description import RobotDescription
+from robot.yaml_nodes import Node, text_node
 
 MAX_STEPS = 20_000
 MAX_ROUNDS = 1000

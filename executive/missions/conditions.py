@@ -11,7 +11,6 @@ from executive.meaning.knowledge import full_name
 from executive.meaning.tasks import question_of
 from executive.missions import schema as s
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.values import Scope
@@ -19,6 +18,7 @@ from executive.trees.parts import Finding, Words
 from intents import goals
 from robot.messages import ObjectInfo, Place
 from robot.se3 import SE3
+from robot.yaml_nodes import Node, text_node
 
 NEAR_M = 0.9
 """How far from the edge of a piece of furniture the robot stands when it is "at" it."""

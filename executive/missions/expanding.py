@@ -9,12 +9,12 @@ from executive.missions.check import check
 from executive.missions.compiling import Compiler
 from executive.missions.load import Mission
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import ForEachStep
 from executive.missions.values import Bound, Scope
 from robot.reality.contract import Reality
+from robot.yaml_nodes import Node, text_node
 
 
 def expanded(path: Path, reality: Reality) -> dict[str, Any]:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import msgspec
 
-from executive.missions.nodes import Node, parse, read_text, text_node
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord
+from robot.yaml_nodes import Node, read, text_node
 
 SUFFIX = ".yaml"
 _PACKED, _BESIDE = Path(__file__).with_name("samples"), Path(__file__).parents[2] / "missions"
@@ -51,7 +51,7 @@ def load(path: Path, problems: Problems) -> Mission | None:
     Raises:
         ConfigError: it cannot be read at all.
     """
-    node = parse(read_text(path), str(path))
+    node = read(path, begin_with="humanoid mission new NAME")
     if node.kind != "map":
         problems.add(node, "a mission is a mapping", "begin with: name: ...")
         return None

@@ -9,12 +9,12 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from executive.meaning.knowledge import Knowledge, full_name
-from executive.missions.nodes import Node
 from executive.missions.problems import Problems
 from intents import goals, parser
 from intents.context import Context
 from intents.outcomes import Goals, Question
 from robot.config import nearest
+from robot.yaml_nodes import Node
 
 T = TypeVar("T")
 

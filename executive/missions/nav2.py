@@ -16,10 +16,9 @@ import math
 from pathlib import Path
 from typing import Any
 
-from executive.missions.btcpp.importing import as_yaml
-from executive.missions.nodes import Node, parse, read_text
 from executive.missions.problems import Problems
 from robot.se3 import SE3
+from robot.yaml_nodes import Node, dump, read
 
 UPRIGHT_RAD = math.radians(5.0)
 """More than that a waypoint may not lean: nobody walks on a wall."""
@@ -31,13 +30,13 @@ def mission_of(path: Path) -> str:
     Raises:
         ConfigError: with everything that is wrong in it, by line.
     """
-    root = parse(read_text(path), str(path))
+    root = read(path)
     problems = Problems()
     steps = [step for step in (_step(node, problems) for node in _points(root)) if step]
     if not steps and len(problems) == 0:
         problems.add(root, "there are no waypoints in it", "waypoints: or poses:")
     problems.raise_any()
-    return as_yaml({"name": path.stem.replace("_", " "), "steps": steps})
+    return dump({"name": path.stem.replace("_", " "), "steps": steps})
 
 
 def _points(root: Node) -> list[tuple[str, Node]]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from executive.missions.nodes import Node
 from robot.errors import ConfigError, Problem
+from robot.yaml_nodes import Node
 
 ENOUGH = 100
 """More problems than that are not collected: nobody reads on."""
@@ -28,9 +28,7 @@ class Problems:
         """
         key = (node.file, node.line, node.column, message)
         if key not in self._found:
-            self._found[key] = Problem(
-                message, node.file, node.line, node.column, suggestion or None
-            )
+            self._found[key] = node.problem(message, suggestion)
         if len(self._found) >= ENOUGH:
             raise Enough
 

@@ -10,10 +10,10 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec import inspect as types
 
-from executive.missions.nodes import Node
 from executive.missions.problems import Problems
 from executive.missions.schema import Record
 from robot.config import nearest
+from robot.yaml_nodes import Node
 
 T = TypeVar("T", bound=Record)
 

@@ -10,9 +10,9 @@ from msgspec.structs import replace
 
 from executive.missions import schema as s
 from executive.missions.names import Names
-from executive.missions.nodes import Node, text_node
 from executive.missions.problems import Problems
 from intents import goals
+from robot.yaml_nodes import Node, text_node
 
 
 class Missing(Exception):

@@ -13,10 +13,10 @@ from collections.abc import Mapping
 import msgspec
 
 from executive.missions.names import Names
-from executive.missions.nodes import Node, Scalar, text_node
 from executive.missions.problems import Problems
 from executive.missions.schema import ParameterRecord, ParameterType
 from robot.config import nearest
+from robot.yaml_nodes import Node, Scalar, text_node
 
 PLACEHOLDER = re.compile(r"\{\{ *([^{}]*?) *\}\}")
 SPOKEN: frozenset[ParameterType] = frozenset({"object", "place", "person", "number", "integer"})

@@ -26,7 +26,7 @@ from executive.runs.recording import Recording
 from executive.runs.run_folder import Summary
 from executive.runs.session import Session
 from executive.runs.task_run import Job, Show
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import Clock
 from robot.errors import ConfigError, Problem
 from robot.reality.contract import Reality

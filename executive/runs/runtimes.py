@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.planning.worker import Planner
 
 if TYPE_CHECKING:

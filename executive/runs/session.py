@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 import msgspec
@@ -32,6 +31,7 @@ from executive.trees.build import build
 from executive.trees.parts import errands
 from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
+from robot.closing import Closing
 from robot.model.description import RobotDescription
 from robot.planning.worker import Planner
 
@@ -40,7 +40,7 @@ RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
 OnTick = Callable[[], None]
 
 
-class Session:
+class Session(Closing):
     """An executive on a runtime; a context manager that closes the journal."""
 
     def __init__(
@@ -135,11 +135,6 @@ class Session:
         self._open.enter_context(self.journal)
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Close the journal."""
         self._open.close()

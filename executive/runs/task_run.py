@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import Any, Protocol
 
 import msgspec
 from msgspec.structs import replace
@@ -25,29 +24,17 @@ from executive.runs.session import Session
 from executive.skills.parameters import PlaceParams
 from executive.trees.parts import errands
 from robot.clock import Clock
+from robot.closing import Closing
 from robot.errors import CATALOGUE, Failure
 from robot.messages import LoopTiming, WorldState
 from robot.planning.worker import Planner
 
 
-class Progress(Protocol):
+class Progress(Closing, Protocol):
     """Shows an executive at work; a context manager."""
 
     def update(self) -> None:
         """Called after every tick."""
-        ...
-
-    def __enter__(self) -> Self:
-        """Begin to show."""
-        ...
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Leave the screen in order."""
         ...
 
 

@@ -27,6 +27,7 @@ from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import UPRIGHT_RAD, surroundings, tilt
 from executive.skills.parameters import PickParams
 from robot.messages import ObjectInfo, Side
+from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
 
@@ -38,7 +39,6 @@ GRASPS = 2
 REACH_CORRECTIONS = 2
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the object."""
-GRAVITY_M_S2 = 9.81
 LEAST_LOAD = 0.3
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
 

@@ -22,6 +22,7 @@ from executive.skills.motions.support import occupant, surroundings, tilt
 from executive.skills.parameters import PlaceParams
 from robot.errors import Failure, failure
 from robot.messages import ObjectInfo, Place, Side
+from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
@@ -31,7 +32,6 @@ RETREAT_M_S = 0.12
 PRESS_M = 0.012
 CONTACT = 0.5
 LEAST_CONTACT_N = 0.6
-GRAVITY_M_S2 = 9.81
 TOO_HIGH_M = 0.02
 LOWERINGS = 3
 REACH_CORRECTIONS = 2

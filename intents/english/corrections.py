@@ -1,13 +1,16 @@
 """Taking back what was just said: "the red cup, no wait, the blue one"."""
 
-from typing import Any, cast
-
-import msgspec
-
-from intents.english.lexer import COMMA
-from intents.english.lexicon import phrases
-from intents.english.text import Text
-from intents.goals import Goal, ObjectQuery, Person
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import is_person, to_object, to_person, to_place
+from intents.english.reading import Found, Sentence, clause_by_itself
+from intents.english.substitution import substitute
+from intents.english.trouble import Misfit
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.lexicon import GOALWARDS, LOCATIVES, phrases
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+from intents.goals import Goal, ObjectQuery
 
 _MARKERS = phrases(
     "no wait,wait no,no,i mean,i meant,or rather,rather,scratch that,correction,make that,sorry,"
@@ -15,9 +18,11 @@ _MARKERS = phrases(
     "sorry i mean,no i mean,no i meant,no not that,not that one,not this one,"
     "no not that one,no not this one,wrong one,no make that,or better,better"
 )
+_OPENINGS = ("sorry", "oh", "wait")
+"""Markers that open a new sentence as often as they take back the one before."""
 
 
-def correction_end(text: Text, at: int) -> int | None:
+def _marker_end(text: Text, at: int) -> int | None:
     """Where the marker of a correction ends, if one begins at a word."""
     end = text.phrase_end(_MARKERS, at)
     if end is None or (text.word(at) == "wait" and text.word(end) != COMMA):
@@ -27,36 +32,63 @@ def correction_end(text: Text, at: int) -> int | None:
     return end if end < len(text) else None
 
 
-def substitute(
-    goal: Goal, old: ObjectQuery | Person | str, new: ObjectQuery | Person | str
-) -> Goal:
-    """A goal with one thing in place of another, wherever it stands."""
-    return cast("Goal", _replaced(goal, old, new))
+def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """The red cup, *no the blue one*: looked for before "no" is passed over as an opening."""
+    text = sentence.text
+    while text.word(at) in (COMMA, FULL_STOP) and at < len(text):
+        at += 1
+    end = _marker_end(text, at)
+    if end is None or not last:
+        return None
+    begins = at == 0  # it takes back what was said before, if it is no command of its own
+    plain = text.word(end - 1) != COMMA and end < at + 2  # no cup there?
+    if begins and (verbs_at(text.words, end) or (plain and text.word(end) != "the")):
+        return None
+    new_sentence = text.word(at - 1) == FULL_STOP and text.word(at) in _OPENINGS
+    if new_sentence and verbs_at(text.words, end):
+        return None
+    return correction(sentence, at, last)
 
 
-def _same(value: object, old: ObjectQuery | Person | str) -> bool:
-    """Whether a value speaks of the same thing; where it is may have been said only once."""
-    if isinstance(value, ObjectQuery) and isinstance(old, ObjectQuery):
-        return msgspec.structs.replace(value, at=None) == msgspec.structs.replace(old, at=None)
-    if isinstance(value, Person) and isinstance(old, Person):
-        return msgspec.structs.replace(value, at=None) == msgspec.structs.replace(old, at=None)
-    return value == old
+def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """No wait, the blue one; I mean go to the kitchen."""
+    text, scope = sentence.text, sentence.scope
+    end = _marker_end(text, at) or _told_apart(text, at, scope.object)
+    if end is None:
+        return None
+    if verbs_at(text.words, end):
+        return clause_by_itself(sentence, end)
+    phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
+    if phrase is None:
+        return None
+    old = scope.person if is_person(phrase, scope) else scope.object
+    if phrase.is_spot:
+        old, new = scope.place, to_place(phrase, scope)
+    elif is_person(phrase, scope):
+        new = to_person(phrase, scope)
+    else:
+        new = to_object(phrase, scope)
+    if old is None:
+        raise Misfit("I do not know what to correct")
+    scope.mention(new)
+    return [substitute(g, old, new) for g in last], phrase.end
 
 
-def _replaced(value: object, old: ObjectQuery | Person | str, new: object) -> object:
-    if _same(value, old):
-        kept = getattr(value, "at", None)
-        if kept and isinstance(new, ObjectQuery | Person) and new.at is None:
-            return msgspec.structs.replace(new, at=kept)
-        return new
-    if isinstance(value, tuple):
-        return tuple(_replaced(v, old, new) for v in cast("tuple[object, ...]", value))
-    if not isinstance(value, msgspec.Struct):
-        return value
-    changed: dict[str, Any] = {}
-    for name in value.__struct_fields__:
-        before = getattr(value, name)
-        after = _replaced(before, old, new) if name not in ("name", "color", "what") else before
-        if after is not before:
-            changed[name] = after
-    return msgspec.structs.replace(value, **changed) if changed else value
+def _spot_after_preposition(text: Text, at: int) -> NounPhrase | None:
+    """No, *on the table*: the place, if it is one."""
+    located = text.lookup(LOCATIVES, at)
+    start = located[1] if located else text.phrase_end(GOALWARDS, at)
+    phrase = noun_phrase(text, start) if start else None
+    return phrase if phrase and phrase.is_spot else None
+
+
+def _told_apart(text: Text, at: int, old: ObjectQuery | None) -> int | None:
+    """Where *the blue one* begins that tells which cup was meant a sentence before."""
+    if old is None or text.word(at - 1) not in (COMMA, FULL_STOP) or old.count not in (None, 1):
+        return None
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    if phrase is None or phrase.noun != "one":
+        return None
+    closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
+    told = (phrase.color and not old.color) or (phrase.size and not old.size)
+    return at if closed and (told or (phrase.superlative and not old.superlative)) else None

@@ -12,9 +12,14 @@ from intents.goals import Goal
 
 
 class ReadingError(Exception):
-    """A reading failed; ``str()`` says why in a sentence for people."""
+    """A reading failed; ``str()`` says why in a sentence for people.
+
+    Attributes:
+        weight: Of several errors the heaviest is told, of equal ones the first.
+    """
 
     weight = 0
+    """A misfit says only what the sentence is not."""
 
 
 class Misfit(ReadingError):
@@ -25,6 +30,7 @@ class NotUnderstood(ReadingError):
     """A name or a request that means nothing here."""
 
     weight = 1
+    """The words fit, so this is nearer to what was meant than a misfit."""
 
 
 class Unclear(ReadingError):
@@ -36,6 +42,7 @@ class Unclear(ReadingError):
     """
 
     weight = 2
+    """A question that can be answered is worth more than a refusal."""
 
     def __init__(self, question: str, choices: tuple[str, ...] = (), said: str = "") -> None:
         super().__init__(question)
@@ -59,6 +66,7 @@ class Doubtful(Unclear):
     """A name that is not known, but near ones are: the question is which of those is meant."""
 
     weight = 1
+    """A guess: an error of a sense that knows the name is as telling, and comes first."""
 
 
 def listing(names: list[str] | tuple[str, ...], last: str = "or") -> str:

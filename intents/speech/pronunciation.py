@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from intents.english.lexicon import words
+from intents.english.words.lexicon import words
 
 Lookup = Callable[[str], str | None]
 """The phones of a word of the dictionary ("K AH1 P" or "K AH P"), None if it has none."""

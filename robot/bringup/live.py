@@ -13,8 +13,7 @@ import msgspec
 
 from robot.bringup import private_folder
 from robot.bringup.body_clock import BodyClock
-from robot.bringup.overseen import RUN_FILE, Handle
-from robot.bringup.processes import PROCESSES, Process
+from robot.bringup.mailbox import RUN_FILE, Handle
 from robot.bringup.supervisor import Supervisor
 from robot.bus import topics
 from robot.bus.run import Run
@@ -58,7 +57,7 @@ class LiveRuntime(Closing):
     """A robot in a simulated world, on the wall clock; a context manager.
 
     It starts the processes itself; with a `handle` it has the process above start them, or attaches
-    to those that run there already (`robot.bringup.overseer`).
+    to those that run there already (`robot.bringup.launcher`).
 
     Attributes (`run`, `clock` and `link` from entering on):
         run: what the processes were told.
@@ -75,7 +74,7 @@ class LiveRuntime(Closing):
         folder: Path,
         seed: int = 0,
         wall: Clock | None = None,
-        processes: tuple[Process, ...] = PROCESSES,
+        simulated: bool = True,
         handle: Handle | None = None,
     ) -> None:
         """Check everything that can be checked before a process starts.
@@ -86,7 +85,7 @@ class LiveRuntime(Closing):
             folder: of this run; takes `logs/` and `timing.json`.
             seed: of the plant's noise.
             wall: the wall clock; another one in tests.
-            processes: what to run.
+            simulated: whether reality is: without, no plant is started.
             handle: on the process above, where that one looks after the processes.
 
         Raises:
@@ -101,8 +100,8 @@ class LiveRuntime(Closing):
             world=world.name,
             seed=seed,
             variation_seed=world.vary_seed,
+            simulated=simulated,
         )
-        self._processes = processes
         self._handle = handle
         self._crew: Crew | None = None
         self._bus: ZenohBus | None = None
@@ -142,7 +141,7 @@ class LiveRuntime(Closing):
         self._join(private)
         logs = self._folder / "logs"
         supervisor = Supervisor(
-            private / RUN_FILE, logs=logs, clock=self._wall, processes=self._processes
+            private / RUN_FILE, logs=logs, clock=self._wall, simulated=self.run.simulated
         )
         self._crew = supervisor.__enter__()
 
@@ -199,7 +198,7 @@ class LiveRuntime(Closing):
         Raises:
             ConfigError: if there is no simulation.
         """
-        if all(process.name != "plant" for process in self._processes):
+        if not self.run.simulated:
             raise ConfigError("faults are injected in simulation only")
         if isinstance(fault, Kill):
             os.kill(self.supervisor.pid(fault.process), signal.SIGKILL)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from types import TracebackType
 from typing import Protocol, Self
 
 from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
+from robot.closing import Closing
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.drivers.simulated import SimulatedMotors
 from robot.errors import ConfigError, DriverError, Failure, failure
@@ -49,7 +49,7 @@ class Perception(Protocol):
         ...
 
 
-class Lockstep:
+class Lockstep(Closing):
     """The `fast` order of events; the same parts and calls give the same run, bit for bit.
 
     Every 2 ms: commands, read, controller, write, physics. Every 20 ms, before the physics: body
@@ -92,14 +92,9 @@ class Lockstep:
         self._motors.__enter__()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Damp the motors and close the bus."""
-        self._motors.__exit__(kind, error, trace)
+        self._motors.close()
         self._bus.close()
 
     def failure(self) -> Failure | None:

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
+
+RESTART_WINDOW_S = 60.0
+CRASHED = 70
+"""Exit status of an executive that ends by an exception nobody expected (EX_SOFTWARE)."""
 
 
 @dataclass(frozen=True)
@@ -12,11 +17,13 @@ class Process:
 
     Attributes:
         name: its name on the bus and of its log.
-        module: run as `python -m module RUN_FILE`.
-        when: "always", or only where the plant is a simulation.
+        module: run as `python -m module FILE PARENT`.
+        when: "always", or only where reality is simulated.
         death: failure code that its death means, once it is not restarted any more.
         restarts: how often it may be started again within `RESTART_WINDOW_S`.
-        spare: whether a second one is loaded and waits for its turn.
+        spare_after_s: how long after a start a second one is loaded, which waits for its turn; not
+            at once, as it would compete for the processor. None: never.
+        stop_s: how long it may take to stop before it is killed.
     """
 
     name: str
@@ -24,19 +31,23 @@ class Process:
     when: Literal["always", "simulation"]
     death: str
     restarts: int = 0
-    spare: bool = False
+    spare_after_s: float | None = None
+    stop_s: float = 3.0
 
-    def may_start_again(self, starts_s: list[float], now_s: float) -> bool:
+    def may_start_again(self, starts_s: Sequence[float], now_s: float) -> bool:
         """Whether it may, after the starts at these times (the first of them was no restart)."""
         recent = [start_s for start_s in starts_s[1:] if start_s > now_s - RESTART_WINDOW_S]
         return len(recent) < self.restarts
 
+    def needed(self, *, simulated: bool) -> bool:
+        """Whether it is run, where reality is simulated or not."""
+        return simulated or self.when == "always"
 
-RESTART_WINDOW_S = 60.0
 
 CONTROLLER = Process(
-    "controller", "robot.control.main", "always", death="controller_lost", restarts=2, spare=True
-)
+    "controller", "robot.control.main", "always",
+    death="controller_lost", restarts=2, spare_after_s=4.0,
+)  # fmt: skip
 """When it dies the spare holds the robot up; the third death in a minute is the last."""
 
 PROCESSES: tuple[Process, ...] = (
@@ -46,11 +57,14 @@ PROCESSES: tuple[Process, ...] = (
 )
 """In the order of starting; they are stopped in the order of `STOP_ORDER`."""
 
-EXECUTIVE = Process("executive", "executive.main", "always", death="internal", restarts=2)
-"""Has the terminal, asks for the others, and ends before them: see `robot.bringup.overseer`.
+STOP_ORDER = ("controller", "perception", "plant")
+"""The controller first, while there is still a plant that takes its last command: damping."""
+
+EXECUTIVE = Process(
+    "executive", "executive.main", "always",
+    death="internal", restarts=2, spare_after_s=6.0, stop_s=8.0,
+)  # fmt: skip
+"""Has the terminal, asks for the others, and ends before them: see `robot.bringup.launcher`.
 
 When it dies the robot finishes its step and stands; the third death in a minute is the last.
 """
-
-STOP_ORDER = ("controller", "perception", "plant")
-"""The controller first, while there is still a plant that takes its last command: damping."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from types import TracebackType
-from typing import Any, Generic, Protocol, Self, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from robot.bus.topics import Topic
 from robot.closing import Closing
@@ -33,7 +32,7 @@ class Subscription(Protocol[M_co]):
         ...
 
 
-class Bus(Protocol):
+class Bus(Closing, Protocol):
     """Carries messages by topic. A context manager; closing it twice is fine."""
 
     def publish(self, topic: Topic[M], message: M) -> None:
@@ -50,19 +49,6 @@ class Bus(Protocol):
 
     def close(self) -> None:
         """Let go of the transport; subscriptions keep what they have."""
-        ...
-
-    def __enter__(self) -> Self:
-        """Ready to use."""
-        ...
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close."""
         ...
 
 

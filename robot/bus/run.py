@@ -14,6 +14,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
 
     `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
     sockets and the motors' shared memory. `variation_seed` shuffles the world, None leaves it.
+    `simulated` says whether reality is.
     """
 
     folder: str
@@ -22,6 +23,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     world: str
     seed: int = 0
     variation_seed: int | None = None
+    simulated: bool = True
 
     @property
     def motors_path(self) -> Path:

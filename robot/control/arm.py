@@ -7,8 +7,6 @@ motors' sag shows at the hand. It is done here, not through mink, for its cost: 
 
 from __future__ import annotations
 
-import math
-
 import mujoco
 import numpy as np
 
@@ -17,7 +15,7 @@ from robot.kinematics.dynamics import Dynamics
 from robot.kinematics.spline import ClampedSpline
 from robot.messages import Activity, HoldArm, MoveArm, MoveHand, Side
 from robot.model.body import BodyModel, as_index
-from robot.se3 import SE3, Array
+from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03
 HAND_GAIN_1_S = 6.0
@@ -248,23 +246,3 @@ class Line:
     def freeze(self, X_NG: SE3) -> None:
         """End here."""
         self._goal, self.duration_s, self._stop_load_n = X_NG, 0.0, None
-
-
-def rotation_vector(rotation: Array) -> Array:
-    """Axis times angle [rad] of a rotation matrix, shape (3,)."""
-    skew = np.array(
-        [
-            rotation[2, 1] - rotation[1, 2],
-            rotation[0, 2] - rotation[2, 0],
-            rotation[1, 0] - rotation[0, 1],
-        ]
-    )
-    sine = 0.5 * math.sqrt(float(skew @ skew))
-    cosine = 0.5 * (float(np.trace(rotation)) - 1.0)
-    angle = math.atan2(sine, cosine)
-    if sine < 1e-6:
-        if cosine > 0.0:
-            return 0.5 * skew
-        axis = np.sqrt(np.maximum(0.0, 0.5 * (np.diag(rotation) + 1.0)))
-        return angle * axis
-    return skew * (angle / (2.0 * sine))

@@ -11,6 +11,7 @@ import math
 from robot.drivers.motors import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array, Vector3
 
 OPENING_DONE_M = 0.004
@@ -40,7 +41,7 @@ class HandControl:
         self.motor = body.description.motor_names.index(self.hand.motor)
         self.row = 0 if side == "left" else 1
         model = body.model
-        self._weight_n = 9.81 * float(model.body_subtreemass[body.body_id(self.hand.body)])
+        self._weight_n = GRAVITY_M_S2 * float(model.body_subtreemass[body.body_id(self.hand.body)])
         self._kp = float(body.kp[self.motor])
         self.target: float = float(q_start[self.motor])
         self._reference = self.target

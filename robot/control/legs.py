@@ -14,9 +14,9 @@ from robot.control.whole_body import Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, OneLeg, Side, Stand, Walk, WalkTo
 from robot.model.body import SIDES, BodyModel
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array, wrap_angle
 
-GRAVITY_M_S2 = 9.81
 LOWEST_SHARE = 0.68
 HEIGHT_RATE_M_S = 0.12
 WAIST_RATE_RAD_S = 0.5

@@ -17,6 +17,7 @@ from robot.errors import Failure, failure
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Mode
 from robot.model.body import SIDES
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array, Quaternion
 
 TAKE_OVER_S = 0.1
@@ -25,7 +26,7 @@ CARRYING_SHARE = 0.5
 """Feet that bear this part of the weight stand on the floor, and flat."""
 LYING_RAD = 0.8
 """Feet that are so far from flat by what the IMU feels do not stand; in a step that is 0.32."""
-GRAVITY_M_S2, AT_REST_M_S2 = 9.81, 1.5
+AT_REST_M_S2 = 1.5
 
 
 class Found(NamedTuple):

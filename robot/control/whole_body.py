@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 
 from robot.kinematics.dynamics import Dynamics
 from robot.model.body import SIDES, BodyModel, as_index
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array
 
 STANCE_WEIGHT = 2000.0
-GRAVITY_M_S2 = 9.81
 COM_WEIGHT = 50.0
 SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0

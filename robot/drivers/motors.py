@@ -10,11 +10,11 @@ and damps (kp = 0, qd_des = 0) when no command has come for its watchdog time.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import TracebackType
 from typing import Protocol, Self
 
 import numpy as np
 
+from robot.closing import Closing
 from robot.se3 import Array
 
 
@@ -73,7 +73,7 @@ class MotorState:
     command_stamp_s: float
 
 
-class MotorBus(Protocol):
+class MotorBus(Closing, Protocol):
     """A driver of all motors: a context manager that leaves the motors damped.
 
     `__init__` opens nothing. Reading never blocks longer than one period.
@@ -83,12 +83,7 @@ class MotorBus(Protocol):
         """Open the device. Raises DriverError if it is not there."""
         ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Leave every motor damped and close; safe to call twice."""
         ...
 

@@ -11,12 +11,12 @@ import fcntl
 import mmap
 import struct
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 import numpy as np
 
 from robot.clock import Clock
+from robot.closing import Closing
 from robot.drivers.fingerprint import fingerprint
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.drivers.seqlock import Seqlock
@@ -85,7 +85,7 @@ class MotorMemory:
         self._file.close()
 
 
-class SharedMotors:
+class SharedMotors(Closing):
     """The controller's side: a `MotorBus`.
 
     One process at a time commands the motors; any may read them. The system takes the claim away
@@ -130,12 +130,7 @@ class SharedMotors:
             self._wait(until_s, "the plant's motors do not answer")
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Damp every motor, if it is this driver that commands them, and close."""
         if self._memory is None:
             return

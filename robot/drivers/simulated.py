@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from types import TracebackType
 from typing import Protocol, Self
 
+from robot.closing import Closing
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.errors import DriverError
 
@@ -21,7 +21,7 @@ class MotorPlant(Protocol):
         ...
 
 
-class SimulatedMotors:
+class SimulatedMotors(Closing):
     """A `MotorBus` straight onto a plant object; the plant's firmware checks every command."""
 
     def __init__(self, plant: MotorPlant) -> None:
@@ -35,12 +35,7 @@ class SimulatedMotors:
         self._open = True
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Damp every motor."""
         if self._open:
             self._open = False

@@ -15,9 +15,9 @@ import mujoco
 import numpy as np
 
 from robot.model.body import BodyModel
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array, Quaternion, multiply, rotate
 
-GRAVITY_M_S2 = 9.81
 TILT_GAIN_1_S = 0.05
 VELOCITY_TIME_S = 0.03
 POSITION_TIME_S = 0.10

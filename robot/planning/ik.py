@@ -14,7 +14,7 @@ import numpy as np
 
 from robot.planning import numerics
 from robot.planning.numerics import Mask
-from robot.se3 import Array
+from robot.se3 import Array, rotation_vectors
 
 STEP_LIMIT_RAD = 0.4
 """Largest change of a joint in one iteration [rad]."""
@@ -159,7 +159,7 @@ class Chain:
             here, at, axes, anchors = self._sweep(q[active])
             error = np.empty((len(active), 6))
             error[:, :3] = positions[active] - at
-            error[:, 3:] = _rotation_vector(rotations[active] @ here.transpose(0, 2, 1))
+            error[:, 3:] = rotation_vectors(rotations[active] @ here.transpose(0, 2, 1))
             size = np.sqrt((error**2).reshape(-1, 2, 3).sum(axis=2))
             weight = size[:, 0] + 0.2 * size[:, 1]
             better = weight < best[active] @ (1.0, 0.2)
@@ -188,7 +188,7 @@ class Chain:
         for _ in range(iterations):
             here, at, axes, anchors = self._sweep(q)
             error = np.concatenate(
-                [positions - at, _rotation_vector(rotations @ here.transpose(0, 2, 1))], axis=1
+                [positions - at, rotation_vectors(rotations @ here.transpose(0, 2, 1))], axis=1
             )
             jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), axes], axis=2)
             off = (self._middle - q) / self._half_range  # -1 at the upper limit, 1 at the lower
@@ -215,7 +215,7 @@ class Chain:
         for _ in range(steps):
             here, at, axes, anchors = self._sweep(q)
             error = np.concatenate(
-                [positions - at, _rotation_vector(rotations @ here.transpose(0, 2, 1))], axis=1
+                [positions - at, rotation_vectors(rotations @ here.transpose(0, 2, 1))], axis=1
             )
             jacobian = np.concatenate([_cross(axes, at[:, None, :] - anchors), axes], axis=2)
             lever = anchors[:, middle : middle + 1] - anchors[:, :middle]
@@ -260,18 +260,6 @@ def _cross(a: Array, b: Array) -> Array:
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
-
-
-def _rotation_vector(r: Array) -> Array:
-    """Axis times angle of rotation matrices, shape (n, 3); exact but near pi, where it is safe."""
-    axis = np.empty((len(r), 3))
-    axis[:, 0] = 0.5 * (r[:, 2, 1] - r[:, 1, 2])
-    axis[:, 1] = 0.5 * (r[:, 0, 2] - r[:, 2, 0])
-    axis[:, 2] = 0.5 * (r[:, 1, 0] - r[:, 0, 1])
-    sin = np.sqrt(np.sum(axis**2, axis=1))
-    cos = 0.5 * (r[:, 0, 0] + r[:, 1, 1] + r[:, 2, 2] - 1.0)
-    angle = np.arctan2(sin, cos)
-    return axis * (angle / np.maximum(sin, 1e-6))[:, None]
 
 
 def _matrix(quat_wxyz: Array) -> Array:

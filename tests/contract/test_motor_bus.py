@@ -132,7 +132,7 @@ def test_leaving_damps_every_motor(device: Device, error: Exception | None):
     assert not last.qd_des.any()
     assert not last.tau_ff.any()
     assert (last.kd > 0.0).all()
-    device.driver.__exit__(None, None, None)
+    device.driver.close()
 
 
 def test_a_dead_plant_is_an_error_within_a_second(tmp_path: Path):

@@ -1,4 +1,4 @@
-"""An executive for the overseer's tests, whose one front end does as its options say.
+"""An executive for the launcher's tests, whose one front end does as its options say.
 
 It appends what happens to `folder/told`, a line each, and asks for a robot of stub processes.
 """
@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 from executive.main import main
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
 
 

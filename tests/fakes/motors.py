@@ -4,6 +4,7 @@ import numpy as np
 
 from robot.drivers.motors import MotorCommand, MotorState
 from robot.errors import DriverError
+from robot.physics import GRAVITY_M_S2
 
 
 class FakePlant:
@@ -29,7 +30,7 @@ class FakePlant:
             tau=np.arange(n) - 0.5,
             temperature_c=np.full(n, 25.0),
             gyro_rad_s=np.array([0.1, 0.2, 0.3]),
-            accel_m_s2=np.array([0.0, 0.0, 9.81]),
+            accel_m_s2=np.array([0.0, 0.0, GRAVITY_M_S2]),
             ankle_wrench=np.arange(12.0).reshape(2, 6),
             wrist_wrench=np.arange(12.0, 24.0).reshape(2, 6),
             watchdog=not self.commands,

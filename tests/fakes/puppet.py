@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from robot import messages as m
 from robot.model.description import RobotDescription
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, wrap_angle
 
 TICK_S = 0.05
@@ -318,7 +319,7 @@ class Puppet:
         if side in self.holding:
             thing = self.things[self.holding[side][0]]
             lifted = thing.X_WO.p[2] - thing.height_m / 2 > self.surface_m + 0.005
-            load_n = (9.81 * thing.mass_kg if lifted else 0.0) + self.pull_n
+            load_n = (GRAVITY_M_S2 * thing.mass_kg if lifted else 0.0) + self.pull_n
         return m.HandState(
             X_NG=self.X_WN.inverse() @ self.X_WS @ self._hands[side],
             opening_m=self._openings[side],

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pyte
 
+from robot.closing import Closing
 from tests.fakes.waiting import eventually
 
 COLUMNS, ROWS = 100, 30
@@ -22,7 +23,7 @@ ENTER, TAB, UP = "\r", "\t", "\x1b[A"
 CTRL_C, CTRL_D, CTRL_U = "\x03", "\x04", "\x15"
 
 
-class Terminal:
+class Terminal(Closing):
     """Runs `humanoid ARGUMENTS` on a terminal of its own; a context manager."""
 
     def __init__(self, *arguments: str, folder: Path) -> None:
@@ -75,13 +76,10 @@ class Terminal:
     def text(self) -> str:
         return "\n".join(self.lines)
 
-    def shows(self, words: str, *, within_s: float = 30.0) -> bool:
-        return eventually(lambda: words in self.text, within_s=within_s)
+    def shows(self, words: str) -> bool:
+        return eventually(lambda: words in self.text)
 
-    def __enter__(self) -> "Terminal":
-        return self
-
-    def __exit__(self, *_error: object) -> None:
+    def close(self) -> None:
         if self.process.poll() is None:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self.process.pid, signal.SIGKILL)

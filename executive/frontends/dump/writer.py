@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from types import TracebackType
 from typing import Literal, Self, get_args
 
 import typer
@@ -150,7 +149,7 @@ def parse_on(text: str) -> On:
     raise ConfigError([Problem(f"--dump-on is no {text!r}", suggestion=hint)])
 
 
-class Together:
+class Together(Closing):
     """Shows a run to people and dumps it."""
 
     def __init__(self, shown: Progress, dumper: Dumper) -> None:
@@ -168,14 +167,9 @@ class Together:
         self._shown.__enter__()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """End both; the screen comes first."""
-        self._shown.__exit__(kind, error, trace)
+        self._shown.close()
         self._dumper.close()
         if self._dumper.problem:
             typer.echo(f"warning: {self._dumper.problem}", err=True)

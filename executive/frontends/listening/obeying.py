@@ -18,12 +18,12 @@ from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal.journal import Event
 from executive.runs import run_folder
 from intents import goals as g
-from intents.goals import Goal
-from intents.risks import each, risk
+from intents.goals import Goal, each
+from intents.risks import risk
 from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import voice
 from intents.stopping import is_stop
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 
 _SENTENCE = re.compile(r"(?<=[.!?;])\s+")
 HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)

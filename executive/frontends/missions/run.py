@@ -15,7 +15,7 @@ from executive.frontends.supervised import FrontEnd, oversee
 from executive.missions.check import Checked, Options, check
 from executive.runs import mission, run_folder, task_run
 from executive.runs.mission_files import keep
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):

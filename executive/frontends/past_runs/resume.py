@@ -18,7 +18,7 @@ from executive.runs import recording, resumption, task_run
 from executive.runs.recording import Recording
 from executive.runs.resumption import CannotGoOn, Screen
 from executive.runs.run_folder import Summary
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
 

@@ -27,7 +27,7 @@ from executive.journal.journal import Event
 from executive.meaning import request
 from executive.runs import run_folder, runtimes
 from executive.runs.recording import Recording
-from robot.bringup.overseen import Handle
+from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3

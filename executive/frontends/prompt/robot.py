@@ -20,6 +20,7 @@ from executive.runs import run_folder
 from executive.runs.faults import Injector, SlowPlanner
 from executive.runs.session import Session
 from robot.clock import Clock
+from robot.closing import Closing
 from robot.errors import Failure, ProcessError
 from robot.planning.worker import Planner
 
@@ -28,7 +29,7 @@ LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
 
 
-class Robot:
+class Robot(Closing):
     """A context manager: the robot is up inside, and at rest and gone afterwards.
 
     The thread that opens the runtime also ticks the executive and closes the runtime. Every
@@ -209,7 +210,7 @@ class Robot:
             raise self._error
         return self
 
-    def __exit__(self, *_error: object) -> None:
+    def close(self) -> None:
         """Bring the robot to rest, and close everything."""
         if self.busy and self.lost is None:
             self.executive.stop("the operator leaves")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from executive.meaning.request import Setting
+from robot import yaml_nodes
 from robot.errors import ConfigError
 
 HEAD = "# What was done at the prompt. `humanoid mission check` says whether it still fits.\n"
@@ -40,8 +38,4 @@ def text(name: str, sentences: list[str], where: Setting) -> str:
         "robot": where.robot_name,
         "steps": sentences,
     }
-    yaml, out = YAML(), io.StringIO()
-    yaml.indent(sequence=4, offset=2)
-    yaml.width = 1000
-    yaml.dump(mission, out)  # pyright: ignore[reportUnknownMemberType]
-    return out.getvalue()
+    return yaml_nodes.dump(mission)

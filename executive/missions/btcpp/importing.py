@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 import msgspec
-import yaml
 
 from executive.missions.btcpp import leaves
 from executive.missions.btcpp.xml import Element, read
 from executive.missions.compiling import MAX_STEPS
+from robot import yaml_nodes
 from robot.config import nearest
 
 Step: TypeAlias = Any
@@ -33,20 +33,7 @@ def mission_of(path: Path) -> str:
     Raises:
         ConfigError: the file is wrong, or something in it has no equivalent.
     """
-    return as_yaml(mission_data(read(path), file_name=path.stem))
-
-
-def as_yaml(mission: dict[str, Any]) -> str:
-    """A mission's data as the text of a file."""
-    return yaml.dump(mission, Dumper=_Plain, sort_keys=False, allow_unicode=True, width=100)
-
-
-class _Plain(yaml.SafeDumper):
-    """Writes everything out: no anchors."""
-
-    def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002, by PyYAML's contract
-        """Nothing is shared."""
-        return True
+    return yaml_nodes.dump(mission_data(read(path), file_name=path.stem))
 
 
 def mission_data(root: Element, *, file_name: str = "imported") -> dict[str, Any]:

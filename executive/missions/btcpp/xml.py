@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from xml.parsers import expat
 
-from executive.missions.nodes import read_text
 from robot.errors import ConfigError, Problem
+from robot.yaml_nodes import read_text
 
 MAX_DEPTH = 100
 MAX_ELEMENTS = 50_000

@@ -6,9 +6,9 @@ A frame is a function ``frame(clause, scope) -> goals``. It raises
 
 from collections.abc import Callable
 
-from intents.english.clauses import Clause
 from intents.english.frames import body, devices, handling, mission, motion, people
-from intents.english.referents import Scope
+from intents.english.phrases.complements import Clause
+from intents.english.phrases.referents import Scope
 from intents.goals import Goal
 
 Frame = Callable[[Clause, Scope], list[Goal]]
@@ -50,4 +50,4 @@ FRAMES: dict[str, Frame] = {
     "cancel": mission.cancel,
     "report": mission.report,
 }
-"""Frames by sense of the verb (:mod:`intents.english.verbs`)."""
+"""Frames by sense of the verb (:mod:`intents.english.words.verbs`)."""

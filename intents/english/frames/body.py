@@ -1,11 +1,11 @@
 """Postures, balance and gestures of the robot itself."""
 
-from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots
-from intents.english.phrase import NounPhrase
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.phrases.complements import Clause
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
-from intents.english.verbs import base_form
+from intents.english.words.verbs import base_form
 from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, LookAt, Side
 
 _LEGS = ("leg", "legs", "foot", "feet")

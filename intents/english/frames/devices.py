@@ -1,11 +1,11 @@
 """Opening, closing and switching."""
 
-from intents.english.clauses import Clause, Complement
 from intents.english.frames.slots import Slots
-from intents.english.lexer import singular
-from intents.english.lexicon import words
-from intents.english.referents import Scope
+from intents.english.phrases.complements import Clause, Complement
+from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.words.lexer import singular
+from intents.english.words.lexicon import words
 from intents.goals import Close, Goal, Open, Switch
 
 _OPENABLE = words(

@@ -5,14 +5,13 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement, connector_end
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot
-from intents.english.referents import ME, Scope, is_person, to_person, to_place
+from intents.english.phrases.complements import Clause, Complement, connector_end
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
-from intents.english.verbs import verbs_at
+from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
     Balance,
@@ -104,9 +103,7 @@ def _receiver(slots: Slots) -> Person | str | None:
     if goal is None:
         bare = [c for c in slots.rest if c.phrases and c.role == "" and c.phrase.noun != "here"]
         person = slots.take_person("", "for") if len(bare) > 1 else slots.take_person("for")
-        here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
-        if here:
-            slots.rest.remove(here)
+        here = slots.take_here()
         return person or (ME if here else None)
     if is_person(goal.phrase, scope) or goal.phrase.noun in ("operator", "here"):
         slots.take_person("for")
@@ -125,7 +122,7 @@ def _unknown_receiver(goal: Complement, scope: Scope) -> str:
 
 def _near_destination(slots: Slots) -> str | None:
     """Bring the vase near the piano."""
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    bare = slots.peek("")
     if bare and bare.phrase.places and bare.phrase.places[-1].how == "near":
         place = detach_place(bare.phrase)
         return to_place(place.of, slots.scope, objects=True) if place else None
@@ -139,7 +136,7 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     to = _receiver(slots) or ME
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    bare = slots.peek("")
     known = scope.object is not None and scope.object.at is not None and scope.last is None
     held = bare is None or (bare.phrase.noun == "pronoun" and not known)
     objects = slots.objects() or [scope.object or ObjectQuery(held=True)]
@@ -152,8 +149,8 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
 
 def _provided(slots: Slots) -> None:
     """Provide Ada *with a pencil*: she is the receiver, the pencil is what is given."""
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
-    thing = next((c for c in slots.rest if c.phrases and c.role == "with"), None)
+    bare = slots.peek("")
+    thing = slots.peek("with")
     if bare and thing and is_person(bare.phrase, slots.scope) and not thing.phrase.is_person:
         bare.role, thing.role = "to", ""
 
@@ -171,16 +168,16 @@ def want(clause: Clause, scope: Scope) -> list[Goal]:
 def put(clause: Clause, scope: Scope) -> list[Goal]:
     """Put the cup on the shelf; put the cup on the shelf and the plate on the table."""
     slots = Slots(clause, scope)
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    bare = slots.peek("")
     if bare and len(bare.phrases) > 1 and all(p.places for p in bare.phrases):
         return _each_there(clause, bare, scope)
     if bare and len(bare.phrases) > 1 and not any(p.places for p in bare.phrases[1:]):
         bare.phrases[-1].places += bare.phrases[0].places[-1:]
         del bare.phrases[0].places[-1:]
-    to = next((c for c in slots.rest if c.phrases and c.role == "to"), None)
+    to = slots.peek("to")
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)
-    if bare and clause.verb == "tidy" and is_spot(bare.phrase):
+    if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
     beside = bare and bare.phrases[-1].places[-1:]
     near = bool(beside and beside[0].how == "near" and beside[0].of.name("object"))
@@ -224,11 +221,11 @@ def swap(clause: Clause, scope: Scope) -> list[Goal]:
 def clear(clause: Clause, scope: Scope) -> list[Goal]:
     """Clear the table; empty the shelf onto the counter; clear everything off the table."""
     slots = Slots(clause, scope)
-    bare = next((c for c in slots.rest if c.phrases and c.role == ""), None)
+    bare = slots.peek("")
     if bare is None or len(bare.phrases) > 1:
         raise Misfit("clear what?")
     spot = _destination(slots)
-    if is_spot(bare.phrase):
+    if bare.phrase.is_spot:
         slots.rest.remove(bare)
         objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
     else:
@@ -283,7 +280,7 @@ def _destination(slots: Slots) -> tuple[str, str] | None:
         return "on", slots.scope.place
     bare = bares[0] if bares else None
     place = detach_place(bare.phrases[-1]) if bare else None
-    source = next((c for c in slots.rest if c.phrases and c.role == "from"), None)
+    source = slots.peek("from")
     if place is None and source:
         place = detach_place(source.phrase)
     inside = slots.scope.device or slots.scope.place
@@ -298,7 +295,7 @@ def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
     if place.how not in ("on", "in", None, "near", "above"):
         where = _HOW.get(place.how, place.how)
         raise NotUnderstood(f"I can put things on or in a place, not {where} something")
-    near_object = place.how == "near" and not is_spot(place.of)
+    near_object = place.how == "near" and not place.of.is_spot
     near_object = near_object and (place.of.name("object") or place.of.noun == "one")
     if near_object:
         raise NotUnderstood("I can put things on or in a place, not next to another object")

@@ -1,10 +1,10 @@
 """Stopping, pausing and reporting: about the mission and the robot, not about the world."""
 
-from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots
-from intents.english.lexicon import words
-from intents.english.referents import ME, Scope
+from intents.english.phrases.complements import Clause
+from intents.english.phrases.referents import ME, Scope
 from intents.english.trouble import Misfit
+from intents.english.words.lexicon import words
 from intents.goals import Cancel, Goal, Pause, Report, ReportTopic, Resume, Stop, Wait
 
 

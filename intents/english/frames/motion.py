@@ -4,12 +4,12 @@ from math import pi
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
-from intents.english.frames.slots import Slots, is_person, is_spot, need
-from intents.english.measures import STEP_M
-from intents.english.phrase import NounPhrase
-from intents.english.referents import Scope, to_object, to_person, to_place
+from intents.english.frames.slots import Slots, need
+from intents.english.phrases.complements import Clause, Complement
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
     Displacement,
@@ -41,7 +41,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         return [Place(object=thing, on=to_place(target.phrase, scope))]
     if carried:
         slots.rest.append(carried)
-    bare = target is not None and target.role == "" and not is_spot(target.phrase)
+    bare = target is not None and target.role == "" and not target.phrase.is_spot
     bare = bare and not (target and target.phrase.where)
     if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
         raise Misfit("that is to move something")
@@ -213,7 +213,7 @@ def _find(phrase: NounPhrase, scope: Scope, at: str | None) -> Goal:
     if is_person(phrase, scope):
         person = to_person(phrase, scope)
         return Find(person=replace(person, at=person.at or at))
-    if phrase.name("room") and is_spot(phrase):
+    if phrase.name("room") and phrase.is_spot:
         return GoTo(place=to_place(phrase, scope))
     query = to_object(phrase, scope, spots=True)
     return Find(object=replace(query, at=query.at or at))

@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause
 from intents.english.frames.slots import Slots, need
-from intents.english.referents import ME, Scope, to_place
+from intents.english.phrases.complements import Clause
+from intents.english.phrases.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit
 from intents.goals import OPERATOR, Find, Follow, Goal, GoTo, Greet, Guide, Meet, Person
 
@@ -30,9 +30,7 @@ def _destination(slots: Slots) -> str | None:
     goal = slots.take("to", "into", "through")
     if goal:
         return to_place(goal.phrase, slots.scope)
-    here = next((c for c in slots.rest if c.phrases and c.phrase.noun == "here"), None)
-    if here:
-        slots.rest.remove(here)
+    if slots.take_here():
         return OPERATOR
     return OPERATOR if slots.direction("backward") else None
 

@@ -2,10 +2,9 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses import Clause, Complement
-from intents.english.phrase import Locative, NounPhrase
-from intents.english.postmodifiers import is_spot
-from intents.english.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.phrases.complements import Clause, Complement, first_with
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
 
@@ -18,29 +17,33 @@ class Slots:
         self.scope = scope
         self.rest: list[Complement] = list(clause.complements)
 
-    def take(self, *roles: str) -> Complement | None:
+    def peek(self, *roles: str) -> Complement | None:
         """The first complement with one of these roles; "" is a bare noun phrase."""
-        for complement in self.rest:
-            if complement.phrases and complement.role in roles:
-                self.rest.remove(complement)
-                return complement
-        return None
+        return first_with(self.rest, *roles)
+
+    def take(self, *roles: str) -> Complement | None:
+        """The first complement with one of these roles, which is understood by that."""
+        return self._taken(self.peek(*roles))
 
     def take_where(self) -> Complement | None:
         """A place by what is there: "where the cup is"."""
-        where = next((c for c in self.rest if c.phrases and c.phrase.where), None)
-        if where:
-            self.rest.remove(where)
-        return where
+        return self._taken(next((c for c in self.rest if c.phrases and c.phrase.where), None))
+
+    def take_here(self) -> Complement | None:
+        """To where the operator is: "bring it here"."""
+        here = (c for c in self.rest if c.phrases and c.phrase.noun == "here")
+        return self._taken(next(here, None))
 
     def take_person(self, *roles: str) -> Person | None:
         """The first complement with one of these roles that is a person."""
-        for complement in self.rest:
-            fits = complement.phrases and complement.role in roles
-            if fits and is_person(complement.phrase, self.scope):
-                self.rest.remove(complement)
-                return to_person(complement.phrase, self.scope)
-        return None
+        said = (c for c in self.rest if c.phrases and c.role in roles)
+        person = self._taken(next((c for c in said if is_person(c.phrase, self.scope)), None))
+        return to_person(person.phrase, self.scope) if person else None
+
+    def _taken(self, complement: Complement | None) -> Complement | None:
+        if complement is not None:
+            self.rest.remove(complement)
+        return complement
 
     def measure(self, kind: str) -> float | None:
         """The quantity of a kind, in SI."""
@@ -120,6 +123,3 @@ def need(value: object, question: str) -> None:
     """
     if not value:
         raise Unclear(question)
-
-
-__all__ = ["Slots", "detach_place", "is_person", "is_spot", "need"]

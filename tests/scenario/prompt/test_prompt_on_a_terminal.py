@@ -20,7 +20,7 @@ def test_an_evening_at_the_prompt(tmp_path: Path):
     run = tmp_path / "run"
     with Terminal("repl", "--world", "kitchen", "--run-dir", str(run), folder=tmp_path) as terminal:
         assert terminal.shows("`help` shows what can be said")
-        assert terminal.shows("stand | healthy"), terminal.text
+        assert terminal.shows("stand | "), terminal.text
 
         terminal.press("what are you hol" + ENTER)
         assert terminal.shows("Not understood")
@@ -32,7 +32,7 @@ def test_an_evening_at_the_prompt(tmp_path: Path):
         terminal.enter("tree on")
         terminal.enter("go to the table")
         assert terminal.shows("▸ go to the table")
-        assert terminal.shows("walk | healthy")
+        assert terminal.shows("walk | ")
         terminal.enter("say hello")
         assert terminal.shows("says: Hello.")
         assert terminal.shows("▸ go to the table")
@@ -40,12 +40,12 @@ def test_an_evening_at_the_prompt(tmp_path: Path):
         terminal.enter("pause")
         assert terminal.shows("stand, paused")
         terminal.enter("resume")
-        assert terminal.shows("walk | healthy")
+        assert terminal.shows("walk | ")
         terminal.press("half a li")
         terminal.press(CTRL_C)
         assert terminal.shows("Stopping.")
         assert terminal.shows("> half a li")  # what was typed is still there
-        assert terminal.shows("stand | healthy")
+        assert terminal.shows("stand | ")
         terminal.press(CTRL_C)
         terminal.enter("why")
         assert terminal.shows("Stopped after")
@@ -54,7 +54,7 @@ def test_an_evening_at_the_prompt(tmp_path: Path):
         assert terminal.shows("> why")
         terminal.press(CTRL_C)
         terminal.press(CTRL_D)
-        assert eventually(lambda: terminal.process.poll() is not None, within_s=20.0)
+        assert eventually(lambda: terminal.process.poll() is not None)
         assert terminal.process.returncode == 0
     jobs = [event.data["state"] for event in events(run, "job") if event.data["job"] == 1]
     assert jobs[-1] == "cancelled"

@@ -28,6 +28,7 @@ THERE = Context(
         ("move the bottle over to the shelf for me", "move the bottle to the shelf"),
         ("put the bottle on the shelf for us", "put the bottle on the shelf"),
         ("take the bottle to the table for me please", "take the bottle to the table"),
+        ("wave, if it is not too much to ask", "wave"),
         ("grab me that red cup", "grab me the red cup"),
         ("is the bottle still on the table?", "is the bottle on the table?"),
         ("use both hands to pick up the bottle", "pick up the bottle"),

@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 
-from intents.english.measures import measure, number
+from intents.english.words.measures import measure, number
 
 
 @pytest.mark.parametrize(

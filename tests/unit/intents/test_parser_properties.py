@@ -8,7 +8,7 @@ from test_constructions import CASES
 from test_grammar_table import BODY, FREE_SPEECH, HANDLING, MISSION, MOTION, PEOPLE, SEQUENCES
 from workshop_words import WORKSHOP
 
-from intents.english.spelling import COMMON_WORDS, GRAMMAR_WORDS
+from intents.english.words.spelling import COMMON_WORDS, GRAMMAR_WORDS
 from intents.goals import from_json, to_json
 from intents.outcomes import Goals, Question, Refusal
 from intents.parser import MAX_CHARACTERS, hear, parse
@@ -40,6 +40,7 @@ def test_no_salad_of_known_words_raises_and_goals_are_valid(text: str) -> None:
 
 DEGENERATE = (
     "a" * 100_000, "and " * 300, "the red " * 124, "(" * 999, "pick up the mug on the " * 43,
+    "1e999", "turn 1e999 degrees", "walk 1e999 metres",
     "\x00\ufffd\u202e" * 300, "if " * 300, "for each mug " * 70, "no wait " * 120,
 )  # fmt: skip
 

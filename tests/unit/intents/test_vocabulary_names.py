@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from intents.english.names import NameIndex
+from intents.english.words.names import NameIndex
 from intents.vocabulary import Spot, Thing, Vocabulary
 
 HOME = Vocabulary.of(

@@ -7,7 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.se3 import SE3, matrix_to_quat, quat_to_matrix, rotate, wrap_angle
+from robot.se3 import (
+    SE3,
+    matrix_to_quat,
+    quat_to_matrix,
+    rotate,
+    rotation_vector,
+    rotation_vectors,
+    wrap_angle,
+)
 
 angles = st.floats(-math.pi, math.pi)
 lengths = st.floats(-10.0, 10.0)
@@ -69,6 +77,26 @@ def test_roll_pitch_yaw_turn_in_this_order(roll, yaw, pitch):
     X = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0))
     expected = turn("z", yaw) @ turn("y", pitch) @ turn("x", roll)
     np.testing.assert_allclose(X.rotation(), expected, atol=1e-12)
+
+
+vectors = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda v: math.hypot(*v) > 1e-3)
+
+
+@given(vectors, st.sampled_from([0.0, 1e-9, 1e-7, 1e-5, 0.1, 1.0, 3.0, math.pi - 1e-4, math.pi]))
+def test_a_rotation_vector_is_axis_times_angle(axis, angle):
+    axis = np.array(axis) / np.linalg.norm(axis)
+    quat = (math.cos(angle / 2), *(math.sin(angle / 2) * axis))
+    vector = rotation_vector(quat_to_matrix(quat))
+    if angle == math.pi and vector @ axis < 0.0:  # the other way round is the same
+        vector = -vector
+    np.testing.assert_allclose(vector, angle * axis, atol=1e-9)
+
+
+@given(st.lists(poses, max_size=4))
+def test_many_rotation_vectors_are_those_of_each(many):
+    rotations = np.array([*(X.rotation() for X in many), np.eye(3), np.diag([-1.0, 1.0, -1.0])])
+    each = [rotation_vector(rotation) for rotation in rotations]
+    np.testing.assert_allclose(rotation_vectors(rotations), each, atol=1e-6)
 
 
 @given(poses)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from robot.errors import DriverError
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3
 from sim import world
 from sim.plant import Plant
@@ -33,13 +34,17 @@ def test_pd_holds_the_posture_standing(plant, run, robot):
     assert plant.oracle.X_WB().p[2] == pytest.approx(robot.walking.base_height_m, abs=0.02)
 
 
+def test_it_falls_as_fast_as_controllers_think(plant):
+    assert tuple(plant.model.opt.gravity) == (0.0, 0.0, -GRAVITY_M_S2)
+
+
 def test_standing_the_feet_push_the_legs_up_with_the_weight(plant, run):
     run(plant, 1.0)
     state = plant.read()
-    weight_n = plant.model.body_subtreemass[0] * 9.81
-    feet_n = 2 * 0.8 * 9.81  # below the ankles' sensors
+    weight_n = plant.model.body_subtreemass[0] * GRAVITY_M_S2
+    feet_n = 2 * 0.8 * GRAVITY_M_S2  # below the ankles' sensors
     assert state.ankle_wrench[:, 2].sum() == pytest.approx(weight_n - feet_n, rel=0.05)
-    assert np.linalg.norm(state.accel_m_s2) == pytest.approx(9.81, rel=0.05)
+    assert np.linalg.norm(state.accel_m_s2) == pytest.approx(GRAVITY_M_S2, rel=0.05)
 
 
 def test_hanging_hands_pull_the_arms_down(plant, run):

@@ -19,11 +19,11 @@ from executive.trees.parts import Errand, Series
 from robot.clock import Waker
 from robot.messages import Damp, Stand
 from tests.fakes.puppet_runtime import PuppetRuntime
-from tests.fakes.waiting import eventually
+from tests.fakes.waiting import HANG_S, eventually
 from tests.fakes.worlds import JUNO, puppet
 
 FOREVER = Errand(name="wait", params=WaitParams())
-NEVER_S = 30.0
+NEVER_S = 10 * HANG_S
 
 
 class Sleeper(PuppetRuntime):
@@ -60,7 +60,6 @@ def test_a_request_from_another_thread_cuts_the_wait_short():
     runtime = Sleeper(puppet())
     executive = executive_on(runtime)
     thread = in_a_thread(runtime, executive)
-    begin_s = time.monotonic()
     assert eventually(lambda: executive.on_request.__name__ == "wake")
     executive.pause()
     assert eventually(lambda: executive.state == "pausing")
@@ -69,7 +68,6 @@ def test_a_request_from_another_thread_cuts_the_wait_short():
         runtime.wake()
         time.sleep(0.001)
     assert executive.outcome.failure.code == "cancelled"
-    assert time.monotonic() - begin_s < NEVER_S / 2
 
 
 def test_a_ctrl_c_cuts_the_wait_short_and_stops():

@@ -5,7 +5,6 @@ import resource
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -13,7 +12,7 @@ import pytest
 from executive.journal import journal
 from executive.journal.files import BackgroundFile, LineFile, is_open
 from executive.journal.journal import Journal
-from tests.fakes.waiting import eventually
+from tests.fakes.waiting import HANG_S, eventually
 
 
 def numbers(path: Path) -> list[int]:
@@ -142,7 +141,7 @@ def test_at_the_limit_of_a_files_size_it_goes_on(tmp_path, how):
     assert resource.RLIMIT_FSIZE  # what `ulimit -f` sets
     done = subprocess.run(
         [sys.executable, "-c", LIMITED, str(tmp_path), how],
-        capture_output=True, text=True, check=False, timeout=20,
+        capture_output=True, text=True, check=False, timeout=HANG_S,
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (0, "went on\n"), done.stderr
     assert numbers(tmp_path)[:20] == list(range(20))
@@ -165,17 +164,12 @@ def test_a_pipe_that_nobody_reads_stops_nobody_and_what_is_lost_is_counted(tmp_p
     writer = Journal(tmp_path, capacity=500, background=True)
     warnings = []
     writer.listen(lambda event: warnings.append(event) if event.n < 0 else None)
-    spans_s = []
     for n in range(4000):
-        begun_s = time.perf_counter()
         writer.write(n * 0.05, "phase", step="walk", phase="x" * 80)
-        spans_s.append(time.perf_counter() - begun_s)
-    assert sorted(spans_s)[-20] < 0.005  # a write to a full pipe would never return
+    # a write to a full pipe would never have returned
     assert writer.dropped > 1000
     assert "the disk has taken nothing for" in warnings[0].data["text"]
-    begun_s = time.perf_counter()
-    writer.close()
-    assert time.perf_counter() - begun_s < 2.0
+    writer.close()  # nor would a close that waits for the disk
 
 
 def test_a_process_whose_disk_is_stalled_ends_all_the_same(tmp_path):
@@ -183,7 +177,7 @@ def test_a_process_whose_disk_is_stalled_ends_all_the_same(tmp_path):
     script = WRITER.replace("1_000_000", "3000").replace("time.sleep(0.005)", "")
     subprocess.run(
         [sys.executable, "-c", script, str(tmp_path), "background"],
-        stdout=subprocess.DEVNULL, check=True, timeout=20,
+        stdout=subprocess.DEVNULL, check=True, timeout=HANG_S,
     )  # fmt: skip
 
 

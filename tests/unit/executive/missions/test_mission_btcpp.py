@@ -12,6 +12,7 @@ from executive.missions import nav2
 from executive.missions.btcpp import exporting, importing, leaves
 from executive.missions.btcpp.xml import parse
 from executive.missions.load import shipped
+from robot import yaml_nodes
 from robot.errors import ConfigError
 from tests.fakes.missions import SIMULATION, check, known_settings  # noqa: F401, a fixture
 
@@ -193,7 +194,7 @@ def test_what_is_exported_reads_back_to_the_same_steps(steps, expect):
 def test_shipped_missions_go_out_and_back(path, tmp_path):
     xml = exporting.xml_of(path, SIMULATION)
     copy = tmp_path / "back.yaml"
-    copy.write_text(importing.as_yaml(data_of(xml)), encoding="utf-8")
+    copy.write_text(yaml_nodes.dump(data_of(xml)), encoding="utf-8")
     check(copy)
     assert exporting.xml_of(copy, SIMULATION) == xml
 

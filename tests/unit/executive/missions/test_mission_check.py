@@ -10,16 +10,15 @@ import pytest
 import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from ruamel.yaml import YAML
 
 from executive.frontends.missions import commands
-from executive.missions import nodes
 from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
 from executive.missions.plan import forecast
 from executive.missions.template import template
 from executive.skills.parameters import NavigateParams, PickParams, SayParams, WaitParams
 from executive.trees import parts as p
+from robot import yaml_nodes
 from robot.errors import ConfigError
 from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
 
@@ -59,7 +58,7 @@ def test_shipped_missions_are_well_and_name_their_schema(path):
     text = path.read_text()
     assert text.startswith("# yaml-language-server: $schema=mission.schema.json\n")
     schema = json.loads((FOLDER / "mission.schema.json").read_text())
-    jsonschema.validate(YAML(typ="safe", pure=True).load(text), schema)
+    jsonschema.validate(yaml_nodes.parse(text, path.name).plain_data, schema)
 
 
 def test_there_are_at_least_eight():
@@ -306,7 +305,7 @@ def test_what_is_no_text_is_refused(data, words, tmp_path):
 def test_folders_pipes_and_devices_are_refused(tmp_path):
     for path in (tmp_path, "/dev/zero"):
         with pytest.raises(ConfigError, match="no ordinary file"):
-            nodes.read_text(path)
+            yaml_nodes.read_text(path)
 
 
 def test_10_000_steps_are_checked_in_a_second(write):

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from executive.skills.parameters import PickParams, PlaceParams
 from robot.errors import failure
 from robot.messages import Grip, MoveHand
+from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import ArmRequest, PlaceRequest
 from robot.se3 import SE3
 from tests.fakes.puppet import Thing
@@ -39,7 +40,7 @@ def test_it_is_lowered_slowly_until_its_weight_is_off(stage):
     down = [c for c in stage.commands(MoveHand) if c.stop_load_n is not None]
     assert down
     assert all(c.speed_m_s <= 0.05 for c in down)
-    assert all(0.5 <= c.stop_load_n <= 0.2 * 9.81 for c in down)
+    assert all(0.5 <= c.stop_load_n <= 0.2 * GRAVITY_M_S2 for c in down)
 
 
 def test_the_fingers_open_only_after_it_was_lowered(stage):

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from intents.english.lexicon import words
+from intents.english.words.lexicon import words
 from intents.speech.pronunciation import by_letters, pronounce, variants
 
 KNOWN = {

@@ -145,7 +145,7 @@ def test_the_third_death_of_a_controller_within_a_minute_is_the_last(parts):
 def test_leaving_damps(parts):
     runtime, plant, _, _, _ = parts
     runtime.advance(0.01)
-    runtime.__exit__(None, None, None)
+    runtime.close()
     assert not plant.commands[-1].kp.any()
 
 

@@ -5,12 +5,14 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from robot.bringup.child import describe_exit
 from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
-from robot.bringup.supervisor import Supervisor, describe_exit, last_line
+from robot.bringup.supervisor import Supervisor, last_line
 from robot.clock import WallClock
 from robot.errors import CATALOGUE
 from tests.fakes.waiting import eventually
@@ -34,11 +36,13 @@ def alive(pid: int) -> bool:
 
 @pytest.fixture
 def supervise(tmp_path: Path) -> Callable[..., Supervisor]:
-    def make(word: str = "obey", processes: tuple[Process, ...] = THREE) -> Supervisor:
+    def make(
+        word: str = "obey", processes: tuple[Process, ...] = THREE, **options: bool
+    ) -> Supervisor:
         run_file = tmp_path / "run"
         run_file.write_text(word)
         logs = tmp_path / "logs"
-        return Supervisor(run_file, logs=logs, clock=WallClock(), processes=processes)
+        return Supervisor(run_file, logs=logs, clock=WallClock(), processes=processes, **options)
 
     return make
 
@@ -47,7 +51,7 @@ def ready(supervisor: Supervisor, tmp_path: Path, *names: str) -> dict[str, int]
     """Wait until the named children run; their process ids."""
     for name in names:
         log = tmp_path / "logs" / f"{name}.log"
-        assert eventually(lambda log=log: last_line(log) == "ready", within_s=20.0)
+        assert eventually(lambda log=log: last_line(log) == "ready")
     return {name: supervisor.pid(name) for name in names}
 
 
@@ -71,6 +75,13 @@ def test_a_full_disk_keeps_no_robot_from_starting(supervise, tmp_path):
     with supervise() as supervisor:
         ready(supervisor, tmp_path, *ALL)
         assert supervisor.check() is None
+
+
+def test_where_reality_is_real_nothing_stands_in_for_it(supervise, tmp_path):
+    with supervise(simulated=False) as supervisor:
+        assert list(ready(supervisor, tmp_path, *ALL[1:])) == list(supervisor.pids)
+        assert supervisor.check() is None
+    assert not supervisor.pids
 
 
 @pytest.mark.parametrize(
@@ -105,9 +116,8 @@ def test_what_may_be_restarted_is_until_it_is_a_crash_loop(supervise, tmp_path):
         assert supervisor.check().code == "localisation_lost"
 
 
-def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_path, monkeypatch):
-    monkeypatch.setattr("robot.bringup.supervisor.SPARE_AFTER_S", 0.0)
-    spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare=True)
+def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_path):
+    spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare_after_s=0.0)
     with supervise(processes=(spared,)) as supervisor:
         first = ready(supervisor, tmp_path, "b")["b"]
         supervisor.check()
@@ -115,7 +125,7 @@ def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_pa
         assert eventually(lambda: (supervisor.check(), supervisor.restarted)[1])
         second = supervisor.pid("b")
         log = tmp_path / "logs" / "b.log"
-        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        assert eventually(lambda: log.read_text().count("ready") == 2)
         assert alive(second)
         assert supervisor.check() is None
         os.kill(second, signal.SIGKILL)
@@ -124,17 +134,17 @@ def test_a_spare_is_loaded_in_time_and_is_the_one_that_goes_on(supervise, tmp_pa
         assert log.read_text().count("ready") == 2  # none was loaded that could not be used
 
 
-def test_a_spare_goes_with_the_rest(supervise, tmp_path, monkeypatch):
-    monkeypatch.setattr("robot.bringup.supervisor.SPARE_AFTER_S", 0.0)
-    spared = Process("b", STUB, "always", death="controller_lost", restarts=1, spare=True)
+def test_a_spare_goes_with_the_rest(supervise, tmp_path):
+    spared = Process(
+        "b", STUB, "always", death="controller_lost", restarts=1, spare_after_s=0.0, stop_s=0.1
+    )
     before = children()
     with supervise("stubborn", (spared,)) as supervisor:
         supervisor.check()
         log = tmp_path / "logs" / "b.log"
-        assert eventually(lambda: log.read_text().count("ready") == 2, within_s=20.0)
+        assert eventually(lambda: log.read_text().count("ready") == 2)
         both = children() - before
         assert len(both) == 2
-        monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
     assert not any(alive(pid) for pid in both)
 
 
@@ -146,15 +156,14 @@ def children() -> set[int]:
 
 def test_a_crash_says_what_the_process_said_last(supervise):
     with supervise("crash", THREE[:1]) as supervisor:
-        assert eventually(supervisor.check, within_s=20.0)
+        assert eventually(supervisor.check)
         failure = supervisor.check()
         assert "ended with status 3" in failure.cause
         assert "meant to crash" in failure.cause
 
 
-def test_a_child_that_will_not_stop_is_killed(supervise, tmp_path, monkeypatch):
-    monkeypatch.setattr("robot.bringup.supervisor.STOP_S", 0.1)
-    with supervise("stubborn", THREE[:1]) as supervisor:
+def test_a_child_that_will_not_stop_is_killed(supervise, tmp_path):
+    with supervise("stubborn", (replace(THREE[0], stop_s=0.1),)) as supervisor:
         pids = ready(supervisor, tmp_path, "plant")
     assert not alive(pids["plant"])
 
@@ -178,6 +187,7 @@ def test_closing_twice_is_fine(supervise, tmp_path):
 PARENT = """
 import sys, time
 from pathlib import Path
+from robot.bringup.child import describe_exit
 from robot.bringup.processes import Process
 from robot.bringup.supervisor import Supervisor
 from robot.clock import WallClock
@@ -194,13 +204,13 @@ def test_children_of_a_killed_parent_die_with_it(tmp_path, word):
     parent = subprocess.Popen([sys.executable, "-c", PARENT, str(tmp_path)])
     try:
         logs = [tmp_path / "logs" / f"{name}.log" for name in "ab"]
-        assert eventually(lambda: all(last_line(log) == "ready" for log in logs), within_s=20.0)
+        assert eventually(lambda: all(last_line(log) == "ready" for log in logs))
         pids = [int(log.with_suffix(".pid").read_text()) for log in logs]
         assert all(alive(pid) for pid in pids)
     finally:
         parent.kill()
         parent.wait()
-    assert eventually(lambda: not any(alive(pid) for pid in pids), within_s=2.0)
+    assert eventually(lambda: not any(alive(pid) for pid in pids))
 
 
 def test_the_table_is_sound():
@@ -208,7 +218,7 @@ def test_the_table_is_sound():
     assert sorted(names) == sorted(STOP_ORDER)
     for entry in PROCESSES:
         assert entry.death in CATALOGUE
-        assert entry.restarts or not entry.spare
+        assert entry.restarts or entry.spare_after_s is None
 
 
 def test_exit_statuses_are_told_in_words():

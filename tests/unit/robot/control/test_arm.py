@@ -7,16 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.control.arm import (
-    BRAKE_RAD_S2,
-    BRAKE_RAD_S3,
-    MAX_JOINT_RATE_RAD_S,
-    Arm,
-    Line,
-    rotation_vector,
-)
+from robot.control.arm import BRAKE_RAD_S2, BRAKE_RAD_S3, MAX_JOINT_RATE_RAD_S, Arm, Line
 from robot.messages import HoldArm, MoveArm, MoveHand
-from robot.se3 import SE3
+from robot.se3 import SE3, rotation_vector
 
 DT_S = 0.005
 
@@ -119,18 +112,6 @@ def test_a_lines_velocity_is_its_derivative_and_near_the_speed_asked_for(
     rate = np.subtract(after, before) / (2 * h)
     np.testing.assert_allclose(line.at(t)[1], rate, atol=1e-4)
     assert np.linalg.norm(rate) <= 1.26 * speed  # a minimum-jerk peak is 1.25 of 1.5 d / T
-
-
-@given(st.floats(-math.pi + 1e-3, math.pi - 1e-3), st.sampled_from([0, 1, 2]))
-def test_a_rotation_vector_is_axis_times_angle(angle, axis):
-    rpy = [0.0, 0.0, 0.0]
-    rpy[axis] = angle
-    if axis == 1 and abs(angle) > math.pi / 2:
-        return
-    vector = rotation_vector(SE3.from_rpy(*rpy, (0.0, 0.0, 0.0)).rotation())
-    expected = np.zeros(3)
-    expected[axis] = angle
-    np.testing.assert_allclose(vector, expected, atol=1e-9)
 
 
 # --- the closed loop ----------------------------------------------------------------------------

@@ -7,9 +7,8 @@ import pytest
 
 from robot.control import starting
 from robot.drivers.motors import MotorState
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3
-
-WEIGHT = 9.81
 
 
 @pytest.fixture
@@ -17,11 +16,11 @@ def state(body, juno):
     """What is measured by a robot that stands still in its nominal posture."""
     count = body.count
     wrench = np.zeros((2, 6))
-    wrench[:, 2] = 0.5 * WEIGHT * body.mass_kg
+    wrench[:, 2] = 0.5 * GRAVITY_M_S2 * body.mass_kg
     return MotorState(
         stamp_s=1.0, q=np.array(juno.posture("nominal")), qd=np.zeros(count), tau=np.zeros(count),
         temperature_c=np.full(count, 20.0), gyro_rad_s=np.zeros(3),
-        accel_m_s2=np.array((0.0, 0.0, WEIGHT)), ankle_wrench=wrench,
+        accel_m_s2=np.array((0.0, 0.0, GRAVITY_M_S2)), ankle_wrench=wrench,
         wrist_wrench=np.zeros((2, 6)), watchdog=False, command_stamp_s=-math.inf,
     )  # fmt: skip
 
@@ -45,12 +44,12 @@ def test_on_its_feet_the_soles_stand_on_the_floor_and_the_stance_is_the_origin(
 
 
 def test_in_a_step_the_soles_say_what_is_up_whatever_the_step_feels(dynamics, state):
-    state.accel_m_s2 = WEIGHT * up(0.0, 0.32)
+    state.accel_m_s2 = GRAVITY_M_S2 * up(0.0, 0.32)
     assert found_up(dynamics, state, taking_over=True) == pytest.approx(up(0.0, 0.0), abs=1e-6)
 
 
 def test_at_rest_gravity_says_it(dynamics, state):
-    state.accel_m_s2 = WEIGHT * up(0.0, 0.32)
+    state.accel_m_s2 = GRAVITY_M_S2 * up(0.0, 0.32)
     assert found_up(dynamics, state, taking_over=False) == pytest.approx(up(0.0, 0.32), abs=1e-6)
 
 
@@ -60,7 +59,7 @@ def test_who_lies_does_not_stand_on_feet_that_are_pressed_by_the_floor(
     dynamics, state, roll_rad, felt
 ):
     """Its controller died on the way up: limbs push, and shake it."""
-    state.accel_m_s2 = felt * WEIGHT * up(roll_rad, 0.0)
+    state.accel_m_s2 = felt * GRAVITY_M_S2 * up(roll_rad, 0.0)
     assert found_up(dynamics, state, taking_over=True) == pytest.approx(up(roll_rad, 0.0), abs=1e-6)
 
 

@@ -8,6 +8,7 @@ from scipy.optimize import nnls
 from robot.control.whole_body import COP_MARGIN_M, FRICTION, Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
 from robot.model.body import SIDES, as_index
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3
 
 TOLERANCE = 1e-4
@@ -35,7 +36,7 @@ def random_state(body, rng):
 
 
 def random_task(body, whole, rng, contact):
-    weight_n = body.mass_kg * 9.81
+    weight_n = body.mass_kg * GRAVITY_M_S2
     rest = np.zeros(body.model.nv)
     arms = body.dof_of[body.description.indices("left_arm")]
     rest[arms] = rng.uniform(-5.0, 5.0, len(arms))
@@ -137,7 +138,7 @@ def test_arms_accelerate_as_prescribed(body, whole, seed):
 
 def test_standing_still_carries_its_weight_evenly_and_stays(body, whole, dynamics):
     zero = np.zeros(3)
-    weight_n = body.mass_kg * 9.81
+    weight_n = body.mass_kg * GRAVITY_M_S2
     task = Task(
         com_acc=zero, own_acc=np.zeros(3 + whole.active_count),
         sole_acc=np.zeros(12), contact=[True, True],

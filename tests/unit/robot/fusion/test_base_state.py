@@ -9,10 +9,11 @@ from robot.fusion.base_state import BaseStateEstimator
 from robot.kinematics.dynamics import Dynamics
 from robot.model import description
 from robot.model.body import BodyModel
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3
 
 DT_S = 0.005
-GRAVITY = np.array([0.0, 0.0, 9.81])
+GRAVITY = np.array([0.0, 0.0, GRAVITY_M_S2])
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,7 @@ class Bench:
         data.qvel[:3], data.qvel[3:6] = estimator.v, estimator.w_B
         body.write_joints(data, self.q, np.zeros(body.count))
         self.seen.kinematics()
-        weight = body.mass_kg * 9.81
+        weight = body.mass_kg * GRAVITY_M_S2
         force_n = weight * np.array(load)
         soles, velocity = self.seen.sole_position, self.seen.sole_velocity
         self.shift_v = estimator.correct(DT_S, soles, velocity, force_n)

@@ -1,0 +1,88 @@
+"""What stands before a clause and asks for nothing: "and then", "could you", "step 1:"."""
+
+from intents.english.clauses.self_talk import about_robot
+from intents.english.phrases.complements import connector_end
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+
+_SEEN = lexicon.words(
+    "a an any the my some anyone anybody someone somebody anything it them him her"
+)
+_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
+
+
+def skip_openings(text: Text, at: int) -> int:
+    """Past connectors, signs and openings like "could you"."""
+    while at < len(text):
+        if text.word(at) in (COMMA, FULL_STOP) or _sets_out(text, at):
+            at += 1
+            continue
+        numbered = _numbering_end(text, at)
+        if numbered:
+            at = numbered
+            continue
+        if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
+            at += 4  # be so kind and ...
+            continue
+        end = _opening_end(text, at)
+        if end is None:
+            return at
+        at = end
+    return at
+
+
+def _opening_end(text: Text, at: int) -> int | None:
+    """Where "could you" or "and then" ends, if it is no part of what is asked for."""
+    if text.words[at + 1 : at + 3] == ["you", "see"] and _is_seen(text, at + 3):
+        return None
+    verb = verbs_at(text.words, at)
+    end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
+    if not end or about_robot(text, at) or (verb and verb[0][1] > end):
+        return None
+    opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
+    opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
+    open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
+    if open_ended and not connector_end(text, at) and not opens_verb:
+        return None
+    named = text.name_at(at)
+    if text.phrase_end(lexicon.ELSE, at) or (named and named.end >= end):
+        return None
+    return end
+
+
+def _is_seen(text: Text, at: int) -> bool:
+    """Whether "can you see ..." asks after something, and not for it to be seen to the door."""
+    named = text.name_at(at)
+    return text.word(at) in _SEEN or (
+        named is not None and text.word(named.end) not in ("to", "into")
+    )
+
+
+def _numbering_end(text: Text, at: int) -> int | None:
+    """*Step 1:* go to the table. *2.* Take the cup."""
+    numeral = at + (text.word(at) in ("step", "number", "task"))
+    end = numeral + 1
+    numbered = text.word(numeral).isdecimal() and text.word(end) in (COMMA, FULL_STOP)
+    return end + 1 if numbered and end < len(text) else None
+
+
+def _sets_out(text: Text, at: int) -> bool:
+    """Go *get the cup*: the walk goes without saying."""
+    if text.word(at) in ("start", "begin", "keep") and text.word(at + 1).endswith("ing"):
+        longest = max((end for _, end in verbs_at(text.words, at)), default=at + 1)
+        return bool(verbs_at(text.words, at + 1)) and longest == at + 1
+    if text.word(at) not in ("go", "come", "run", "hurry"):
+        return False
+    after = connector_end(text, at + 1) or at + 1
+    inner = max((end for _, end in verbs_at(text.words, after)), default=after)
+    whole = verbs_at(text.words, at)[0][1]
+    whole = at + 1 < whole >= inner
+    goes_somewhere = text.lookup(lexicon.LOCATIVES, at + 1) or text.word(after) == "go"
+    return not whole and not goes_somewhere and bool(verbs_at(text.words, after))
+
+
+def begins_clause(text: Text, at: int) -> bool:
+    """Whether "you go" or "going" begins at a word."""
+    return text.word(at) in ("you", "that") or text.word(at).endswith("ing")

@@ -1,0 +1,326 @@
+"""Saying, telling and answering: verbs whose complement is words, not things."""
+
+from msgspec.structs import replace
+
+from intents.english.clauses.questions import property_question, question
+from intents.english.clauses.self_talk import about_robot, small_talk
+from intents.english.phrases.complements import connector_end, ends_clause
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
+from intents.english.reading import Found
+from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.measures import measure
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
+
+_TO = lexicon.words("to for with")
+_ABOUT = lexicon.phrases(
+    "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
+)
+_LETTERS = lexicon.words(
+    "message messages mail mails email emails letter phone call calls tweet chat"
+)
+_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
+
+
+def content_end(text: Text, at: int) -> int:
+    """Where words to be said end: at a full stop, or where another command begins."""
+    end = at
+    while end < len(text) and text.word(end) != FULL_STOP:
+        aside = text.word(end) in ("she", "he", "they") and text.word(end + 1) in ("is", "are")
+        if aside and end > at + 1 and text.word(end - 1) not in lexicon.WH:
+            return end
+        after = connector_end(text, end) if text.word(end) != COMMA else end + 1
+        if after and text.word(end) == COMMA:
+            after = connector_end(text, after) or after
+        if after and end > at and verbs_at(text.words, after):
+            return end
+        end += 1
+    return end
+
+
+def _before_times(text: Text, at: int, end: int) -> int:
+    """Say hello *twice*: the words to be said end before how often."""
+    for start in range(max(at + 1, end - 3), end):
+        amount = measure(text.words, start)
+        if amount and amount.kind == "times" and amount.end == end:
+            return start
+    return end
+
+
+def _listener(text: Text, at: int, scope: Scope) -> NounPhrase | None:
+    """The person at a word, if one is there."""
+    if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
+        return None
+    if text.word(at) == "where":
+        return None
+    phrase = noun_phrase(text, at)
+    return phrase if phrase and is_person(phrase, scope) else None
+
+
+def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person | None, int]:
+    """The person after the last "to", and where the words before it end."""
+    for to in range(end - 2, at - 1, -1):
+        if text.word(to) in _TO:
+            phrase = _listener(text, to + 1, scope)
+            if phrase and phrase.end >= end:
+                return to_person(phrase, scope), to
+    return None, end
+
+
+def say(text: Text, at: int, scope: Scope) -> Found:
+    """Say good night to Emil; say "dinner is served"."""
+    if text.word(at) == QUOTE:
+        end = content_end(text, at)
+        to, _ = _last_listener(text, at + 1, end, scope)
+        return [Say(what=text.tokens[at].raw, to=to)], end if to else at + 1
+    to = None
+    if text.word(at) in _TO:
+        first = _listener(text, at + 1, scope)
+        if first:
+            to, at = to_person(first, scope), first.end
+    asked = _asked(text, at, scope)
+    if asked and isinstance(asked[0][0], Count):
+        return _to_listener(text, asked, scope)
+    if to is not None and text.word(at) == COMMA and verbs_at(text.words, at + 1):
+        return [Find(person=to)], at
+    at += text.word(at) == "that"
+    end = _before_times(text, at, content_end(text, at))
+    stop = end
+    if to is None:
+        to, stop = _last_listener(text, at, end, scope)
+    stop, here = _place_of_speech(text, at, stop, scope)
+    if stop <= at and text.word(at) != QUOTE:
+        if to is None and text.word(at - 1) not in ("speak", "talk", "joke"):
+            raise Unclear("What shall I say?")
+        return [Say(what="something", to=to)], end
+    if here and to is None:
+        to = Person(at=here)
+    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
+    return [Say(what=what, to=to)], end
+
+
+def _asked(text: Text, at: int, scope: Scope) -> Found | None:
+    """What is to be said as a question to be answered, if it is one."""
+    try:
+        return question(text, at, scope, told=True)
+    except ReadingError:
+        return None
+
+
+def _place_of_speech(text: Text, at: int, end: int, scope: Scope) -> tuple[int, str | None]:
+    """Say the time *in the kitchen*: the place where it is to be said."""
+    for start in range(at + 1, end):
+        place = text.lookup(lexicon.LOCATIVES, start)
+        stated = text.word(start - 1) in ("am", "is", "are", "was", "were", "be")
+        if stated and text.word(at) not in lexicon.WH:
+            continue
+        if place and place[0] in (None, "in"):
+            phrase = noun_phrase(text, place[1])
+            if phrase and phrase.end == end and phrase.name("room", "place"):
+                return start, to_place(phrase, scope)
+    return end, None
+
+
+def _to_listener(text: Text, reading: Found, scope: Scope) -> Found:
+    """Read on after a question: ... to the person at the sofa."""
+    goals, end = reading
+    if text.word(end) == "to":
+        phrase = _listener(text, end + 1, scope)
+        if phrase:
+            person = to_person(phrase, scope)
+            return [_addressed(g, person) for g in goals], phrase.end
+    return reading
+
+
+def _addressed(goal: Goal, person: Person) -> Goal:
+    return replace(goal, to=person) if isinstance(goal, Count | Tell | Say) else goal
+
+
+def tell(text: Text, at: int, scope: Scope) -> Found:
+    """Tell Ada and Emil that lunch is ready: first the one, then the other."""
+    first = _listener(text, at + (text.word(at) in _TO), scope)
+    second = None
+    if first and first.name("person") and text.word(first.end) == "and":
+        second = _listener(text, first.end + 1, scope)
+    if first is None or second is None:
+        return _tell(text, at, None, scope)
+    told = [_tell(text, second.end, to_person(one, scope), scope) for one in (first, second)]
+    return [goal for goals, _ in told for goal in goals], told[0][1]
+
+
+def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
+    """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
+    to = listener
+    if text.word(at) in _TO and text.word(at) != "for":
+        at += 1
+    first = None if listener else _listener(text, at, scope)
+    if first and text.word(first.end) != "'s":
+        to, at = to_person(first, scope), first.end
+    if to not in (None, ME) and text.word(at) == COMMA and verbs_at(text.words, at + 1):
+        return [Find(person=to)], at
+    at += first is not None and text.word(at) == COMMA
+    at = text.phrase_end(_ABOUT, at) or at
+    at = text.phrase_end(_ABOUT, at) or at
+    found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)
+    if found is not None and isinstance(scope.last, Count | Tell):
+        return ([replace(scope.last, to=to)] if to not in (None, ME) else []), found
+    if found is not None and scope.object and isinstance(scope.last, Find):
+        return [Tell(object=scope.object, property="name", to=to)], found
+    asked = question(text, at, scope, to, told=True)
+    if asked and (to is None or to == ME or not isinstance(asked[0][0], Say)):
+        return _to_listener(text, asked, scope)
+    if to is not None and to != ME:
+        return _said_to(text, at, to, scope)
+    end = content_end(text, at)
+    listener, stop = _last_listener(text, at, end, scope)
+    if to is None and listener and listener != ME:
+        return [Say(what=text.raw(at, stop), to=listener)], end
+    talk = small_talk(text, at, stop)
+    if talk is None:
+        raise NotUnderstood(f"“{text.raw(at, end)}” is nothing I can find out" if end > at else
+                            "I do not know what to tell")  # fmt: skip
+    return [Say(what=talk.what, to=to)], end
+
+
+def inform(text: Text, at: int, scope: Scope) -> Found:
+    """Give me the number of cups; show me Emil's pose.
+
+    Raises:
+        Misfit: It is a thing that is to be given.
+    """
+    first = _listener(text, at, scope)
+    if first:
+        at = first.end
+    to = to_person(first, scope) if first else None
+    asked = about_robot(text, at) or property_question(text, at, scope, to)
+    end = content_end(text, at)
+    talk = small_talk(text, at, end)
+    if asked is None and talk:
+        return [Say(what=talk.what, to=to)], end
+    if asked is None:
+        raise Misfit("that is to give something")
+    return _to_listener(text, asked, scope)
+
+
+def describe(text: Text, at: int, scope: Scope) -> Found:
+    """Describe the person at the sofa to me.
+
+    Raises:
+        Misfit: It is nothing that can be seen.
+    """
+    to = None
+    if text.word(at) in _TO:
+        first = _listener(text, at + 1, scope)
+        if first:
+            to, at = to_person(first, scope), first.end
+    phrase = noun_phrase(text, at)
+    if phrase is None or phrase.noun == "unknown":
+        raise Misfit("describe what?")
+    if is_person(phrase, scope):
+        goal = Tell(person=to_person(phrase, scope), property="description", to=to)
+    else:
+        query = to_object(phrase, scope, spots=True)
+        asked = "name" if query.superlative or query.count else "description"
+        goal = Tell(object=query, property=asked, to=to)
+    return _to_listener(text, ([goal], phrase.end), scope)
+
+
+_RESULT = lexicon.phrases(
+    "what they are,what it is,what are they,what is it,which they are,what that is,which ones,"
+    "the number,the result,the total,what the total is,the answer,how many,them for me,them,it,"
+    "the results,them to me,what you found,what you find,what you see"
+)
+
+
+def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
+    """Tell Julia what day it is."""
+    end = content_end(text, at)
+    if end == at:
+        raise Unclear("What shall I tell?")
+    stop, here = _place_of_speech(text, at, end, scope)
+    if here and to.at is None:
+        to = replace(to, at=here)
+    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
+    return [Say(what=what, to=to)], end
+
+
+def answer(text: Text, at: int, scope: Scope) -> Found:
+    """Answer Emil; answer his quiz; answer "how old are you?"."""
+    asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
+    person = None
+    at += text.word(at) in ("to", "with")
+    if text.word(at) in ("it", "that", "this") and isinstance(scope.last, Answer):
+        return [], at + 1
+    first = _listener(text, at, scope)
+    if first:
+        person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
+    start = at
+    skipped = lexicon.DETERMINERS | {
+        "any",
+        "one",
+        "to",
+        "all",
+        "of",
+        "questions",
+        "whatever",
+        "which",
+    }
+    while text.word(at) in skipped:
+        at += 1
+    if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
+        what = "quiz" if text.word(at).startswith("quiz") else "question"
+        at += text.word(at) in _QUESTION_WORDS
+        person, end = _asker(text, at, scope, person)
+        return [Answer(what=what, person=person)], end
+    if asks:
+        raise Misfit("ask what?")
+    end = _read_out(text, start)
+    if _LETTERS.intersection(text.words[start:end]):
+        raise NotUnderstood("I can answer questions that I am asked, not messages or calls")
+    if text.word(end) == FULL_STOP and text.word(end + 1) == "to":
+        listener = _listener(text, end + 2, scope)
+        if listener:
+            person, end = to_person(listener, scope), listener.end
+    return [Answer(what="question", person=person)], end
+
+
+def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Person | None, int]:
+    """Of somebody outside; asked by Ada; that Ada has."""
+    skipped = lexicon.words("asked posed given that you will be are is which being they he she ask "
+                            "asks may have has from of by for to on in at about with")  # fmt: skip
+    where = text.lookup(lexicon.LOCATIVES, at)
+    if where and where[0] in (None, "in", "on", "near"):
+        phrase = noun_phrase(text, where[1])
+        if phrase and phrase.name("room", "place") and (person is None or person.at is None):
+            here = to_place(phrase, scope)
+            return replace(person, at=here) if person else Person(at=here), phrase.end
+    whose = NounPhrase(at, at, noun="person", said="person")
+    if text.word(at) == "who":
+        read_postmodifiers(text, whose)
+        if whose.end > at and person:
+            return replace(person, at=to_person(whose, scope).at or person.at), whose.end
+    end = at
+    while text.word(end) in skipped:
+        end += 1
+    phrase = _listener(text, end, scope)
+    if phrase and end == at and text.word(phrase.end) not in ("has", "have", "asks", "is"):
+        phrase = None
+    if phrase is None:
+        return person, end
+    after = phrase.end
+    while text.word(after) in ("has", "have", "asks", "is", "asking"):
+        after += 1
+    after += 2 if text.words[after : after + 2] == ["for", "you"] else 0
+    return person or to_person(phrase, scope), after
+
+
+def _read_out(text: Text, at: int) -> int:
+    """It is read out, up to the end of its sentence."""
+    while at < len(text) and text.word(at) != FULL_STOP:
+        at += 1
+    return at

@@ -1,0 +1,129 @@
+"""What the robot can tell of itself: its state, and small talk."""
+
+import re
+from functools import lru_cache
+
+from intents.english.words import lexicon
+from intents.english.words.text import Text
+from intents.goals import Goal, Report, ReportTopic, Say
+
+_NOW = (
+    r"(?: (?:right )?now| just| at the moment| currently| just now| then| yet| so far| again| there"
+    r"| here"
+    r"| today)*"
+)
+_PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
+    ("why", r"what (?:stopped|made) you(?: \w+){0,2}"),
+    ("why", r"what (?:is|was) the reason (?:that |why |for )?.*"),
+    ("why", r"why (?:it|that|this) (?:did not|does not|has not|is not|was not|failed|stopped).*"),
+    ("capabilities", r"(?:what are )?(?:all )?(?:your (?:skills|abilities|capabilities"
+                     r"|functions)|my options)"),
+    ("holding", r"(?:are|is) your (?:hands?|grippers?|arms?) (?:empty|full|free)"),
+    ("holding", r"(?:the|that|any|every)? ?(?:thing|things|object|objects|item|items) "
+                r"(?:that )?(?:you are|are you) (?:holding|carrying)"),
+    ("seeing", r"(?:what|which)(?: \w+)? (?:is|are) (?:visible|in front of you|around you"
+               r"|in sight)(?: to you| for you)?"),
+    ("seeing", r"(?:do|can) you see (?:anything|something|any objects?)"),
+    ("location", r"(?:whereabouts|where in \w+ \w+|where exactly) (?:are you|you are)"),
+    ("status", r"(?:what|which) (?:task|job|mission|step) are you (?:on|at|doing|working on)"),
+    ("status", r"is (?:the|your) (?:task|job|mission|work) (?:done|finished|complete"
+               r"|completed|over)"),
+    ("health", r"(?:is |are )?(?:anything|something|everything) (?:wrong|broken|okay|fine"
+               r"|alright|all right) with you"),
+    ("why", r"(?:why|how come|for what reason|what made you)\b.*\b(?:you|your)\b.*"),
+    ("why", r"(?:why|how come)(?: not| is that| (?:did|does|has|is) (?:it|that|this)\b.*)?"),
+    ("why", r"what(?: is| was)?(?: the)? (?:matter|problem|wrong|reason|trouble"
+            r"|error)(?: with you)?"),
+    ("why", r"what (?:was that|(?:has )?(?:happened|went wrong|gone wrong|broke))"
+            r"(?: there| to you| with you| here)?"),
+    ("capabilities", r"(?:what|which)\b.*\b(?:you|i)\b.*\b(?:able to do|capable of|good at"
+                     r"|say|ask you"
+                     r"|tell you(?: to do)?|know how to do|ask you to do|ask of you"
+                     r"|ask you for)"),
+    ("capabilities", r"what(?: else| all)?(?: things| tasks)? (?:can you|you can"
+                     r"|could you) do(?: for me| here)?"),
+    ("capabilities", r"(?:what|which)(?: kinds? of| sorts? of)? (?:commands?|things|tasks"
+                     r"|words|sentences|orders"
+                     r"|requests|skills)\b.*\byou\b.*(?:understand|know|do|have|follow|obey"
+                     r"|ask you)"),
+    ("capabilities", r"(?:what do you understand|what are your (?:skills|abilities"
+                     r"|capabilities|functions)"
+                     r"|how can you help(?: me| us)?|who are you|what are you|help(?: me)?)"),
+    ("holding", r"(?:(?:what|which|are|is|do|have|did|anything|whatever)\b.*)?\b(?:you"
+                r"|your)\b(?! (?:can|could|should))"
+                r".*\b(?:holding|hold|carrying|carry|gripping|grasping|clutching)"
+                r"(?: anything| something)?(?: there)?(?: in (?:your|the) (?:\w+ )?(?:hands?"
+                r"|grippers?|arms?))?"),
+    ("holding", r"(?:what|which|are|is|do|have|did|anything)\b.*"
+                r"in (?:your|the robot 's|the) (?:\w+ )?(?:hands?|grippers?|fingers?)"),
+    ("holding", r"what (?:did you pick up|have you (?:picked up|got)|you (?:have|are) got)"),
+    ("status", r"(?:what|how) is (?:currently |just )?(?:going on|happening|up|new)"),
+    ("status", r"(?:what|how|where)\b.*\b(?:(?:are|were|have) you|you (?:are|were|have)) "
+               r"(?:currently |just )?"
+               r"(?:doing|up to|busy with|working on|going|going on|heading|far|far along"
+               r"|doing there)"),
+    ("status", r"how far (?:along )?(?:are you|have you (?:got|come))"),
+    ("status", r"(?:are|have|were|did) you\b(?: \w+)? ?(?:done|finished|ready|busy|working"
+               r"|finish|complete|completed)"
+               r"(?: it| that| with (?:it|that|the task))?"),
+    ("status", r"(?:what is )?(?:the|your)(?: current)? (?:status|progress|task|job|mission)"
+               r"|how is it going"),
+    ("seeing", r"(?:(?:what|which)\b.*|anything |everything )?(?:do you|can you|you can|you"
+               r"|are you|you are able to"
+               r"|are you able to) (?:can |currently )?(?:see|seeing|looking at|look at"
+               r"|perceive|detect|observe|recognize)"
+               r"(?: around you| in front of you| from there)?"),
+    ("seeing", r"what is (?:in front of you|around you|in (?:your )?view|in sight|before you)"),
+    ("location", r"(?:in |at )?(?:where|which (?:room|place|spot)|what (?:room|place"
+                 r"|spot))\b(?: \w+)?"
+                 r" (?:are you|you are|do you stand|are you standing|are you in|are you at"
+                 r"|you are in|you stand)(?: in| at| standing)?"),
+    ("location", r"(?:what is )?your (?:current )?(?:position|location|pose|whereabouts"
+                 r"|coordinates)"),
+    ("health", r"(?:how|what|is|are|do|does|did|have|has)\b.*\b(?:you|your|everything"
+               r"|anything|something)\b.*"
+               r"\b(?:battery|batteries|charge|charged|charging|recharging|okay|alright|fine"
+               r"|broken|joints?|motors?|hot|warm"
+               r"|overheat|overheating|overheated|feel|feeling|healthy|health|well|tired|hurt"
+               r"|damaged|injured|temperature"
+               r"|errors?|faults?|power|malfunctioning|wrong|in order|all right"
+               r"|low)(?: level)?(?: left| full| working)?"),
+    ("health", r"how (?:are you|you are|do you do)(?: doing| feeling)?(?: robot)?"),
+    ("health", r"(?:how|what)\b.*\b(?:battery|batteries)\b.*|(?:your )?(?:battery"
+               r"|health)(?: level| status)?"),
+)  # fmt: skip
+_ABOUT_ROBOT: tuple[tuple[ReportTopic, re.Pattern[str]], ...] = tuple(
+    (topic, re.compile(rf"(?:{pattern}){_NOW}")) for topic, pattern in _PATTERNS
+)
+"""Questions about the robot, in order: the first pattern that fits a whole clause counts."""
+_LONGEST = 14
+_SMALL_TALK = lexicon.words(
+    "what which is it the a an of today tomorrow day time date week month year current now this "
+    "joke something funny about yourself your team teams 's name country affiliation leader are "
+    "you who me in right be to tell"
+)
+_SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation country something")
+
+
+def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
+    """What are you holding? How are you? What can you do?"""
+    end = at
+    while end < len(text) and text.word(end)[0].isalnum() and end <= at + _LONGEST:
+        end += 1
+    said = " ".join(text.words[at:end])
+    topic = _topic(said) if end > at else None
+    return ([Report(topic=topic)], end) if topic else None
+
+
+@lru_cache(maxsize=256)
+def _topic(said: str) -> ReportTopic | None:
+    return next((topic for topic, pattern in _ABOUT_ROBOT if pattern.fullmatch(said)), None)
+
+
+def small_talk(text: Text, at: int, end: int) -> Say | None:
+    """The time, a joke, something about itself: what the robot can tell without looking."""
+    words = text.words[at:end]
+    known = bool(words) and all(w in _SMALL_TALK for w in words)
+    if known and any(w in _SMALL_TALK_HEADS for w in words):
+        return Say(what=text.raw(at, end))
+    return None

@@ -1,0 +1,49 @@
+"""Statements: "there is a cup on the table", "she is in the kitchen"."""
+
+from msgspec.structs import replace
+
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
+from intents.english.words import lexicon
+from intents.english.words.text import Text
+
+IS = lexicon.phrases(
+    "is,are,was,were,should be,might be,must be,may be,could be,ought to be,has to be,will be,"
+    "would be,used to be,should still be,is supposed to be"
+)
+"""What states rather than asks."""
+
+
+def stated(
+    text: Text, at: int, scope: Scope, where: str | None = None
+) -> tuple[NounPhrase, int] | None:
+    """What is stated to be somewhere, and where that ends: pronouns refer to it from now on.
+
+    ``where`` is the place, if it was named before: on the table *is a cup*.
+    """
+    there = text.phrase_end(IS, at + 1) if text.word(at) == "there" else None
+    phrase = noun_phrase(text, there or at)
+    if phrase is None:
+        return None
+    if not there and not (where and text.word(at - 1) in ("is", "are")):
+        predicate = text.phrase_end(IS, phrase.end)
+        if predicate is None:
+            return None
+        phrase.end = predicate
+        read_postmodifiers(text, phrase)
+        if phrase.end == predicate:
+            return None
+    mention_phrase(phrase, scope, where)
+    return phrase, phrase.end
+
+
+def mention_phrase(phrase: NounPhrase, scope: Scope, where: str | None = None) -> None:
+    """Remember a thing, a person or a place that has been spoken of."""
+    if phrase.is_spot:
+        scope.mention(to_place(phrase, scope))
+        return
+    what = (to_person if is_person(phrase, scope) else to_object)(phrase, scope)
+    what = replace(what, at=what.at or where)
+    scope.mention(what.at)
+    scope.mention(what)

@@ -1,0 +1,110 @@
+"""What can be said, in the order in which it is tried: the first reading that succeeds counts.
+
+A reading that fails with an error leaves the clause to those after it; if none succeeds, the error
+of the greatest weight is told, of equal ones the first. So the order has three reasons, and where
+none is given beside a row, the rows around it exclude one another by their first words and it could
+as well stand elsewhere:
+
+- *What is special stands before what is general.* Nine in ten clauses are a verb with its
+  complements, which reads almost anything; a construction that uses the same verb in another way
+  ("take five seconds") has to be asked first.
+- *What is said stands before what is left out.* Only a clause that makes no sense by itself is
+  completed by what was said before it.
+- *What asks for something stands before what only tells something*, so that no command is passed
+  over as a remark.
+
+`tests/unit/intents/test_order_of_readings.py` holds a sentence for each pair that would be read
+otherwise the other way round. A new reading is a function in :mod:`intents.english.readings` and a
+row here.
+"""
+
+from intents.english import afterthoughts
+from intents.english.corrections import correction
+from intents.english.reading import Rules
+from intents.english.readings import (
+    conditionals,
+    ellipsis,
+    ends,
+    fronted,
+    guiding,
+    light_verbs,
+    movements,
+    needs,
+    questions,
+    remarks,
+    repetition,
+    time_clauses,
+    verb,
+    without_verb,
+)
+
+RULES = Rules(
+    readings=(
+        # Set wordings, matched from the first word of the clause to its last.
+        questions.about_robot,
+        # Clauses that hold clauses: what they hold is read with the whole list again. A condition
+        # stands before "when you see Ada, nod", where the one would look at her and the other
+        # first has to find her, and before "if there is a cup", which is a question as well.
+        conditionals.conditional,
+        repetition.for_each,
+        repetition.so_many_times,
+        repetition.again,
+        time_clauses.one_before_the_other,
+        # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
+        # verb are seen in "I put my comb on the bench, go and get it".
+        needs.lost,
+        remarks.left_somewhere,
+        needs.needed,
+        remarks.feeling,
+        # Constructions, whose verb is not the act: all of them before the verb with its own
+        # complements. "Give a nod" would hand something over, "I need the lamp on the desk" would
+        # bring it, "take five seconds" is "take five" and "wait until I call" would end at "wait".
+        light_verbs.light_verb,
+        ends.resultative,
+        guiding.helped_there,
+        guiding.shown_where,
+        guiding.made_to_follow,
+        needs.wanted_there,
+        movements.out_of_the_way,
+        time_clauses.until_told,
+        time_clauses.arrived,
+        time_clauses.in_a_while,
+        movements.to_and_fro,
+        verb.tidied_by,
+        questions.whether,
+        without_verb.fist,
+        without_verb.head,
+        without_verb.lights,
+        without_verb.moved,
+        without_verb.switched,
+        questions.question,
+        movements.pose,
+        needs.has_a_question,
+        # "All toys go into the box": before the toys are a fronted thing and "go" is to walk there.
+        ends.thing_first,
+        verb.verb,
+        # What goes on from what was said before. After "and" a gap is likelier than a fronted
+        # phrase: "find Emil at the sofa and Ada in the hall. Greet her" finds both.
+        ellipsis.likewise,
+        ellipsis.follow_up,
+        ellipsis.gapped_after_and,
+        fronted.out_of,
+        fronted.fronted,
+        # What only tells something, and commands of nouns alone. A gap without "and" before it is
+        # as doubtful as a telegram, which is a whole sentence.
+        remarks.statement,
+        without_verb.telegram,
+        ellipsis.gapped,
+        remarks.told_of,
+        # Asks back, so nothing may come after it that could still be read.
+        without_verb.only_named,
+    ),
+    afterthoughts=(
+        # Anything can be taken back, what is a condition or "after ..." as well.
+        correction,
+        afterthoughts.on_condition,
+        afterthoughts.before_or_after,
+        afterthoughts.so_often,
+        afterthoughts.who_asks,
+    ),
+)

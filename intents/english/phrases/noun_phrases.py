@@ -1,0 +1,296 @@
+"""Noun phrases: "the three largest red cups on the table in the kitchen".
+
+A noun phrase is read in three parts: what stands before the noun (how many, which, what colour;
+`premodifiers.py`), the noun (`nouns.py`), and what follows it, in this file, since it holds noun
+phrases in turn: where the thing is, relative clauses. Nothing is decided here about what the phrase
+is for; `referents.py` turns it into an object, a person or a place.
+"""
+
+from intents.english.phrases.appearance import read_appearance
+from intents.english.phrases.bare_phrases import bare_phrase
+from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.pronouns import part_of
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, singular
+from intents.english.words.lexicon import COLORS, DETERMINERS, LOCATIVES
+from intents.english.words.text import Text
+from intents.goals import Superlative
+
+_RELATIVE = lexicon.words("that which who whose")
+
+
+_REDUCED = lexicon.phrases(
+    "you find,you see,you can see,you can find,you will find,i left,i put,you will see,we have,"
+    "i have,you have,there is,there are,there"
+)
+
+
+_RELATIVE_FILLERS = lexicon.words(
+    "is are was were has have currently now being there should be will can you i see find we "
+    "stands sits lies"
+) - {"stands", "sits", "lies"}  # fmt: skip
+
+
+_LYING_AROUND = lexicon.words(
+    "located placed situated found kept stored resting positioned left sitting standing lying "
+    "laying hanging stays stands sits lies rests lie waiting staying working relaxing"
+)
+
+
+_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
+
+
+def noun_phrase(text: Text, start: int) -> NounPhrase | None:
+    """The noun phrase that begins at a word, as long as it goes."""
+    part = part_of(text, start)
+    if part:
+        return noun_phrase(text, part)
+    phrase = bare_phrase(text, start)
+    if phrase is None:
+        return None
+    read_postmodifiers(text, phrase)
+    return phrase
+
+
+def read_postmodifiers(text: Text, phrase: NounPhrase) -> None:
+    """Read on from the noun; moves ``phrase.end``."""
+    while True:
+        end = _measured_out(text, phrase, phrase.end)
+        end = end or _modifier(text, phrase, phrase.end) or _relative(text, phrase, phrase.end)
+        if end is None:
+            return
+        phrase.end = end
+
+
+def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """A bottle *of water*, one *of the cups*, the couch *of the bedroom*."""
+    if text.word(at) != "of":
+        return None
+    inner = noun_phrase(text, at + 1)
+    if inner is None or inner.is_person:
+        return None
+    counted = phrase.noun in ("one", "object") or not phrase.said
+    said = singular(phrase.said.split()[-1]) if phrase.said else ""
+    if phrase.noun == "one" and not phrase.determiner:
+        phrase.determiner = "any"
+    if counted or (said in lexicon.CONTAINERS and (inner.names or not phrase.names)):
+        phrase.noun, phrase.names, phrase.said = inner.noun, inner.names, inner.said
+        phrase.color, phrase.size = phrase.color or inner.color, phrase.size or inner.size
+        phrase.places += inner.places
+        phrase.superlative = phrase.superlative or inner.superlative
+        return inner.end
+    if said in lexicon.CONTAINERS:
+        return inner.end
+    if inner.name("room"):
+        phrase.places.append(Locative("in", inner))
+        return inner.end
+    return None
+
+
+def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Who is waving; that weighs the least; which you see on the table."""
+    if phrase.noun == "operator":
+        return None
+    if text.word(at) == COMMA and text.word(at + 1) in ("who", "which"):
+        end = _relative(text, phrase, at + 1)
+        follows = text.word(end + 1) in DETERMINERS | {"to", "into"} if end else False
+        return end and end + (text.word(end) == COMMA and follows)
+    spot = phrase.is_spot
+    reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
+    if reduced:
+        there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
+        seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
+        return seen or (reduced + there if there else None)
+    if text.word(at) not in _RELATIVE:
+        return None
+    at += 1
+    first = at
+    while text.word(at) in _RELATIVE_FILLERS:
+        at += 1
+    if spot:
+        return _locative(text, phrase, at)
+    weight = weight_at(text, at)
+    if weight:
+        phrase.superlative, end = weight
+        return end
+    end = _modifier(text, phrase, at) or (_predicate(text, phrase, at) if at > first else None)
+    if end:
+        return end
+    return at if text.words[first:at] and text.word(at - 1) in ("see", "find", "there") else None
+
+
+def weight_at(text: Text, at: int) -> tuple[Superlative, int] | None:
+    """Weighs the least."""
+    if text.word(at) not in ("weighs", "weigh", "weight", "weights"):
+        return None
+    end = at + 1 + (text.word(at + 1) == "the")
+    if text.word(end) not in ("least", "most"):
+        return None
+    return ("lightest" if text.word(end) == "least" else "heaviest"), end + 1
+
+
+def _predicate(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """What can be said after "that is": red, the largest."""
+    at += text.word(at) in DETERMINERS
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most:
+        phrase.superlative = most[0]
+        return most[1] + (text.word(most[1]) in lexicon.ONES)
+    if text.word(at) in COLORS:
+        phrase.color = COLORS[text.word(at)]
+        return at + 1
+    return None
+
+
+def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    word = text.word(at)
+    if phrase.noun == "operator" and word != "in":
+        return None
+    if not word[0].isalpha() and word != COMMA:
+        return None
+    if phrase.noun in ("person", "pronoun") or phrase.is_person:
+        end = read_appearance(text, phrase, at)
+        if end:
+            return end
+    if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
+        return _locative(text, phrase, at + 1)
+    if word in _LYING_AROUND and word not in ("left", "put"):
+        end = _lying_there(text, phrase, at + 1)
+        if end:
+            return end
+    if word in ("named", "called"):
+        inner = noun_phrase(text, at + 1)
+        if inner and inner.names:
+            phrase.noun, phrase.names, phrase.said = "name", inner.names, inner.said
+            return inner.end
+    if word == "with" and phrase.name("object", "category") and not phrase.is_person:
+        inner = noun_phrase(text, at + 1)
+        return inner.end if inner else None
+    most = _most(text, phrase, at)
+    if most:
+        phrase.superlative, end = most
+        return end
+    aside = _aside(text, phrase, at) or _at_its_side(text, phrase, at)
+    if aside:
+        return aside
+    return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _lying_there(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Standing *there*; lying *to the kettle's left*."""
+    if text.word(at) == "there":
+        there = NounPhrase(at, at + 1, noun="there", said="there")
+        phrase.places.append(Locative(None, there))
+        return at + 1
+    return _at_its_side(text, phrase, at)
+
+
+def _most(text: Text, phrase: NounPhrase, at: int) -> tuple[Superlative, int] | None:
+    """Whatever *weighs the least*; the cup *closest to you*."""
+    bare = phrase.said in ("what", "whatever")
+    weight = weight_at(text, at) if bare else None
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if weight or most is None:
+        return weight
+    to_somebody = text.word(most[1]) == "to" and text.word(most[1] + 1) in ("you", "me", "us")
+    if to_somebody:
+        return most[0], most[1] + 2
+    return most if bare else None
+
+
+def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """On the left, furthest to the right - and not "on the left of the cup"."""
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    begun = at
+    if most is None and text.word(at) in ("on", "at", "from", "to"):
+        most = text.lookup(lexicon.SUPERLATIVES, at + 1 + (text.word(at + 1) == "the"))
+        most = most if most and most[0] in ("leftmost", "rightmost") else None
+    if most and most[0] in ("leftmost", "rightmost"):
+        phrase.superlative = most[0]
+        end = most[1] + (text.word(most[1]) in ("side", "end"))
+        inner = noun_phrase(text, end + 1) if text.word(end) == "of" else None
+        if inner and inner.name("place", "room"):
+            phrase.places.append(Locative(None, inner))
+            return inner.end
+        return end
+    if most or text.word(at) == "most":
+        at = most[1] if most else at + 1
+        if text.word(at) == "to":
+            at += 1
+    elif text.word(at) in ("on", "at", "to"):
+        at += 1
+    else:
+        return None
+    at += text.word(at) == "the"
+    far = text.word(at) == "far"
+    at += far
+    side = _LEFT_RIGHT.get(text.word(at))
+    follows = text.word(at + 1)
+    if follows in ("side", "hand"):
+        at += 1
+        follows = text.word(at + 1)
+    if side is None or follows in ("of", "to", "leg", "foot", "arm", "hand"):
+        return None
+    beside = text.word(begun) == "to" and not far and phrase.noun != "person"
+    if beside or phrase.noun in ("pronoun", "place", "body"):
+        return None
+    phrase.superlative = "leftmost" if side == "leftmost" else "rightmost"
+    return at + 1
+
+
+def _at_its_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """To the kettle's left."""
+    if text.word(at) not in ("to", "on", "at"):
+        return None
+    inner = noun_phrase(text, at + 1)
+    if inner is None or inner.is_person or text.word(inner.end) != "'s":
+        return None
+    side = text.word(inner.end + 1)
+    if side not in ("left", "right"):
+        return None
+    phrase.places.append(Locative("left" if side == "left" else "right", inner))
+    return inner.end + 2 + (text.word(inner.end + 2) == "side")
+
+
+def _aside(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Michael, over at the stove, ...; the girl there."""
+    if text.word(at) == COMMA and phrase.name("person"):
+        end = _locative(text, phrase, at + 1) if text.lookup(LOCATIVES, at + 1) else None
+        if end and text.word(end) == COMMA and phrase.places[-1].of.name("room", "place"):
+            return end + 1
+        if end:
+            phrase.places.pop()
+        return None
+    there = text.word(at) == "there" or text.words[at : at + 2] == ["over", "there"]
+    end = at + 1 + (text.word(at) == "over")
+    if there and phrase.is_person and text.word(end) not in ("is", "are"):
+        phrase.places.append(Locative(None, NounPhrase(at, end, noun="there", said="there")))
+        return end
+    return None
+
+
+def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """In the kitchen, left of the cup."""
+    found = text.lookup(LOCATIVES, at)
+    if found is None or phrase.noun in ("body", "here", "there"):
+        return None
+    how, end = found
+    inner = noun_phrase(text, end)
+    if inner is None or inner.noun == "body" or inner.end == end:
+        return None
+    if inner.noun in ("here", "there") and text.word(at) in ("over", "right"):
+        return inner.end
+    if phrase.is_spot:
+        in_room = bool(inner.name("room")) and how in ("on", "in", None, "near")
+        by_another = how in ("in", "near", "in_front", "behind", "left", "right")
+        if not in_room and not (by_another and inner.name("place")):
+            return None
+    phrase.places.append(Locative(how, inner))
+    if how == "on" and text.word(inner.end - 1) == "floor" and phrase.is_person:
+        phrase.posture = phrase.posture or "lying"
+    if how == "between" and text.word(inner.end) == "and":
+        other = noun_phrase(text, inner.end + 1)
+        if other and other.noun != "body":
+            phrase.places[-1].other = other
+            return other.end
+    return inner.end

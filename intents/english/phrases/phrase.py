@@ -1,0 +1,102 @@
+"""What a noun phrase holds once it is read."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from intents.english.words import lexicon
+from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
+from intents.english.words.names import Name
+from intents.english.words.text import Text
+from intents.goals import Clothing, How, Superlative
+
+Noun = Literal[
+    "name", "object", "person", "place", "one", "body", "pronoun", "operator", "here", "there",
+    "unknown",
+]  # fmt: skip
+
+
+@dataclass(slots=True)
+class Locative:
+    """Where something is: a preposition and what follows it; ``how`` None is plain "at".
+
+    Between two things, ``other`` is the second.
+    """
+
+    how: How | None
+    of: "NounPhrase"
+    other: "NounPhrase | None" = None
+
+
+@dataclass(slots=True)
+class NounPhrase:
+    """What was said of a thing, a person or a place, in words ``start`` to ``end``.
+
+    Attributes:
+        noun: What kind of noun it has; "name" means ``names`` holds names of the vocabulary.
+        said: The noun as it was said.
+        exact: The noun is a whole name, not a part of one.
+        names: What the noun can stand for; several names of one kind mean that it is ambiguous.
+        side: "left" or "right", of the body or of several things.
+        places: Where it is, in the order said.
+        other: It is the one that was not spoken of.
+        where: What was said, if the phrase is a place by what is there: "where the cup is".
+    """
+
+    start: int
+    end: int
+    noun: Noun = "unknown"
+    said: str = ""
+    exact: bool = True
+    names: tuple[Name, ...] = ()
+    determiner: str = ""
+    color: str | None = None
+    size: str | None = None
+    superlative: Superlative | None = None
+    count: int | Literal["all"] | None = None
+    gender: Literal["male", "female"] | None = None
+    posture: Literal["sitting", "standing", "lying"] | None = None
+    gesture: str | None = None
+    wearing: Clothing | None = None
+    side: str = ""
+    level: str = ""
+    places: list[Locative] = field(default_factory=list[Locative])
+    other: bool = False
+    where: str = ""
+
+    @property
+    def is_person(self) -> bool:
+        """It can only be a person."""
+        marked = self.gender or self.gesture or self.wearing
+        return self.noun in ("person", "operator") or bool(marked) or self.name("person") != ""
+
+    @property
+    def is_spot(self) -> bool:
+        """It names a place or room and nothing else."""
+        if self.noun in ("here", "there", "place"):
+            return True
+        return self.noun == "name" and not self.name("object", "category", "person")
+
+    def name(self, *kinds: str) -> str:
+        """The first name of these kinds, or an empty string."""
+        return next((n.name for kind in kinds for n in self.names if n.kind == kind), "")
+
+    def all_names(self, *kinds: str) -> list[str]:
+        """All names of these kinds."""
+        return list(dict.fromkeys(n.name for n in self.names if n.kind in kinds))
+
+
+SOMETHING = lexicon.words("something anything everything")
+_NO_NOUN = (
+    lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
+    | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
+                    "standing sitting lying laying weighs weigh weight weights doing making once "
+                    "twice thrice closed opened need "
+                    "needs belong belongs only ends lands winds gets wants asked ordered requested "
+                    "requires fancies asks gone called alone moved brought lie know too went")
+)  # fmt: skip
+
+
+def is_content(text: Text, at: int) -> bool:
+    """Whether a word can be part of a noun: no function word, number or sign."""
+    word = text.word(at)
+    return word[0].isalpha() and word not in _NO_NOUN

@@ -1,0 +1,1 @@
+"""Readings of one clause, by what the clause is; their order is in :mod:`intents.english.order`."""

@@ -1,0 +1,49 @@
+"""Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
+
+from intents.english.clauses.conditions import IF, as_soon_as, condition
+from intents.english.phrases.referents import Scope
+from intents.english.reading import Found, Sentence
+from intents.english.sequences import sequence
+from intents.english.trouble import Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.goals import Condition, Goal, Holding, If, Person, Present
+
+
+def conditional(sentence: Sentence, at: int) -> Found | None:
+    """If the cup is not there, bring the mug, otherwise wait."""
+    text = sentence.text
+    start = text.phrase_end(IF, at)
+    if start is None and text.word(at) == "should" and text.word(at + 1) != "you":
+        start = at + 1
+    if start is None:
+        return None
+    holds, end = condition(text, start, sentence.scope)
+    soon = as_soon_as(text, at, holds)
+    if soon:
+        return [soon], end + (text.word(end) == COMMA)
+    _mention(holds, sentence.scope)
+    end += text.word(end) == COMMA
+    end += text.word(end) == "then"
+    then, end = sequence(sentence.inner(), end)
+    if not then:
+        raise Unclear("What shall I do then?")
+    skipped = end
+    while text.word(skipped) in (COMMA, FULL_STOP) and skipped < len(text):
+        skipped += 1
+    otherwise = text.phrase_end(lexicon.ELSE, skipped)
+    other: list[Goal] = []
+    if otherwise:
+        other, end = sequence(sentence.inner(), otherwise)
+    if text.word(at) == "unless":
+        then, other = other, then
+    return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+
+def _mention(holds: Condition, scope: Scope) -> None:
+    """Remember what a condition speaks of."""
+    if isinstance(holds, Present):
+        scope.mention(holds.object or holds.person)
+        scope.mention((holds.object or holds.person or Person()).at)
+    elif isinstance(holds, Holding) and holds.object.name:
+        scope.mention(holds.object)

@@ -1,0 +1,97 @@
+"""What is left out because it was said before: "and the plate too", "the other one"."""
+
+from msgspec.structs import replace
+
+from intents.english.clauses.verb_clauses import SPEECH, first_that_fits, framed, goes_on
+from intents.english.frames.devices import device_names
+from intents.english.phrases.complements import Complement, ends_clause, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person
+from intents.english.reading import Found, Sentence
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
+from intents.goals import (
+    Bring,
+    Close,
+    Find,
+    Follow,
+    Give,
+    Goal,
+    GoTo,
+    Greet,
+    Guide,
+    LookAt,
+    Meet,
+    Open,
+    Pick,
+    Place,
+    Switch,
+)
+
+_TOO = lexicon.phrases("too,also,as well,likewise")
+_MORE = lexicon.phrases("more,a bit more,a little more,some more,further,a bit further,again more")
+_LINKING = ("and", "also", "then", "plus", "next", "about")
+
+
+def likewise(sentence: Sentence, at: int) -> Found | None:
+    """Put the cup on the shelf, *and the plate too*: the same with another."""
+    text, before = sentence.text, sentence.before or list(sentence.history)
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    end = text.phrase_end(_TOO, phrase.end) if phrase else None
+    if phrase is None or end is None or not before or not ends_clause(text, end):
+        return None
+    found = _with_another(before[-1], phrase, sentence.scope)
+    return (found, end) if found else None
+
+
+def follow_up(sentence: Sentence, at: int) -> Found | None:
+    """*And the plate on the table*, *the other one*, *a bit more*: the last goal anew."""
+    text, last = sentence.text, sentence.history[-1] if sentence.history else None
+    if sentence.before or last is None or verbs_at(text.words, at):
+        return None
+    more = text.phrase_end(_MORE, at)
+    if more is not None and more == len(text) and isinstance(last, GoTo) and last.by:
+        return [last], more
+    phrase = noun_phrase(text, at)
+    linked = at > 0 and text.word(at - 1) in _LINKING
+    if phrase is None or phrase.end < len(text) or not (linked or phrase.other):
+        return None
+    if isinstance(last, Place) and phrase.places:
+        thing = Complement(phrases=[phrase])
+        return framed(sentence, "put", text.word(at), [thing], first=at + 1, end=phrase.end)
+    found = _with_another(last, phrase, sentence.scope)
+    return (found, phrase.end) if found else None
+
+
+def _with_another(last: Goal, phrase: NounPhrase, scope: Scope) -> list[Goal]:
+    """A goal with another thing, device or person; none if it has nothing of the kind."""
+    if isinstance(last, Open | Close | Switch):
+        act = "switch" if isinstance(last, Switch) else "open"
+        names = device_names(Complement(phrases=[phrase]), scope, act)
+        return [replace(last, what=name) for name in names]
+    if is_person(phrase, scope):
+        person = to_person(phrase, scope)
+        alike = isinstance(last, Find | Follow | Greet | Guide | Meet)
+        return [replace(last, person=person)] if alike else []
+    if isinstance(last, Pick | Place | Bring | Give | Find | LookAt):
+        return [replace(last, object=to_object(phrase, scope))]
+    return []
+
+
+def gapped(sentence: Sentence, at: int) -> Found | None:
+    """Put the cup on the table and *the plate on the shelf*: the verb is the one before."""
+    said = sentence.notes.verb
+    if said is None:
+        return None
+    complements, end = read_complements(sentence.text, at)
+    if not any(c.phrases for c in complements) or not goes_on(sentence.text, end):
+        return None
+    kept = [(s, said.first) for s in said.senses if s not in SPEECH and s != "count"]
+    return first_that_fits(sentence, kept, said.at, list(sentence.notes.particles), resumed=at)
+
+
+def gapped_after_and(sentence: Sentence, at: int) -> Found | None:
+    """The same where "and" or "then" stands before it."""
+    linked = sentence.text.word(at - 1) in ("then", "and")
+    return gapped(sentence, at) if linked else None

@@ -1,0 +1,168 @@
+"""What is to be so in the end, rather than what is to be done.
+
+"Pull the drawer open"; "make sure the bottle is on the table"; "the cup goes in the box"; "the cup
+should be brought to me"; "the lamp should be on"; "see that Ada gets the pencil".
+"""
+
+from intents.english.clauses.results import brought_about, made_so
+from intents.english.clauses.verb_clauses import framed
+from intents.english.clauses.wishes import WISHES
+from intents.english.frames import FRAMES
+from intents.english.frames.devices import is_device
+from intents.english.phrases.complements import Clause, Complement, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import is_person, to_object, to_person, to_place
+from intents.english.reading import Found, SaidVerb, Sentence
+from intents.english.trouble import ReadingError
+from intents.english.words import lexicon
+from intents.english.words.verbs import SENSES, participle_base, verbs_at
+from intents.goals import Bring, Guide, Switch
+
+_RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
+                              "need switch shut")  # fmt: skip
+_ENSURES = lexicon.phrases(
+    "make sure,make sure that,ensure,ensure that,see to it that,see that,take care that,check that,"
+    "see to it,be sure that,arrange that,arrange for"
+)
+_ENDS = lexicon.phrases(
+    "is,are,gets,get,stays,stay,ends,end,ends up,end up,lands,winds up,finds its way,is put,"
+    "are put,goes,go,is placed"
+)
+_WISHED = lexicon.phrases(
+    "to be,to go,to be put,to be moved,to be placed,to stand,to end up,put,moved,placed,back"
+)
+_GETS = lexicon.phrases("gets,get,has,have,receives,receive,is given,is brought,gets given")
+_GETS_TO = lexicon.phrases(
+    "gets to,get to,arrives at,arrives in,reaches,finds the way to,makes it to,comes to,"
+    "gets safely to,gets into"
+)
+_PASSIVE = lexicon.phrases(
+    "needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,are to be,"
+    "can be,could be,needs,wants to be,shall be,will be,may be,would need to be"
+)
+_BELONGS = lexicon.phrases(
+    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
+    "should be,has to be,must be,needs to be,ought to go,is supposed to go"
+)
+
+
+def resultative(sentence: Sentence, at: int) -> Found | None:
+    """Pull the drawer open; make sure the lamp is on; I want the cup on the table."""
+    text, scope = sentence.text, sentence.scope
+    ensured = text.phrase_end(_ENSURES, at)
+    if ensured:
+        return brought_about(text, ensured, scope) or _placed_so(sentence, at, ensured, _ENDS)
+    wish = text.phrase_end(WISHES, at)
+    placed = _placed_so(sentence, at, wish, _WISHED) if wish else None
+    if placed:
+        return placed
+    if wish is None and text.word(at) not in _RESULT_VERBS:
+        return None
+    found = brought_about(text, wish or at + 1, scope)
+    put = found and text.word(at) == "put" and isinstance(found[0][0], Switch)
+    return None if found and put and not is_device(found[0][0]) else found
+
+
+def _placed_so(
+    sentence: Sentence, at: int, start: int, how: frozenset[lexicon.Phrase]
+) -> Found | None:
+    """Make sure that the bottle is on the table."""
+    text = sentence.text
+    phrase = noun_phrase(text, start)
+    if phrase is not None and is_person(phrase, sentence.scope):
+        return _served(sentence, phrase)
+    if phrase is None or not phrase.name("object", "category"):
+        return None
+    ends = text.phrase_end(how, phrase.end)
+    where = _where(sentence, ends) if ends is not None else None
+    return where and _put(sentence, at, phrase, *where)
+
+
+def _where(sentence: Sentence, at: int) -> tuple[Complement, int] | None:
+    """Where something is to be, if nothing else is said."""
+    complements, end = read_complements(sentence.text, at)
+    if len(complements) != 1 or complements[0].role not in ("at", "to", "into"):
+        return None
+    return complements[0], end
+
+
+def _put(sentence: Sentence, at: int, phrase: NounPhrase, where: Complement, end: int) -> Found:
+    """A thing put somewhere."""
+    verb = " ".join(sentence.text.words[at : phrase.end])
+    thing = Complement(phrases=[phrase])
+    return framed(sentence, "put", verb, [thing, where], first=phrase.end, end=end)
+
+
+def _served(sentence: Sentence, phrase: NounPhrase) -> Found | None:
+    """See that Ada gets the pencil; see that she gets to the lab."""
+    text, scope = sentence.text, sentence.scope
+    way = text.phrase_end(_GETS_TO, phrase.end)
+    place = noun_phrase(text, way) if way else None
+    if place is not None and place.name("place", "room"):
+        to = to_place(place, scope)
+        return [Guide(person=to_person(phrase, scope), to=to)], place.end
+    start = text.phrase_end(_GETS, phrase.end)
+    complements, end = read_complements(text, start) if start else ([], 0)
+    thing = complements[0] if len(complements) == 1 else None
+    if thing is None or thing.role or not thing.phrases or thing.phrase.is_person:
+        return None
+    person = to_person(phrase, scope)
+    return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
+
+
+def thing_first(sentence: Sentence, at: int) -> Found | None:
+    """The vase goes on the sill; the cup should be brought to me; the lamp should be on."""
+    text = sentence.text
+    if verbs_at(text.words, at) and not text.name_at(at):
+        return None
+    phrase = noun_phrase(text, at)
+    if phrase is None or phrase.noun in ("operator", "here", "there"):
+        return None
+    if phrase.noun == "unknown":
+        return _state(sentence, phrase)
+    return _belongs(sentence, at, phrase) or _passive(sentence, phrase) or _state(sentence, phrase)
+
+
+def _belongs(sentence: Sentence, at: int, phrase: NounPhrase) -> Found | None:
+    """The vase goes on the sill; all toys belong in the box; the mail goes to Ada."""
+    text, scope = sentence.text, sentence.scope
+    start = text.phrase_end(_BELONGS, phrase.end)
+    if start is None or not phrase.name("object", "category") or phrase.is_person:
+        return None
+    where = _where(sentence, start)
+    if where is None:
+        return None
+    there = where[0].phrase
+    if is_person(there, scope):
+        person = to_person(there, scope) if text.word(start - 1).startswith("go") else None
+        thing = to_object(phrase, scope)
+        return ([Bring(object=thing, to=person)], where[1]) if person else None
+    sentence.notes.verb = SaidVerb(at, at + 1, ("put",))
+    return _put(sentence, at, phrase, *where)
+
+
+def _passive(sentence: Sentence, phrase: NounPhrase) -> Found | None:
+    """The cup should be brought to me; the plates need to be put on the shelf."""
+    text = sentence.text
+    first = text.phrase_end(_PASSIVE, phrase.end)
+    base = participle_base(text.word(first)) if first else None
+    if first is None or base is None:
+        return None
+    complements, end = read_complements(text, first + 1)
+    thing = Complement(phrases=[phrase])
+    for sense in SENSES.get((base,), ()):
+        if sense not in FRAMES:
+            continue
+        clause = Clause(text, sense, base, first + 1, end, [thing, *complements])
+        try:
+            return FRAMES[sense](clause, sentence.scope), end
+        except ReadingError:
+            continue
+    return None
+
+
+def _state(sentence: Sentence, phrase: NounPhrase) -> Found | None:
+    """The lamp should be on."""
+    start = sentence.text.phrase_end(_PASSIVE, phrase.end)
+    return made_so(sentence.text, phrase, start, sentence.scope) if start else None

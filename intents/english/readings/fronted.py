@@ -1,0 +1,81 @@
+"""What stands before the verb: "at the desk, find the cup", "of all the cups, bring me ..."."""
+
+from msgspec.structs import replace
+
+from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.questions import question
+from intents.english.clauses.statements import IS, mention_phrase, stated
+from intents.english.clauses.verb_clauses import read_verb
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_object, to_place
+from intents.english.reading import Found, Sentence
+from intents.english.words.lexer import COMMA
+from intents.english.words.text import Text
+from intents.english.words.verbs import base_form, verbs_at
+from intents.goals import Bring, Find, Goal, GoTo, ObjectQuery, Pick, Place
+
+
+def fronted(sentence: Sentence, at: int) -> Found | None:
+    """At the desk, find the cup; the red cup, bring it to me; on the table is a cup."""
+    text, scope = sentence.text, sentence.scope
+    complements, end = read_complements(text, at)
+    after = skip_openings(text, end)
+    usable = bool(complements) and all(
+        c.phrases and c.role in ("", "at", "from", "into", "to") for c in complements
+    )
+    if not usable:
+        return None
+    first = complements[0]
+    if first.role == "at" and _is_where(text, after):
+        where = to_place(first.phrase, scope)
+        found = stated(text, after + (text.word(after) in ("is", "are")), scope, where)
+        return ([], found[1]) if found else None
+    asked = question(text, after, scope)
+    if asked and first.role == "at":
+        return [GoTo(place=to_place(first.phrase, scope)), *asked[0]], asked[1]
+    if not verbs_at(text.words, after):
+        return None
+    inflected = text.word(after) != base_form(text.word(after))
+    if inflected and text.word(end) != COMMA:
+        return None
+    for complement in complements:
+        if complement.role == "":
+            for phrase in complement.phrases:
+                mention_phrase(phrase, scope)
+    return read_verb(sentence, after, [c for c in complements if c.role])
+
+
+def out_of(sentence: Sentence, at: int) -> Found | None:
+    """Of *all the cups on the table, bring me the largest one*."""
+    text = sentence.text
+    phrase = noun_phrase(text, at + 1) if text.word(at) in ("of", "among") else None
+    if phrase is None or text.word(phrase.end) != COMMA:
+        return None
+    start = skip_openings(text, phrase.end)
+    if phrase.is_person or not verbs_at(text.words, start):
+        return None
+    among = replace(to_object(phrase, sentence.scope), count=None)
+    sentence.scope.mention(among)
+    goals, end = read_verb(sentence, start)
+    return [_one_of(goal, among) for goal in goals], end
+
+
+def _one_of(goal: Goal, among: ObjectQuery) -> Goal:
+    """A goal whose thing is one of those."""
+    if not isinstance(goal, Bring | Find | Pick | Place):
+        return goal
+    one = goal.object or among
+    name = one.name or (None if one.category else among.name)
+    category = one.category or (None if one.name else among.category)
+    return replace(goal, object=replace(one, name=name, category=category, at=one.at or among.at))
+
+
+def _is_where(text: Text, at: int) -> bool:
+    """On the table *is a cup*; ... *there is a cup*; ... *a person is standing*."""
+    if text.word(at) in ("is", "are"):
+        return True
+    if text.word(at) == "there":
+        return text.phrase_end(IS, at + 1) is not None
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    return phrase is not None and text.word(phrase.end) in ("is", "are")

@@ -1,0 +1,71 @@
+"""Movements in set phrases: "step aside", "patrol between table and shelf", "go to x = 1"."""
+
+from intents.english.phrases.complements import ends_clause
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_place
+from intents.english.reading import Found, Sentence
+from intents.english.trouble import Unclear
+from intents.english.words import lexicon
+from intents.english.words.measures import measure, number
+from intents.english.words.verbs import verbs_at
+from intents.goals import GoTo, Pose2, Repeat
+
+_TO_AND_FRO = lexicon.phrases(
+    "patrol between,commute between,pace between,pace back and forth between,"
+    "go back and forth between,walk back and forth between,move back and forth between,"
+    "run back and forth between,go to and fro between,walk to and fro between"
+)
+_ASIDE = lexicon.phrases(
+    "step aside,move aside,go aside,stand aside,get out of the way,get out of my way,"
+    "move out of the way,move out of my way,go out of the way,out of the way,out of my way,"
+    "make way,make room,clear the way,move over,step to the side,move to the side,go to the side,"
+    "take a step aside,take a step to the side,sidestep,side step,stay out of the way,"
+    "step out of the way,keep out of the way,let me pass,let me through,let us through"
+)
+_POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
+
+
+def out_of_the_way(sentence: Sentence, at: int) -> None:
+    """Step aside.
+
+    Raises:
+        Unclear: That is what was said: to which side is to be asked.
+    """
+    end = sentence.text.phrase_end(_ASIDE, at)
+    if end is not None and ends_clause(sentence.text, end):
+        sides = ("step to the left", "step to the right")
+        raise Unclear("To the left or to the right?", sides, sentence.text.raw(at, end))
+
+
+def to_and_fro(sentence: Sentence, at: int) -> Found | None:
+    """Patrol between the table and the shelf three times."""
+    text = sentence.text
+    start = text.phrase_end(_TO_AND_FRO, at)
+    one = noun_phrase(text, start) if start else None
+    other = noun_phrase(text, one.end + 1) if one and text.word(one.end) == "and" else None
+    if one is None or other is None:
+        return None
+    there = tuple(GoTo(place=to_place(phrase, sentence.scope)) for phrase in (one, other))
+    often = measure(text.words, other.end)
+    if often is None or often.kind != "times":
+        raise Unclear("How many times shall I go to and fro?")
+    return [Repeat(times=int(often.value), goals=there)], often.end
+
+
+def pose(sentence: Sentence, at: int) -> Found | None:
+    """Go to x = 1, y = 2; go to position -1.5 0.2."""
+    text = sentence.text
+    ends = [end for sense, end in verbs_at(text.words, at) if sense == "go"]
+    if not ends:
+        return None
+    end = max(ends)
+    values: list[float] = []
+    while len(values) < 2 and end < len(text):
+        found = number(text.words, end)
+        if found is None and text.word(end) not in _POSE:
+            return None
+        values += [found.value] if found else []
+        end = found.end if found else end + 1
+    if len(values) < 2 or not ends_clause(text, end):
+        return None
+    return [GoTo(pose=Pose2(x_m=values[0], y_m=values[1]))], end

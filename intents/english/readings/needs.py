@@ -1,0 +1,98 @@
+"""Needs: the wish behind what is said of somebody.
+
+"I cannot find my keys"; "Ada needs the stapler"; "Emil wants to go to the hall"; "Ada has a
+question"; "I need you in the cellar".
+"""
+
+from intents.english.clauses.wishes import WISHES, asks_end
+from intents.english.phrases.complements import first_with, read_complements
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.referents import is_person, sought, to_object, to_person, to_place
+from intents.english.reading import Found, Sentence
+from intents.english.words import lexicon
+from intents.english.words.verbs import verbs_at
+from intents.goals import Answer, Bring, GoTo, Guide
+
+_LOST = lexicon.phrases(
+    "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
+    "i do not know where,i have no idea where,i do not find,i am missing,we can not find"
+)
+_NEEDS = lexicon.phrases(
+    "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
+    "is asking for,asks for,ordered,has ordered,is waiting for,requested,has requested,requires,"
+    "is in need of,could use,fancies"
+)
+_NEEDS_TO_GO = lexicon.phrases(
+    "needs to get,needs to go,wants to go,wants to get,would like to go,would like to get,"
+    "has to go,has to get,must go,must get,needs to be brought,needs to be taken,"
+    "would like to be brought,would like to be taken,wishes to go,is looking for the way,"
+    "wants to be taken,wants to be brought,needs to come,wants to come"
+)
+
+
+def lost(sentence: Sentence, at: int) -> Found | None:
+    """I cannot find my keys: to look for them."""
+    text = sentence.text
+    start = text.phrase_end(_LOST, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None:
+        return None
+    end = phrase.end
+    end += text.word(end) in ("is", "are") and text.word(phrase.start - 1) == "where"
+    end += text.word(end) in ("anywhere", "anymore")
+    sentence.notes.wanted = True
+    return [sought(phrase, sentence.scope)], end
+
+
+def needed(sentence: Sentence, at: int) -> Found | None:
+    """Ada in the lab needs the stapler: to bring it to her; Emil wants to go to the hall."""
+    text, scope = sentence.text, sentence.scope
+    if verbs_at(text.words, at) and not text.name_at(at):
+        return None
+    phrase = noun_phrase(text, at)
+    if phrase is None or not phrase.is_person or phrase.noun == "operator":
+        return None
+    going, needing = text.phrase_end(_NEEDS_TO_GO, phrase.end), None
+    if going is None:
+        needing = text.phrase_end(_NEEDS, phrase.end)
+    complements, end = read_complements(text, going or needing or phrase.end)
+    if going:
+        goal = first_with(complements, "to", "into")
+        if goal is None or len(complements) > 1:
+            return None
+        sentence.notes.wanted = True
+        there = to_place(goal.phrase, scope)
+        return [Guide(person=to_person(phrase, scope), to=there)], end
+    thing = complements[0] if needing and len(complements) == 1 else None
+    if thing is None or thing.role or not thing.phrases or thing.phrase.is_person:
+        return None
+    sentence.notes.wanted = True
+    person = to_person(phrase, scope)
+    return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
+
+
+def has_a_question(sentence: Sentence, at: int) -> Found | None:
+    """Ada has a question."""
+    text, scope = sentence.text, sentence.scope
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    if phrase is None or not is_person(phrase, scope):
+        return None
+    end = None if text.word(phrase.end) == "to" else asks_end(text, phrase.end)
+    if end is None:
+        return None
+    phrase.end = end
+    read_postmodifiers(text, phrase)
+    return [Answer(what="question", person=to_person(phrase, scope))], phrase.end
+
+
+def wanted_there(sentence: Sentence, at: int) -> Found | None:
+    """I need you in the cellar."""
+    text = sentence.text
+    start = text.phrase_end(WISHES, at)
+    if start is None or text.word(start) != "you":
+        return None
+    start += 3 if text.words[start + 1 : start + 3] == ["to", "be"] else 1
+    complements, end = read_complements(text, start)
+    if len(complements) != 1 or complements[0].role not in ("at", "to"):
+        return None
+    return [GoTo(place=to_place(complements[0].phrase, sentence.scope))], end

@@ -1,0 +1,25 @@
+"""What is asked: "what are you holding?", "how many cups are there?", "look whether ..."."""
+
+from intents.english.clauses import questions as syntax
+from intents.english.clauses import self_talk
+from intents.english.reading import Found, Sentence
+from intents.english.words import lexicon
+
+_LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
+
+
+def about_robot(sentence: Sentence, at: int) -> Found | None:
+    """What are you holding? How are you?"""
+    return self_talk.about_robot(sentence.text, at)
+
+
+def question(sentence: Sentence, at: int) -> Found | None:
+    """How many cups are there?"""
+    return syntax.question(sentence.text, at, sentence.scope)
+
+
+def whether(sentence: Sentence, at: int) -> Found | None:
+    """Look whether the ball is behind the box."""
+    start = sentence.text.phrase_end(_LOOKS, at)
+    asked = start is not None and sentence.text.word(start) in ("if", "whether")
+    return question(sentence, start) if start and asked else None

@@ -1,0 +1,77 @@
+"""Remarks: what only tells something is noted, and passed over.
+
+"There is a cup on the table, ..."; "I left my comb on the bench, ..."; "I am thirsty, ...".
+"""
+
+from intents.english.clauses.statements import IS, mention_phrase, stated
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.reading import Found, Sentence
+from intents.english.substitution import substitute
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
+from intents.english.words.verbs import verbs_at
+
+_KNOWN = lexicon.phrases(
+    "i left,i put,i placed,i forgot,i saw,i dropped,i have left,i have put,i have forgotten,"
+    "i have seen,i just saw,i just put,we left,we put,we have left,you left,you put,i keep,we keep,"
+    "we have,i have"
+)
+_SHORT = 4
+"""What is said of somebody in so many words is a remark."""
+
+
+def left_somewhere(sentence: Sentence, at: int) -> Found | None:
+    """I left my comb on the bench: it is noted."""
+    start = sentence.text.phrase_end(_KNOWN, at)
+    phrase = noun_phrase(sentence.text, start) if start else None
+    if phrase is None or not phrase.name("object", "category"):
+        return None
+    mention_phrase(phrase, sentence.scope)
+    return [], phrase.end
+
+
+def feeling(sentence: Sentence, at: int) -> Found | None:
+    """I am thirsty after all that work, ...: it is passed over, if a command follows."""
+    text = sentence.text
+    if text.words[at : at + 2] not in (["i", "am"], ["we", "are"], ["i", "feel"]):
+        return None
+    end = at + 2
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        phrase = noun_phrase(text, end)
+        if phrase and phrase.name("object", "category") and not phrase.is_person:
+            mention_phrase(phrase, sentence.scope)
+        end = max(end + 1, phrase.end if phrase else end)
+    return ([], end) if at + 2 < end < len(text) else None
+
+
+def statement(sentence: Sentence, at: int) -> Found | None:
+    """She is in the kitchen: what was said of her is true of her there."""
+    scope, before = sentence.scope, sentence.before
+    old = (scope.object, scope.person)
+    found = stated(sentence.text, at, scope)
+    if found is None:
+        return None
+    phrase, end = found
+    for was, now in zip(old, (scope.object, scope.person), strict=True):
+        if phrase.noun == "pronoun" and was is not None and now is not None:
+            before[:] = [substitute(goal, was, now) for goal in before]
+    return [], end
+
+
+def told_of(sentence: Sentence, at: int) -> Found | None:
+    """Ada is thirsty, ...; the door is open, ...: passed over, but they are spoken of now."""
+    text = sentence.text
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    predicate = text.phrase_end(IS, phrase.end) if phrase else None
+    if phrase is None or predicate is None or phrase.noun in ("operator", "here", "there"):
+        return None
+    end = predicate
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        end += 1
+    if end >= len(text) or end - predicate > _SHORT:
+        return None
+    if phrase.noun == "unknown":
+        sentence.scope.device = singular(phrase.said)
+    elif phrase.noun == "name":
+        mention_phrase(phrase, sentence.scope)
+    return [], end

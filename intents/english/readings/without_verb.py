@@ -1,0 +1,90 @@
+"""Commands without a verb that says it: "lights off", "three steps forward", "make a fist"."""
+
+from intents.english.clauses.results import brought_about
+from intents.english.clauses.verb_clauses import framed
+from intents.english.phrases.complements import read_complements
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.reading import Found, Sentence
+from intents.english.trouble import Misfit, Unclear
+from intents.english.words.verbs import verbs_at
+from intents.goals import Close, LookAt, Switch
+
+_LIFTS = ("raise", "lift", "lower")
+
+
+def fist(sentence: Sentence, at: int) -> Found | None:
+    """Make a fist: to close the hand."""
+    made = sentence.text.words[at : at + 3] in (["make", "a", "fist"], ["form", "a", "fist"])
+    return ([Close(what="hand")], at + 3) if made else None
+
+
+def head(sentence: Sentence, at: int) -> Found | None:
+    """Lift your head up: to look up."""
+    text = sentence.text
+    if text.words[at + 1 : at + 3] != ["your", "head"] or text.word(at) not in _LIFTS:
+        return None
+    where = "down" if text.word(at) == "lower" else "up"
+    return [LookAt(place=where)], at + 3 + (text.word(at + 3) == "up")
+
+
+def lights(sentence: Sentence, at: int) -> Found | None:
+    """Lights off."""
+    text = sentence.text
+    if text.word(at) in ("light", "lights") and text.word(at + 1) in ("on", "off", "out"):
+        return [Switch(what="light", on=text.word(at + 1) == "on")], at + 2
+    return None
+
+
+def moved(sentence: Sentence, at: int) -> Found | None:
+    """Three steps forward; left 90 degrees."""
+    text = sentence.text
+    if verbs_at(text.words, at) or text.name_at(at):
+        return None
+    complements, end = read_complements(text, at)
+    kinds = [c.measure.kind for c in complements if c.measure]
+    moves = all(c.direction or c.measure for c in complements) and len(complements) > 1
+    if not moves or kinds not in (["length"], ["angle"]):
+        return None
+    return framed(
+        sentence, "go" if kinds == ["length"] else "turn", "", complements, first=at, end=end
+    )
+
+
+def switched(sentence: Sentence, at: int) -> Found | None:
+    """The kettle on."""
+    text = sentence.text
+    if verbs_at(text.words, at) and not text.name_at(at):
+        return None
+    found = brought_about(text, at, sentence.scope)
+    return found if found and isinstance(found[0][0], Switch) else None
+
+
+def telegram(sentence: Sentence, at: int) -> Found | None:
+    """Red cup to the table."""
+    text = sentence.text
+    if at > 0 or verbs_at(text.words, at):
+        return None
+    complements, end = read_complements(text, at)
+    if [c.role for c in complements] not in (["", "to"], ["", "into"]) or end < len(text):
+        return None
+    thing, where = (c.phrases[0] if c.phrases else None for c in complements)
+    if not (thing and where and thing.name("object") and where.name("place")):
+        return None
+    return framed(sentence, "put", "put", complements, first=at, end=end)
+
+
+def only_named(sentence: Sentence, at: int) -> None:
+    """A thing is named and nothing is said of it.
+
+    Raises:
+        Unclear: That is so.
+        Misfit: It is a person.
+    """
+    text = sentence.text
+    phrase = noun_phrase(text, at)
+    if phrase is None or phrase.end < len(text) or phrase.noun != "name":
+        return
+    if phrase.name("object", "category") and at == 0:
+        raise Unclear(f"What shall I do with “{text.raw(at, phrase.end)}”?")
+    if phrase.is_person:
+        raise Misfit("what about them?")

@@ -1,0 +1,114 @@
+"""Clauses one after the other, and what each does to those before it."""
+
+import re
+
+from intents.english.clauses.openings import skip_openings
+from intents.english.corrections import taken_back
+from intents.english.joining import as_wished, joined, or_else, same_object
+from intents.english.reading import Found, Sentence, clause
+from intents.english.substitution import substitute
+from intents.english.trouble import Misfit, NotUnderstood, Partly
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
+from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
+
+_NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")
+
+
+def sequence(sentence: Sentence, at: int) -> Found:
+    """Clauses one after the other; an inner sentence only up to a full stop or "otherwise".
+
+    Raises:
+        ReadingError: One of them makes no sense.
+    """
+    text, notes = sentence.text, sentence.notes
+    goals: list[Goal] = []
+    here = sentence.after(goals)
+    last = 0
+    while True:
+        if sentence.depth and goals and _ends_inner(text, at):
+            return goals, at
+        begun, at = at, skip_openings(text, at)
+        back = taken_back(here, begun, goals[last:] if begun else list(sentence.history))
+        if back:
+            goals[last:], at = back
+            continue
+        if at >= len(text) or (sentence.depth and text.phrase_end(lexicon.ELSE, at)):
+            return goals, at
+        changed = _changed(here, at, goals[last:]) if goals else None
+        if changed:
+            goals[last:], at = changed
+            continue
+        wish = goals[-1:] if notes.wanted else []
+        notes.wanted = False
+        found, end = _one_more(here, at)
+        notes.one_hand |= _names_hand(text.raw(begun, end), found)
+        if not sentence.depth:
+            notes.trace.append((text.raw(at, end), tuple(found)))
+        last = _append(here, found, wish, text.words[begun : at + 1])
+        at = max(end, at + 1)
+
+
+def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: list[str]) -> int:
+    """Add what was found to the goals before, in their light; where it begins among them.
+
+    Args:
+        sentence: The sentence after the goals before.
+        found: The goals of a clause.
+        wish: The goal before, if it was a wish that the clause may spell out.
+        opening: The words that link the clause to those before, and its first.
+    """
+    goals, scope = sentence.before, sentence.scope
+    if wish and same_object(wish[0], found[:1]):
+        found[0] = as_wished(found[0], goals.pop())
+    if goals and found and "or" in opening[:-1]:
+        found[0] = or_else(goals, found[0])
+    if goals and found:
+        found[0] = joined(goals, found[0], first=opening[-1])
+    last = len(goals)
+    goals += found if found != goals[-1:] or not _once(found) else []
+    if scope.parted:
+        goals[:] = [substitute(goal, *scope.parted) for goal in goals]
+        scope.parted = None
+    for goal in found:
+        scope.mention_goal(goal)
+    return last
+
+
+def _changed(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """The goals of the clause before, as the first afterthought that is one changes them."""
+    changed = (thought(sentence, at, last) for thought in sentence.rules.afterthoughts)
+    return next(filter(None, changed), None)
+
+
+def _one_more(sentence: Sentence, at: int) -> Found:
+    """The next clause.
+
+    Raises:
+        Partly: It makes no sense, but what stands before it does.
+    """
+    known = tuple(sentence.before)
+    try:
+        return clause(sentence, at)
+    except (NotUnderstood, Misfit) as error:
+        if not known or sentence.depth:
+            raise
+        raise Partly(str(error), known) from None
+
+
+def _ends_inner(text: Text, at: int) -> bool:
+    if text.word(at) == FULL_STOP:
+        return True
+    return bool(text.phrase_end(lexicon.ELSE, at + (text.word(at) == COMMA)))
+
+
+def _once(goals: list[Goal]) -> bool:
+    """Whether goals say no more when they are said twice: never mind, forget it."""
+    return all(isinstance(goal, Cancel | Stop | Pause | Resume | Place) for goal in goals)
+
+
+def _names_hand(said: str, goals: list[Goal]) -> bool:
+    """Whether a thing is to be handled with one hand and not the other."""
+    handles = any(isinstance(goal, (Pick, Place, Bring, Give)) for goal in each(goals))
+    return handles and _NAMED_HAND.search(said.lower()) is not None

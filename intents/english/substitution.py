@@ -1,0 +1,42 @@
+"""One thing in place of another, wherever a goal speaks of it."""
+
+from typing import Any, cast
+
+import msgspec
+
+from intents.goals import Goal, ObjectQuery, Person
+
+
+def substitute(
+    goal: Goal, old: ObjectQuery | Person | str, new: ObjectQuery | Person | str
+) -> Goal:
+    """A goal with one thing in place of another, wherever it stands."""
+    return cast("Goal", _replaced(goal, old, new))
+
+
+def _same(value: object, old: ObjectQuery | Person | str) -> bool:
+    """Whether a value speaks of the same thing; where it is may have been said only once."""
+    if isinstance(value, ObjectQuery) and isinstance(old, ObjectQuery):
+        return msgspec.structs.replace(value, at=None) == msgspec.structs.replace(old, at=None)
+    if isinstance(value, Person) and isinstance(old, Person):
+        return msgspec.structs.replace(value, at=None) == msgspec.structs.replace(old, at=None)
+    return value == old
+
+
+def _replaced(value: object, old: ObjectQuery | Person | str, new: object) -> object:
+    if _same(value, old):
+        kept = getattr(value, "at", None)
+        if kept and isinstance(new, ObjectQuery | Person) and new.at is None:
+            return msgspec.structs.replace(new, at=kept)
+        return new
+    if isinstance(value, tuple):
+        return tuple(_replaced(v, old, new) for v in cast("tuple[object, ...]", value))
+    if not isinstance(value, msgspec.Struct):
+        return value
+    changed: dict[str, Any] = {}
+    for name in value.__struct_fields__:
+        before = getattr(value, name)
+        after = _replaced(before, old, new) if name not in ("name", "color", "what") else before
+        if after is not before:
+            changed[name] = after
+    return msgspec.structs.replace(value, **changed) if changed else value

@@ -1,0 +1,1 @@
+"""Words: tokens, spelling, names, numbers, verbs, and the lists of words that have a meaning."""

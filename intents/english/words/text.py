@@ -1,0 +1,168 @@
+"""A sentence ready for the grammar: tokens, corrected, without fillers."""
+
+from collections.abc import Collection, Mapping
+from typing import TypeVar
+
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.words.lexicon import (
+    ADVERBS,
+    DETERMINERS,
+    FILLERS,
+    FUNCTION_WORDS,
+    Phrase,
+    words,
+)
+from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.verbs import participle_base
+from intents.vocabulary import Vocabulary
+
+T = TypeVar("T")
+_LONGEST_PHRASE = 7
+"""The longest phrase of any table that is looked up: "go on with what you were doing"."""
+_LONGEST_FILLER = max(map(len, FILLERS))
+_REPEATED = words("that no stop bye her had wait")
+_BEFORE_VERBS = words(", . and then to please you")
+_CALLS = words("hey hi hello ok okay dear yo")
+_CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
+"""After "if you can" these make a condition of it."""
+_WISHING = words("would it i")
+_ONCE = words("once when after")
+_FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
+
+
+class Text:
+    """The tokens of what was said, with the names that stand in it.
+
+    Attributes:
+        tokens: Without fillers, spelling corrected.
+        words: Their lower-case texts.
+        index: The names of the vocabulary.
+        corrections: What was written, and what it was taken for.
+    """
+
+    def __init__(self, text: str, vocabulary: Vocabulary) -> None:
+        """Tokenize, correct and drop fillers."""
+        self.index: NameIndex = index_of(vocabulary)
+        speller = speller_of(vocabulary)
+        corrected: list[Token] = []
+        self.corrections: list[tuple[str, str]] = []
+        begins = True
+        for token in _without_name(tokenize(text), self.index):
+            meant = speller.correct(token.text, begins=begins)
+            begins = token.text in _BEFORE_VERBS
+            if meant == [token.text]:
+                corrected.append(token)
+            else:
+                self.corrections.append((token.raw, " ".join(meant)))
+                corrected += [Token(w, w) for w in meant]
+        corrected = [
+            t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
+            if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
+        ]  # fmt: skip
+        self.tokens: list[Token] = _unfinished(_without_fillers(corrected, self.index))
+        self.words: list[str] = [t.text for t in self.tokens]
+        self._matches: dict[int, Match | None] = {}
+
+    def __len__(self) -> int:
+        return len(self.words)
+
+    def word(self, at: int) -> str:
+        """The word at a position, or a full stop beyond the ends."""
+        return self.words[at] if 0 <= at < len(self.words) else FULL_STOP
+
+    def name_at(self, at: int) -> Match | None:
+        """The longest name of the vocabulary that begins at a word."""
+        if at not in self._matches:
+            known = 0 <= at < len(self.words)
+            match = self.index.match(self.words, at) if known else None
+            small = match and match.end == at + 1 and self.words[at] in FUNCTION_WORDS
+            small = small and self.word(at - 1) not in DETERMINERS
+            self._matches[at] = None if small else match
+        return self._matches[at]
+
+    def lookup(self, table: Mapping[Phrase, T], at: int) -> tuple[T, int] | None:
+        """What the longest phrase of a table at a word means, and where it ends."""
+        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+            phrase = tuple(self.words[at:end])
+            if phrase in table:
+                return table[phrase], end
+        return None
+
+    def phrase_end(self, table: Collection[Phrase], at: int) -> int | None:
+        """Where the longest phrase of a set at a word ends."""
+        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+            if tuple(self.words[at:end]) in table:
+                return end
+        return None
+
+    def raw(self, start: int, end: int) -> str:
+        """What was written from one word to another."""
+        said = ""
+        for token in self.tokens[start:end]:
+            glued = token.text in (COMMA, FULL_STOP) or token.raw.lower().startswith(("'", "n't"))
+            said += token.raw if glued or not (said and token.raw) else " " + token.raw
+        return said.rstrip(" ,;.")
+
+
+def _without_name(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Juno, ...; hey Juno, ...: without what the robot is called."""
+    words = [t.text for t in tokens[:3]]
+    at = 1 if words and words[0] in _CALLS else 0
+    if len(tokens) < at + 3 or words[at + 1 : at + 2] != [COMMA]:
+        return tokens
+    known = index.match([words[at]], 0) or words[at] in KNOWN_WORDS or not words[at].isalpha()
+    return tokens if known else tokens[at + 2 :]
+
+
+def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
+    words = [t.text for t in tokens]
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
+        if end is None or index.match(words, at):
+            kept.append(tokens[at])
+            at += 1
+            continue
+        if words[at] == "robot" and kept and kept[-1].text in DETERMINERS:
+            kept.append(tokens[at])
+        elif end < len(words) and words[end] == COMMA and (not kept or kept[-1].text == COMMA):
+            end += 1
+        at = end
+    while kept and kept[-1].text in (COMMA, FULL_STOP):
+        kept.pop()
+    return kept
+
+
+def _unfinished(tokens: list[Token]) -> list[Token]:
+    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1, 1, -1):
+        wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING
+        base = participle_base(words[at]) if wished else None
+        if base:
+            tokens[at] = Token(base, tokens[at].raw)
+    for at in range(len(words) - 2, 1, -1):
+        done = words[at] == "have" and words[at - 1] == "you" and words[at - 2] in _ONCE
+        base = participle_base(words[at + 1]) if done else None
+        if base:
+            tokens[at : at + 2] = [Token(base, tokens[at + 1].raw)]
+    return tokens
+
+
+def _adverb_end(words: list[str], at: int) -> int | None:
+    """Is the cup *still* on the table? But: stand still."""
+    asked = words[0] in ("is", "are", "do", "does", "what", "where") and at + 1 < len(words)
+    return at + 1 if asked and words[at] in ADVERBS else None
+
+
+def _filler_end(words: list[str], at: int) -> int | None:
+    for end in range(min(len(words), at + _LONGEST_FILLER), at, -1):
+        if tuple(words[at:end]) in FILLERS:
+            checked = words[at] in ("if", "when") and words[end : end + 1] in _CHECKED
+            return None if checked else end
+    return None
+
+
+__all__ = ["COMMA", "FULL_STOP", "QUOTE", "Text"]

@@ -1,0 +1,219 @@
+"""The process in the terminal: it runs an executive as its child, and the robot that one asks for.
+
+The executive has the terminal; Ctrl-C reaches it once, as it is in the same group. When it dies,
+the robot finishes its step and stands by itself, the executive is started again, and goes on. After
+the last death that the table allows, the robot is lowered and its motors damp.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import termios
+from collections.abc import Callable, Generator
+from pathlib import Path
+from types import FrameType
+from typing import Any, NamedTuple
+
+import msgspec
+
+from robot.bringup import lowering, private_folder
+from robot.bringup.child import POLL_S, Child, describe_exit
+from robot.bringup.mailbox import FRONT_FILE, RUN_FILE, STATE_FILE, Front, State, save
+from robot.bringup.processes import CRASHED, EXECUTIVE, PROCESSES, Process
+from robot.bringup.supervisor import Supervisor
+from robot.bus import run
+from robot.clock import Clock, WallClock
+from robot.errors import Failure, RobotError
+
+BROKEN, STOPPED = 3, 1
+WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""Signals that mean that somebody wants it to end."""
+
+Tell = Callable[[str], None]
+
+
+class Ended(NamedTuple):
+    """How it ended: the exit status, and why where the executive could not say so itself."""
+
+    status: int
+    reason: str = ""
+
+
+def launch(
+    entry: str,
+    options: dict[str, Any],
+    *,
+    tell: Tell,
+    clock: Clock | None = None,
+    executive: Process = EXECUTIVE,
+    processes: tuple[Process, ...] = PROCESSES,
+) -> Ended:
+    """Run a front end in an executive of its own, until that ends, or dies once too often.
+
+    Args:
+        entry: name of the front end.
+        options: plain data.
+        tell: says a line to people.
+        clock: the wall's; another one in tests.
+        executive: its row of the table.
+        processes: of the robot.
+    """
+    clock = clock or WallClock()
+    private = private_folder.create()
+    child = Child(executive, private, log=None, clock=clock)
+    front = Front(entry=entry, options=options)
+    try:
+        return Launcher(front, private, child, tell=tell, clock=clock, processes=processes).run()
+    finally:
+        private_folder.remove(private)
+
+
+class Launcher:
+    """One executive at a time, and one robot."""
+
+    def __init__(
+        self,
+        front: Front,
+        private: Path,
+        executive: Child,
+        *,
+        tell: Tell,
+        clock: Clock,
+        processes: tuple[Process, ...],
+    ) -> None:
+        """Start nothing yet."""
+        self._front = front
+        self._private = private
+        self._executive = executive
+        self._tell = tell
+        self._clock = clock
+        self._processes = processes
+        self._robot: Supervisor | None = None
+        self._state = State()
+        self._wished = False
+
+    def run(self) -> Ended:
+        """Until an executive has ended by itself, or must not be started again."""
+        with _terminal() as restore, self._signals():
+            try:
+                while True:
+                    ended = self._one_executive()
+                    if ended is None or ended.reason:
+                        restore()
+                    if ended is not None:
+                        return ended
+            finally:
+                self._executive.stop()
+                if self._robot is not None:
+                    self._robot.close()
+
+    def _one_executive(self) -> Ended | None:
+        """Run an executive to its end; None to start another one."""
+        save(self._private / FRONT_FILE, self._front)
+        self._executive.start()
+        while (status := self._executive.status) is None:
+            self._look_after()
+            if self._is_up():
+                self._executive.prepare()
+            self._clock.sleep_until(self._clock.now_s() + POLL_S)
+        self._look_after()
+        return self._judge(status)
+
+    def _judge(self, status: int) -> Ended | None:
+        """What an executive's end means."""
+        if status < 0 and (self._wished or -status in WISHED):
+            return Ended(STOPPED)
+        if status >= 0 and status != CRASHED:
+            return Ended(status)
+        died = "ended by a mistake" if status == CRASHED else describe_exit(status)
+        if not self._is_up():
+            return Ended(BROKEN, f"the executive {died}")
+        if not self._executive.may_start_again:
+            often = self._executive.row.restarts + 1
+            return self._give_up(f"the executive {died}, {often} times within a minute")
+        self._tell(f"The executive {died}. The robot finishes its step and stands; going on ...")
+        deaths = self._front.deaths + 1
+        self._front = msgspec.structs.replace(self._front, deaths=deaths)
+        return None
+
+    def _give_up(self, why: str) -> Ended:
+        """Lower the robot and let it damp."""
+        self._tell(f"The executive is not started again: {why}. Lowering the robot ...")
+        try:
+            lowered = lowering.lower(run.load(self._private / RUN_FILE), clock=self._clock)
+        except RobotError as error:
+            lowered = f"the robot could not be lowered: {error}"
+        return Ended(BROKEN, f"{why}; {lowered}")
+
+    # --- the robot ---
+
+    def _is_up(self) -> bool:
+        """Whether there is a robot, and nothing of it is lost."""
+        return self._robot is not None and self._state.failure is None
+
+    def _look_after(self) -> None:
+        """Start the robot when it is asked for, and tell the executive how its processes are."""
+        if self._robot is None:
+            if not (self._private / RUN_FILE).exists():
+                return
+            wanted = run.load(self._private / RUN_FILE)
+            self._robot = Supervisor(
+                self._private / RUN_FILE,
+                logs=Path(wanted.folder) / "logs",
+                clock=self._clock,
+                processes=self._processes,
+                simulated=wanted.simulated,
+            )
+            try:
+                self._robot.__enter__()
+            except RobotError as error:
+                self._report(self._robot, Failure(code="internal", cause=str(error)))
+        self._report(self._robot, self._state.failure or self._robot.check())
+
+    def _report(self, robot: Supervisor, failure: Failure | None) -> None:
+        state = State(failure=failure, restarted=tuple(robot.restarted), pids=robot.pids)
+        if state != self._state:
+            self._state = state
+            save(self._private / STATE_FILE, state)
+
+    # --- signals ---
+
+    @contextlib.contextmanager
+    def _signals(self) -> Generator[None]:
+        """Ctrl-C and a closed terminal reach the executive by themselves; SIGTERM is passed on."""
+        before = {number: signal.getsignal(number) for number in WISHED}
+
+        def hear(number: int, _frame: FrameType | None) -> None:
+            self._wished = True
+            if number == signal.SIGTERM:
+                self._executive.signal(signal.SIGTERM)
+
+        for number, handler in before.items():
+            if handler is not signal.SIG_IGN:  # as `nohup` wants it
+                signal.signal(number, hear)
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def _terminal() -> Generator[Callable[[], None]]:
+    """Remember how the terminal is; what is yielded puts it back as it was, cursor and all."""
+    try:
+        modes = termios.tcgetattr(sys.stdin.fileno())
+    except (termios.error, ValueError, OSError):
+        yield lambda: None
+        return
+
+    def restore() -> None:
+        with contextlib.suppress(termios.error, OSError):
+            termios.tcsetattr(sys.stdin.fileno(), termios.TCSADRAIN, modes)
+        if sys.stdout.isatty():
+            os.write(sys.stdout.fileno(), b"\x1b[?25h\x1b[?2004l\r\n")
+
+    yield restore

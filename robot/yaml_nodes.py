@@ -1,0 +1,291 @@
+"""YAML text as nodes that know where they stand; what explodes or deceives is refused at once.
+
+Every YAML file is read here: `robot.config` makes typed values of the nodes, and a mission's
+reader walks over them.
+
+The events of libyaml are read one by one, so that size, depth, anchors, tags and doubled keys are
+judged before anything is built of them.
+"""
+
+from __future__ import annotations
+
+import re
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal, cast
+
+import yaml
+
+from robot.errors import ConfigError, Problem
+
+MAX_BYTES = 2_000_000
+MAX_DEPTH = 60
+MAX_NODES = 150_000
+
+Kind = Literal["text", "list", "map"]
+Scalar = str | int | float | bool | None
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_INTEGER = re.compile(r"[-+]?[0-9]{1,18}")
+_NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]{1,3})?")
+_WORDS: dict[str, Scalar] = {
+    "": None, "~": None, "null": None, "Null": None, "true": True, "True": True, "false": False,
+    "False": False,
+}  # fmt: skip
+
+
+_NO_ITEMS: list[Any] = []
+_NO_ENTRIES: dict[str, Any] = {}
+
+
+class Node:
+    """A piece of a file: a text, a list or a mapping, and where it begins (from 1)."""
+
+    __slots__ = ("column", "entries", "file", "items", "kind", "line", "plain", "text")
+
+    def __init__(self, kind: Kind, file: str, line: int, column: int) -> None:
+        """Begin an empty one."""
+        self.kind: Kind = kind
+        self.file = file
+        self.line = line
+        self.column = column
+        self.text = ""
+        self.plain = False
+        self.items: list[Node] = [] if kind == "list" else _NO_ITEMS
+        self.entries: dict[str, tuple[Node, Node]] = {} if kind == "map" else _NO_ENTRIES
+
+    @property
+    def value(self) -> Scalar:
+        """A text without quotes as what YAML takes it for: a number, true, nothing, a text."""
+        return resolve(self.text) if self.plain else self.text
+
+    def get(self, key: str) -> Node | None:
+        """The value of a key of a mapping."""
+        entry = self.entries.get(key)
+        return entry[1] if entry else None
+
+    def key(self, key: str) -> Node:
+        """Where a key of a mapping stands; the mapping itself if it has none of that name."""
+        entry = self.entries.get(key)
+        return entry[0] if entry else self
+
+    def problem(self, message: str, cure: str = "") -> Problem:
+        """Something wrong here."""
+        return Problem(message, self.file, self.line, self.column, cure or None)
+
+    @property
+    def plain_data(self) -> Any:
+        """The same as ordinary dicts, lists and scalars."""
+        if self.kind == "text":
+            return self.value
+        if self.kind == "list":
+            return [item.plain_data for item in self.items]
+        return {key: value.plain_data for key, (_, value) in self.entries.items()}
+
+
+def resolve(text: str) -> Scalar:
+    """What a text without quotes means (YAML 1.2's core schema, decimal numbers only)."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if text[0] not in "0123456789+-.":
+        return text
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    return float(text) if _NUMBER.fullmatch(text) else text
+
+
+def text_node(text: str, like: Node, *, plain: bool = False) -> Node:
+    """A text in the place of another node."""
+    node = Node("text", like.file, like.line, like.column)
+    node.text, node.plain = text, plain
+    return node
+
+
+def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
+    """A text file, if it can be meant to be one.
+
+    Raises:
+        ConfigError: it is missing, no file, too large, or no UTF-8 text.
+    """
+    path = Path(path)
+    try:
+        _must_be_file(path)
+        with path.open("rb") as file:
+            data = file.read(limit + 1)
+    except FileNotFoundError:
+        raise _refusal(path, "there is no such file", "check the path") from None
+    except OSError as error:
+        raise _refusal(path, f"cannot be read: {error.strerror}", "name a file") from None
+    if len(data) > limit:
+        raise _refusal(path, f"the file is larger than {limit / 1e6:g} MB", "split it up")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
+        text = f"this is no UTF-8 text (byte {data[error.start]:#04x})"
+        raise _refusal(path, text, "save it as UTF-8", line=line, column=column) from None
+
+
+def _must_be_file(path: Path) -> None:
+    """Check that it is a file that ends.
+
+    Raises:
+        ConfigError: it is a folder, a device or a pipe.
+    """
+    if not stat.S_ISREG(path.stat().st_mode):
+        raise _refusal(path, "this is no ordinary file", "name a file")
+
+
+def read(path: Path | str, *, begin_with: str = "") -> Node:
+    """The one document of a YAML file; raises ConfigError as `read_text` and `parse` do."""
+    return parse(read_text(path), str(path), begin_with=begin_with)
+
+
+def dump(data: Any) -> str:
+    """Plain data as YAML text, written out in full, keys in their order."""
+    return yaml.dump(data, Dumper=_Plain, sort_keys=False, allow_unicode=True, width=100)
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes everything out: no anchors."""
+
+    def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002, by PyYAML's contract
+        """Nothing is shared."""
+        return True
+
+
+def parse(text: str, file: str, *, begin_with: str = "") -> Node:
+    """The one document of a YAML text.
+
+    Args:
+        text: all of it.
+        file: its name, for people.
+        begin_with: what somebody with an empty file is told.
+
+    Raises:
+        ConfigError: it is empty, no YAML, too deep, too large, or uses anchors, tags, double keys.
+    """
+    try:
+        root = _Builder(file).build(_events(text))
+    except yaml.MarkedYAMLError as error:
+        mark: Any = error.problem_mark or error.context_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark else (None, None)
+        what = ", ".join(part for part in (error.context, error.problem) if part)
+        raise _refusal(
+            file, f"not valid YAML: {what}", _cure(what), line=line, column=column
+        ) from None
+    except yaml.YAMLError as error:
+        what = str(error).splitlines()[0]
+        raise _refusal(file, f"not a text file: {what}", "save it as plain text") from None
+    if root is None:
+        raise _refusal(file, "the file is empty", begin_with and f"begin with: {begin_with}")
+    return root
+
+
+def _events(text: str) -> Iterator[Any]:
+    return cast("Any", yaml).parse(text, Loader=_LOADER)
+
+
+def _cure(what: str) -> str:
+    if "'%'" in what or "'@'" in what or "'`'" in what:
+        return "put the text into quotes"
+    if "mapping values are not allowed" in what:
+        return "put a text with a colon into quotes"
+    if "'\\t'" in what:
+        return "indent with spaces"
+    return "look at the indentation, the brackets and the quotes"
+
+
+class _Builder:
+    """Makes nodes of events."""
+
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._root: Node | None = None
+        self._stack: list[Node] = []
+        self._keys: list[Node | None] = []
+        self._count = 0
+
+    def build(self, events: Iterator[Any]) -> Node | None:
+        """The root of the one document; None if there is nothing in it."""
+        for event in events:
+            kind = cast("Any", type(event))
+            if kind is yaml.ScalarEvent:
+                node = self._begin("text", event)
+                node.text = event.value
+                node.plain = not event.style
+                self._put(node)
+            elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
+                self._open(event, "map" if kind is yaml.MappingStartEvent else "list")
+            elif kind is yaml.MappingEndEvent or kind is yaml.SequenceEndEvent:
+                self._stack.pop()
+                self._keys.pop()
+            elif kind is yaml.AliasEvent:
+                self._refuse(event, "aliases (*name) are not allowed", "write it out")
+            elif kind is yaml.DocumentStartEvent and self._root is not None:
+                self._refuse(event, "a second document begins here", "one document a file")
+        if self._root is None or (self._root.kind == "text" and self._root.value is None):
+            return None
+        return self._root
+
+    def _begin(self, kind: Kind, event: Any) -> Node:
+        mark = event.start_mark
+        self._count += 1
+        if event.anchor is not None:
+            self._refuse(event, "anchors (&name) are not allowed", "write it out")
+        if event.tag is not None and event.tag != "!":
+            self._refuse(event, f"tags ({event.tag}) are not allowed", "leave it out")
+        if self._count > MAX_NODES:
+            self._refuse(event, f"more than {MAX_NODES} values", "split it up")
+        return Node(kind, self._file, mark.line + 1, mark.column + 1)
+
+    def _open(self, event: Any, kind: Kind) -> None:
+        node = self._begin(kind, event)
+        if len(self._stack) >= MAX_DEPTH:
+            self._refuse(event, f"nested deeper than {MAX_DEPTH} levels", "make it flatter")
+        self._put(node)
+        self._stack.append(node)
+        self._keys.append(None)
+
+    def _put(self, node: Node) -> None:
+        """Put a node where it belongs: into a list, as a key, or as the value of a key."""
+        if not self._stack:
+            self._root = node
+            return
+        parent = self._stack[-1]
+        if parent.kind == "list":
+            parent.items.append(node)
+            return
+        key = self._keys[-1]
+        if key is None:
+            self._check_key(parent, node)
+            self._keys[-1] = node
+            return
+        parent.entries[key.text] = (key, node)
+        self._keys[-1] = None
+
+    def _check_key(self, parent: Node, key: Node) -> None:
+        if key.kind != "text":
+            cure = 'a parameter stands in quotes: "{{name}}"' if key.kind == "map" else ""
+            raise ConfigError([key.problem("a key must be a text", cure or "put it into quotes")])
+        if key.text in parent.entries:
+            line = parent.entries[key.text][0].line
+            text = f"the key {key.text!r} stands here twice"
+            raise ConfigError([key.problem(text, f"see line {line}")])
+
+    def _refuse(self, event: Any, message: str, cure: str) -> None:
+        mark = event.start_mark
+        raise _refusal(self._file, message, cure, line=mark.line + 1, column=mark.column + 1)
+
+
+def _refusal(
+    path: Path | str,
+    message: str,
+    cure: str,
+    *,
+    line: int | None = None,
+    column: int | None = None,
+) -> ConfigError:
+    return ConfigError([Problem(message, str(path), line, column, cure or None)])
