@@ -30,9 +30,10 @@ from executive.engine.recorder import Recorder
 from executive.journal.journal import Journal
 from executive.runs.session import RATES_HZ
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import WaitParams
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.wait import WaitParams
 from tests.fakes.oracle_planner import RulePlanner
 from tests.fakes.worlds import JUNO, puppet
 
@@ -42,8 +43,15 @@ WARM_UP, BLOCKS, BLOCK = 40, 60, 10
 MOST = 1.3
 
 
-class Still(ScriptedSkill):
+class Still(ScriptedSkill[WaitParams]):
     """Waits for ever."""
+
+    resources = frozenset()
+
+    @classmethod
+    def forecast(cls, wanted: WaitParams, outlook: Outlook) -> Forecast:  # noqa: ARG003
+        """Nobody asks."""
+        return Forecast(0.0)
 
     def script(self) -> Script[None]:
         """Wait."""
@@ -103,7 +111,7 @@ class Bench:
         self.body = puppet()
         context = SkillContext(link=self.body, planner=RulePlanner(), description=JUNO)
         self.executive = Executive(
-            context, Journal(), rates_hz=RATES_HZ, make=lambda _, given: Still(given)
+            context, Journal(), rates_hz=RATES_HZ, make=lambda _, given: Still(WaitParams(), given)
         )
         self.recorder = Recorder(self.executive) if recorded else None
         self.executive.submit(lambda stage: build(own(stage)), text="benchmark")
@@ -112,8 +120,7 @@ class Bench:
         for _ in range(WARM_UP):
             self.full()
             self.bare()
-        task = self.executive.tree.shown
-        assert task is not None
+        task = self.executive.tree.jobs.children[-1]
         assert task.status is self.task.status is Status.RUNNING
 
     def full(self) -> float:

@@ -20,8 +20,12 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import SimulatedClock
-from robot.drivers.motors import MotorCommand, MotorState
-from robot.drivers.shared_memory import MotorServer, SharedMotors
+from robot.closing import Closing
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
+from robot.drivers.motor_bus import MIT_MODE, MotorCommand, MotorState
+from robot.drivers.simulation.shared_plant import PlantServer, SharedPlant
+from robot.drivers.wiring import Wiring
 from robot.messages import BodyState, DepthImage, Message
 from robot.model import description
 from robot.se3 import SE3
@@ -91,21 +95,22 @@ def cost(call: Callable[[], object]) -> list[float]:
     return durations
 
 
-class Still:
+class Still(Closing):
     """A plant, a controller and a perception that do nothing."""
 
     def __init__(self) -> None:
         n = np.zeros(COUNT)
-        self.state_ = MotorState(
-            0.0, n, n, n, n, np.zeros(3), np.zeros(3), np.zeros((2, 6)), np.zeros((2, 6)),
-            watchdog=False, command_stamp_s=0.0,
-        )  # fmt: skip
+        self.sample = BodySample(
+            MotorState(0.0, n, n, n, n, n, watchdog=False, command_stamp_s=0.0),
+            ImuReading(0.0, np.zeros(3), np.zeros(3)),
+            ForceReading(0.0, np.zeros((2, 6)), np.zeros((2, 6))),
+        )
         self.command = MotorCommand.damping(COUNT, 0.0)
         self.body = body_state(0.0)
 
-    def read(self) -> MotorState:
+    def read(self) -> BodySample:
         """Always the same."""
-        return self.state_
+        return self.sample
 
     def write(self, command: MotorCommand) -> MotorCommand:
         """Taken as it is."""
@@ -114,14 +119,27 @@ class Still:
     def step(self, count: int = 1) -> None:
         """Nothing moves."""
 
-    def sense(self, now_s: float) -> list[tuple[str, Message]]:  # noqa: ARG002
+    def open(self) -> None:
+        """Nothing to reach."""
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+    def claim(self, driver: object) -> bool:  # noqa: ARG002
+        """There is only one."""
+        return True
+
+    def release(self, driver: object) -> None:
+        """There is no other."""
+
+    def sense(self, now_s: float) -> list[tuple[topics.Topic[Message], Message]]:  # noqa: ARG002
         """Nothing is ever due."""
         return []
 
     def handle(self, command: object) -> None:
         """Nothing to do."""
 
-    def tick(self, state: MotorState) -> MotorCommand:  # noqa: ARG002
+    def tick(self, sample: BodySample) -> MotorCommand:  # noqa: ARG002
         """Always the same."""
         return self.command
 
@@ -132,8 +150,10 @@ class Still:
 
 def lockstep_period_s() -> float:
     """A 2 ms period of `fast` without plant, controller and perception [s]."""
-    still = Still()
-    with Lockstep(still, lambda: still, still, bus=LocalBus()) as runtime:  # pyright: ignore
+    still, bus, clock = Still(), LocalBus(), SimulatedClock()
+    wiring = Wiring(robot=description.load("juno"), clock=clock, bus=bus, plant=still)
+    body = BodyDevices(wiring, needs=MIT_MODE)
+    with Lockstep(still, lambda: still, still, body=body, bus=bus, clock=clock) as runtime:  # pyright: ignore
         runtime.advance(1.0)
         begin = time.process_time()
         runtime.advance(20.0)
@@ -150,18 +170,20 @@ def main() -> None:
         say(f"zenoh one way, {name}", zenoh_one_way(name))
     still, robot = Still(), description.load("juno")
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "motors"
-        server = MotorServer.of(robot, path)
-        server.publish(still.state_)
-        with SharedMotors.of(robot, path, clock=SimulatedClock()) as motors:
-            say("shared memory, publish a state", cost(lambda: server.publish(still.state_)))
-            say("shared memory, write a command", cost(lambda: motors.write(still.command)))
+        server = PlantServer(robot, Path(folder))
+        server.publish(still.sample)
+        clock = SimulatedClock()
+        plant = SharedPlant(robot, Path(folder), clock=clock)
+        wiring = Wiring(robot=robot, clock=clock, bus=LocalBus(), plant=plant)
+        with BodyDevices(wiring, needs=MIT_MODE) as body:
+            say("shared memory, publish a sample", cost(lambda: server.publish(still.sample)))
+            say("shared memory, write a command", cost(lambda: body.write(still.command)))
 
             def both() -> None:
-                server.publish(still.state_)
-                motors.read()
+                server.publish(still.sample)
+                body.read()
 
-            say("shared memory, publish and read a state", cost(both))
+            say("shared memory, publish and read a sample", cost(both))
     print(f"{'fast: overhead of one 2 ms period':44} {lockstep_period_s() * 1e6:12.1f} µs CPU")
 
 

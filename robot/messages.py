@@ -335,6 +335,17 @@ class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
     mass_kg: float
     synonyms: tuple[str, ...] = ()
 
+    @property
+    def plain_name(self) -> str:
+        """The name without the colour in front of it: "cup" of a "red cup"."""
+        plain = self.name.removeprefix(f"{self.color} ") if self.color else self.name
+        return plain or self.name
+
+    @property
+    def full_name(self) -> str:
+        """What it is called on screen: "the red cup"."""
+        return f"the {self.color} {self.plain_name}" if self.color else f"the {self.plain_name}"
+
 
 class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):
     """A person as the world file gives them."""
@@ -357,6 +368,18 @@ class WorldMap(Message, frozen=True, kw_only=True):
     bounds_m: tuple[float, float, float, float]
     start_X_WS: SE3 = SE3()
     source: Source = "oracle"
+
+    def object(self, object_id: str) -> ObjectInfo | None:
+        """The object with an id."""
+        return next((item for item in self.objects if item.id == object_id), None)
+
+    def place(self, place_id: str) -> Place | None:
+        """The place with an id."""
+        return next((item for item in self.places if item.id == place_id), None)
+
+    def person(self, person_id: str) -> PersonInfo | None:
+        """The person with an id."""
+        return next((item for item in self.people if item.id == person_id), None)
 
 
 class Track(msgspec.Struct, frozen=True, kw_only=True):

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.drivers.motors import MotorState
+from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
+from robot.drivers.motor_bus import MotorState
 from robot.errors import DescriptionError, Problem
 from robot.model.description import RobotDescription
 from robot.se3 import Array
@@ -49,10 +50,11 @@ class BodySensors:
         self._q, self._qd = self._truth[:n], self._truth[n : 2 * n]
         self._tau, self._rest = self._truth[2 * n : 3 * n], self._truth[3 * n :]
         self._wrenches = self._rest[6:]
+        self._at_once: Array = np.zeros(n)
         self._noise: Array = np.empty((0, len(self._sigma)))
         self._drawn = 0
 
-    def measure(self, stamp_s: float) -> MotorState:
+    def measure(self, stamp_s: float) -> BodySample:
         """Measure everything; forces and accelerations are those of the last physics step."""
         truth, motors = self._truth, self._motors
         n = motors.count
@@ -63,19 +65,19 @@ class BodySensors:
         np.negative(self._wrenches, out=self._wrenches)  # MuJoCo's wrench: parent on child
         values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
         rest = values[3 * n :]
-        return MotorState(
+        state = MotorState(
             stamp_s=stamp_s,
             q=values[:n],
             qd=values[n : 2 * n],
             tau=values[2 * n : 3 * n],
             temperature_c=motors.temperature_c.copy(),
-            gyro_rad_s=rest[:3],
-            accel_m_s2=rest[3:6],
-            ankle_wrench=rest[6:18].reshape(2, 6),
-            wrist_wrench=rest[18:30].reshape(2, 6),
+            age_s=self._at_once,
             watchdog=motors.watchdog,
             command_stamp_s=motors.command_stamp_s,
         )
+        imu = ImuReading(stamp_s, rest[:3], rest[3:6])
+        force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), rest[18:30].reshape(2, 6))
+        return BodySample(state, imu, force)
 
     def _next_noise(self, rng: np.random.Generator) -> Array:
         """Noise of one measurement; drawn for many at once, which is cheaper."""

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from robot.bus.topics import TOPICS
+from robot.drivers.registry import SENSES
 from robot.errors import ConfigError
 from robot.model.description import RobotDescription
 from robot.reality.faults import (
@@ -38,6 +39,11 @@ SENSORS: dict[str, tuple[str, ...]] = {
     "localisation": ("oracle/fix",),
 }
 """A sensor to the topics that fall silent with it."""
+SENT = [
+    *(topic.name for topic in TOPICS if topic.source == "plant"),
+    *(sense.topic.name for sense in SENSES),
+]
+"""What a plant sends, or the drivers of its sensors publish."""
 
 
 def verify(fault: Fault, world: World, robot: RobotDescription) -> None:
@@ -52,7 +58,7 @@ def verify(fault: Fault, world: World, robot: RobotDescription) -> None:
         "target": objects if isinstance(fault, KnockOver | Occupy) else bodies,
         "place": list(atlas.places(world)),
         "motor": list(robot.motor_names),
-        "topic": [*SENSORS, *(topic.name for topic in TOPICS if topic.source == "plant")],
+        "topic": [*SENSORS, *SENT],
     }
     for field, valid in known.items():
         name = getattr(fault, field, None)

@@ -8,7 +8,7 @@ from robot.bus import topics
 from robot.bus.bus import Bus
 from robot.bus.timing import Lateness
 from robot.clock import Clock
-from robot.drivers.shared_memory import MotorServer
+from robot.drivers.simulation.shared_plant import PlantServer
 from robot.errors import ConfigError
 from robot.reality.faults import FAULT
 from sim import faults
@@ -26,7 +26,7 @@ TIMING_S = 1.0
 class LivePlant:
     """Runs a plant in step with the wall clock, as far as controller and machine keep up.
 
-    Each period publishes the motors' state and waits for a command that answers it, a few
+    Each period publishes what the body feels and waits for a command that answers it, a few
     milliseconds at most: on a slow machine simulated time then runs slower than the wall's
     (`PLANT_TIMING` says by how much) instead of letting the robot fall. Once the motors'
     watchdog has tripped, nothing is waited for. Time stands still until the first command.
@@ -35,10 +35,10 @@ class LivePlant:
         refused: faults that named what is not there.
     """
 
-    def __init__(self, plant: Plant, motors: MotorServer, bus: Bus, *, clock: Clock) -> None:
+    def __init__(self, plant: Plant, body: PlantServer, bus: Bus, *, clock: Clock) -> None:
         """Put the parts together; nothing runs before `run`."""
         self.refused: list[str] = []
-        self._plant, self._motors, self._bus, self._clock = plant, motors, bus, clock
+        self._plant, self._body, self._bus, self._clock = plant, body, bus, clock
         self._faults = bus.subscribe(FAULT)
         self._controller = bus.subscribe(topics.CONTROLLER_TIMING)
         self._lateness = Lateness("plant", PERIOD_S)
@@ -60,13 +60,14 @@ class LivePlant:
                 faults.apply(plant, fault)
             except ConfigError as error:
                 self.refused.append(str(error))
-        state = plant.read()
-        self._motors.publish(state)
+        sample = plant.read()
+        self._body.publish(sample)
         if (timing := self._controller.latest) is not None:
             plant.sensing.relieved = timing.pressed
-        for name, message in plant.sense():
-            self._bus.publish(topics.named(name), developed(message))
-        self._exchange(patience_s=PATIENCE_S if self._begun and not state.watchdog else 0.0)
+        for topic, message in plant.sense():
+            self._bus.publish(topic, developed(message))
+        waits = self._begun and not sample.motors.watchdog
+        self._exchange(patience_s=PATIENCE_S if waits else 0.0)
         if self._begun:
             plant.step(PERIOD_MS)
         self._pace()
@@ -80,7 +81,7 @@ class LivePlant:
         asked_s = self._plant.time_s
         until_s = self._clock.now_s() + patience_s
         while True:
-            if (command := self._motors.take()) is not None:
+            if (command := self._body.take()) is not None:
                 self._plant.write(command)
                 self._begun = True
                 if command.stamp_s >= asked_s:

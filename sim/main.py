@@ -8,7 +8,7 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
-from robot.drivers.shared_memory import MotorServer
+from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
 from sim.reality import Simulation
@@ -21,13 +21,9 @@ def main(run_file: str, parent_pid: str) -> None:
     world = Simulation().world(config.world, vary_seed=config.variation_seed)
     robot = description.load(config.robot)
     plant = world.plant(robot, seed=config.seed)
-    with ZenohBus("plant", config.sockets) as bus:
-        motors = MotorServer.of(robot, config.motors_path)
+    with ZenohBus("plant", config.sockets) as bus, PlantServer(robot, config.memory) as body:
         ask_for_real_time()
-        try:
-            LivePlant(plant, motors, bus, clock=WallClock()).run(lambda: bool(stop))
-        finally:
-            motors.close()
+        LivePlant(plant, body, bus, clock=WallClock()).run(lambda: bool(stop))
 
 
 if __name__ == "__main__":

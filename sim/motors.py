@@ -1,6 +1,6 @@
 """Motors as they are bought: a PD loop in their own firmware, a torque limit, a watchdog, heat.
 
-The firmware law of `robot.drivers.motors` is written into MuJoCo's actuators: gain 1 and affine
+The firmware law of `robot.drivers.motor_bus` is written into MuJoCo's actuators: gain 1 and affine
 bias (0, -kp, -kd) make ``force = ctrl - kp q - kd qd``, so that with
 ``ctrl = kp q_des + kd qd_des + tau_ff`` the loop runs at the physics rate and is integrated
 implicitly (no instability from a stiff gain), and `forcerange` is the torque limit.
@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from robot.config import nearest
-from robot.drivers.motors import MotorCommand
+from robot.drivers.motor_bus import MotorCommand
 from robot.errors import DescriptionError, DriverError, Problem
 from robot.model.description import RobotDescription
 from robot.se3 import Array

@@ -6,11 +6,14 @@ import heapq
 import itertools
 import math
 from collections.abc import Callable
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from robot.drivers.motors import MotorCommand, MotorState
+from robot.bus.topics import Topic
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
 from robot.messages import Message, Place
 from robot.model.description import RobotDescription
@@ -98,6 +101,8 @@ class Plant:
         self._later: list[tuple[int, int, Callable[[], None]]] = []  # a heap: when [ms], number
         self._numbers = itertools.count()
         self._base = int(self.model.body(robot.base_body).id)
+        self._commander: object | None = None
+        self._sample: BodySample | None = None
         self.stand(start_pose(world), posture=posture)
 
     @property
@@ -123,6 +128,23 @@ class Plant:
         data.qpos[base_q : base_q + 7] = (*X_WB.p, *X_WB.quat_wxyz)
         mujoco.mj_forward(model, data)
 
+    def open(self) -> None:
+        """It is there already: a driver in this process reaches it."""
+
+    def close(self) -> None:
+        """It stays."""
+
+    def claim(self, driver: object) -> bool:
+        """Let this driver alone command the motors; False while another one does."""
+        if self._commander is None:
+            self._commander = driver
+        return self._commander is driver
+
+    def release(self, driver: object) -> None:
+        """Let another driver command, if this one did."""
+        if self._commander is driver:
+            self._commander = None
+
     def write(self, command: MotorCommand) -> MotorCommand:
         """Command every motor; returns what the packets could carry.
 
@@ -133,11 +155,17 @@ class Plant:
         self._watchdog_ms = self._now_ms + self._patience_ms
         return sent
 
-    def read(self) -> MotorState:
+    def read(self) -> BodySample:
         """Measure motors, IMU, ankles and wrists now."""
-        return self._body.measure(self.time_s)
+        self._sample = self._body.measure(self.time_s)
+        return self._sample
 
-    def sense(self, now_s: float | None = None) -> list[tuple[str, Message]]:
+    @property
+    def sample(self) -> BodySample:
+        """What was measured last inside the body."""
+        return self._sample or self.read()
+
+    def sense(self, now_s: float | None = None) -> list[tuple[Topic[Any], Message]]:
         """Topics and messages of depth, lidar and oracle that are due (by the plant's time)."""
         return self.sensing.due(self.time_s if now_s is None else now_s)
 

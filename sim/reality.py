@@ -14,7 +14,7 @@ from sim import atlas, faults, placing, world
 from sim.schema import World
 
 if TYPE_CHECKING:
-    from sim.simulated_plant import SimulatedPlant
+    from sim.judged_plant import JudgedPlant
 
 
 class Simulation:
@@ -69,8 +69,8 @@ class SimulatedWorld:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         faults.verify(fault, self.entries, robot)
 
-    def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> SimulatedPlant:
+    def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> JudgedPlant:
         """Build the scene and stand the robot in it. Raises RobotError as `sim.plant.Plant`."""
-        from sim.simulated_plant import SimulatedPlant  # MuJoCo, which a list of worlds needs not
+        from sim.judged_plant import JudgedPlant  # MuJoCo, which a list of worlds needs not
 
-        return SimulatedPlant(self.entries, robot, seed=seed, physics_ms=physics_ms)
+        return JudgedPlant(self.entries, robot, seed=seed, physics_ms=physics_ms)

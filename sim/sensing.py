@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any, Generic, TypeVar
 
 import msgspec
 import mujoco
 import numpy as np
 
 from robot.bus import topics
+from robot.bus.topics import Topic
+from robot.drivers.simulation.sensors import emulated
 from robot.messages import Message
 from robot.model.description import RobotDescription
 from sim.atlas import world_map
@@ -19,21 +22,26 @@ from sim.rays import Rays
 from sim.schema import World
 from sim.sensors import DepthCamera, PlanarLidar
 
-ORACLE_HZ = 10.0
-MAP_HZ = 1.0
-POWER_HZ = 1.0
+M = TypeVar("M", bound=Message)
 SLOWER = 2.0
 """By how much camera and lidar are slower while the controller is pressed for time."""
-HEAVY = frozenset({topics.DEPTH.name, topics.LIDAR.name, topics.ORACLE_SIGHTINGS.name})
+HEAVY = (topics.DEPTH, topics.LIDAR, topics.ORACLE_SIGHTINGS)
 """What costs time to make, and to look at."""
 
 
-class _Source:
-    """One topic: how its message is made, and when the next one is due."""
+class _Source(Generic[M]):
+    """One topic: how its message is made, and when the next one is due.
 
-    def __init__(self, topic: str, rate_hz: float, make: Callable[[float], Message]) -> None:
-        self.topic, self.make = topic, make
-        self.period_s = 1.0 / rate_hz
+    What a sensor measures goes to the sensor's driver, which publishes it.
+    """
+
+    def __init__(self, topic: Topic[M], make: Callable[[float], M]) -> None:
+        if topic.rate_hz is None:
+            raise ValueError(f"{topic.name} has no rate to send it at")
+        self.name, self.make = topic.name, make
+        self.topic = topic if topic.source == "plant" else emulated(topic)
+        self.heavy = topic in HEAVY
+        self.period_s = 1.0 / topic.rate_hz
         self.due_s = 0.0
         self.silent_until_s = -math.inf
 
@@ -68,39 +76,37 @@ class Sensing:
             rng=seeds[2], pose_error_m=pose_error_m,
         )  # fmt: skip
         prior = world_map(world)
-        sensors = robot.sensors
         self.relieved = False
-        self._sources = [
-            _Source(topics.DEPTH.name, sensors.camera.rate_hz, self.camera.capture),
-            _Source(topics.LIDAR.name, sensors.lidar.rate_hz, self.lidar.scan),
-            _Source(topics.ORACLE_FIX.name, ORACLE_HZ, self.oracle.fix),
-            _Source(topics.ORACLE_SIGHTINGS.name, ORACLE_HZ, self.oracle.sightings),
+        self._sources: list[_Source[Any]] = [
+            _Source(topics.DEPTH, self.camera.capture),
+            _Source(topics.LIDAR, self.lidar.scan),
+            _Source(topics.ORACLE_FIX, self.oracle.fix),
+            _Source(topics.ORACLE_SIGHTINGS, self.oracle.sightings),
             _Source(
-                topics.ORACLE_MAP.name, MAP_HZ,
-                lambda stamp_s: msgspec.structs.replace(prior, stamp_s=stamp_s),
+                topics.ORACLE_MAP, lambda stamp_s: msgspec.structs.replace(prior, stamp_s=stamp_s)
             ),
-        ]  # fmt: skip
+        ]
         if battery is not None:
-            self._sources.append(_Source(topics.POWER.name, POWER_HZ, battery.report))
+            self._sources.append(_Source(topics.POWER, battery.report))
 
     def topics(self) -> list[str]:
-        """Every topic that the plant sends."""
-        return [source.topic for source in self._sources]
+        """Names of the topics that the plant, or a driver of its sensors, sends."""
+        return [source.name for source in self._sources]
 
     def silence(self, topic: str, until_s: float) -> None:
         """Let a sensor say nothing until then."""
         for source in self._sources:
-            if source.topic == topic:
+            if source.name == topic:
                 source.silent_until_s = until_s
 
-    def due(self, now_s: float) -> list[tuple[str, Message]]:
-        """The messages due by now, with their topics."""
+    def due(self, now_s: float) -> list[tuple[Topic[Any], Message]]:
+        """The messages due by now, with the topics to send them on."""
         ready = [source for source in self._sources if now_s >= source.due_s - 1e-9]
         if ready:  # positions are those of the last step until this brings them up to date
             mujoco.mj_kinematics(self._model, self._data)
-        found: list[tuple[str, Message]] = []
+        found: list[tuple[Topic[Any], Message]] = []
         for source in ready:
-            slower = SLOWER if self.relieved and source.topic in HEAVY else 1.0
+            slower = SLOWER if self.relieved and source.heavy else 1.0
             source.due_s = max(source.due_s + slower * source.period_s, now_s)
             if now_s >= source.silent_until_s:
                 found.append((source.topic, source.make(now_s)))

@@ -27,6 +27,7 @@ from executive.engine.jobs import BODY, OVER, UNLIMITED, Job, Limits
 from executive.engine.sense import Sense
 from executive.engine.tree import BuildTask, Tree
 from executive.journal.journal import Journal
+from executive.journal.reader import Reader
 from executive.skills import catalogue
 from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
@@ -57,7 +58,14 @@ Request = Callable[[], None]
 
 
 class Executive:
-    """One robot's executive: one tree, and the jobs in it."""
+    """One robot's executive: one tree, and the jobs in it.
+
+    Attributes:
+        board: the blackboard.
+        journal: where events go.
+        so_far: what the journal tells since this executive began, for all who show it.
+        tree: what is ticked.
+    """
 
     def __init__(
         self,
@@ -77,6 +85,9 @@ class Executive:
         """
         self.board = Blackboard()
         self.journal = journal
+        reader = Reader()
+        journal.listen(reader.event)
+        self.so_far = reader.run
         self.on_request: Callable[[], None] = lambda: None
         self.outcome: Outcome | None = None
         self._operator = self.board.claim("operator")

@@ -1,9 +1,9 @@
 """How well the robot is, from the ages and rates of its messages and from what they say.
 
-Everything here is a table. The promised rate of a topic (`robot.bus.topics`) says when it is late
-or thin; `CONCERNS` says what that means for the robot; `GRADES` says from which value of a
-measurement on it has to go slower, to stand, or to end its task. Nothing here knows how messages
-travel: the newest stamps are arguments. docs/health.md is made of these tables.
+Everything here is a table. The row of a topic (`robot.bus.topics`) says when it is late or thin,
+and what that means for the robot; `GRADES` says from which value of a measurement on it has to go
+slower, to stand, or to end its task. Nothing here knows how messages travel: the newest stamps are
+arguments. docs/health.md is made of these tables.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import msgspec
 
 from executive.engine.estop import EmergencyStop
 from executive.health import Finding, Health, Level
+from robot.bus.topics import TOPICS, Silence
 from robot.errors import failure
 from robot.messages import BodyState, LoopTiming, PowerState, WorldState
 
@@ -33,38 +34,10 @@ DOWN = ("fallen", "rising")
 """Modes of a body without a foot that says where it is: its pose has to be found again anyway."""
 JUMP_REST_S = 2.0
 """How long the pose has to be steady after it has jumped."""
-
-
-class Concern(msgspec.Struct, frozen=True, kw_only=True):
-    """What silence of a topic means: after how many periods (and seconds at least) which level."""
-
-    code: str
-    level: Level
-    text: str
-    periods: float = 3.0
-    at_least_s: float = 0.3
-
-
-CONCERNS: dict[str, Concern] = {
-    "body/state": Concern(
-        code="controller_lost",
-        level=Level.SIT,
-        text="the controller stopped reporting; the motors damp by themselves",
-        periods=10.0,
-        at_least_s=0.5,
-    ),
-    "sensors/lidar": Concern(
-        code="sensor_silent", level=Level.HOLD, text="the lidar is silent", at_least_s=0.5
-    ),
-    "sensors/depth": Concern(
-        code="sensor_silent", level=Level.HOLD, text="the camera is silent", at_least_s=0.5
-    ),
-    "world/state": Concern(
-        code="localisation_lost", level=Level.HOLD, text="the world model is silent",
-        at_least_s=0.5,
-    ),
-}  # fmt: skip
-"""Topic name to what its silence means. Topics that are not listed are not missed."""
+CONCERNS: dict[str, Silence] = {
+    topic.name: topic.silence for topic in TOPICS if topic.silence is not None
+}
+"""Topic name to what its silence means. Topics that are not in it are not missed."""
 
 
 class Grade(msgspec.Struct, frozen=True, kw_only=True):
@@ -231,14 +204,14 @@ class HealthMonitor:
 
     @staticmethod
     def _silence(
-        name: str, concern: Concern, rate_hz: float, age_s: float, *, came: bool
+        name: str, concern: Silence, rate_hz: float, age_s: float, *, came: bool
     ) -> Finding | None:
         """What the age of a topic's newest message means; before the first one, wait for it."""
         if came and age_s <= max(concern.periods / rate_hz, concern.at_least_s):
             return None
         starting = not came and age_s <= START_UP_S
         text = f"waiting for {name}" if starting else f"{concern.text} for {age_s:.1f} s"
-        level = Level.HOLD if starting else concern.level
+        level = Level.HOLD if starting else Level[concern.level]
         reason = failure(concern.code, text, topic=name, age_s=age_s, promised_hz=rate_hz)
         return Finding(name=name, level=level, failure=reason)
 

@@ -31,7 +31,8 @@ from executive.behaviours.stage import Stage
 from executive.blackboard import HOME, Blackboard
 from executive.engine.job_tree import Jobs
 from executive.engine.sense import Sense, WindDown
-from executive.skills.parameters import FloorPose, NavigateParams, StopParams
+from executive.skills.navigate import FloorPose, NavigateParams
+from executive.skills.stop import StopParams
 from robot.errors import Failure, failure
 
 REST_LIMIT_S = 15.0
@@ -87,11 +88,6 @@ class Tree:
 
         check = Check("has to go back?", predicate, board=self._stage.board)
         return InOrder("return", memory=False, children=[check, _then("go back", home, last)])
-
-    @property
-    def shown(self) -> Behaviour | None:
-        """The newest job's part, also when it is over: for people to look at."""
-        return self.jobs.children[-1] if self.jobs.children else None
 
     def at(self, now_s: float) -> None:
         """Set the time of the tick that comes."""

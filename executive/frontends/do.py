@@ -23,6 +23,7 @@ from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.frontends.supervised import FrontEnd, oversee
+from executive.journal import failures
 from executive.meaning import request
 from executive.runs import continuation, run_folder, runtimes, steady_walk, task_run
 from executive.runs.task_run import Progress
@@ -239,9 +240,7 @@ def refuse(refused: request.Refused, *, as_json: bool) -> int:
         echo_json(record)
         return INVALID
     heading = "Question" if refused.outcome == "question" else "Not done"
-    typer.echo(f"{heading}: {refused.reason}")
-    if refused.suggestion:
-        typer.echo(f"What to do: {refused.suggestion}")
+    typer.echo("\n".join([f"{heading}: {refused.reason}", *failures.advice(refused.suggestion)]))
     return INVALID
 
 
@@ -283,14 +282,14 @@ def _walk_status(reason: Failure | None) -> int:
 def _walk_words(walked: steady_walk.Walked, past_s: float, wall_s: float) -> list[str]:
     reason = walked.failure
     lines = [
-        f"Failed: {reason.cause} ({reason.code})" if reason else "Done.",
+        failures.verdict(reason),
         f"  walked {walked.walked_s:.1f} s: {walked.forward_m:.2f} m forward, "
         f"{walked.left_m:.2f} m to the left, {walked.turned_rad:.2f} rad turned (estimated)",
         f"  {past_s:.1f} s of robot time in {wall_s:.1f} s ({past_s / wall_s:.1f} x), "
         f"{walked.clamped} commands clamped",
     ]
-    if reason and reason.suggestion:
-        lines.append(f"What to do: {reason.suggestion}")
+    if reason is not None:
+        lines += failures.advice(failures.suggestion(reason.code, reason.suggestion))
     return lines
 
 

@@ -7,6 +7,7 @@ import traceback
 import msgspec
 import typer
 
+from executive.journal import failures
 from robot.errors import ConfigError, RobotError
 
 DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
@@ -35,7 +36,5 @@ def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_jso
         record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
         typer.echo(msgspec.json.encode(record))
         return status
-    typer.echo("\n  ".join([heading, *lines]), err=True)
-    if cure:
-        typer.echo(f"What to do: {cure}", err=True)
+    typer.echo("\n".join(["\n  ".join([heading, *lines]), *failures.advice(cure)]), err=True)
     return status

@@ -11,16 +11,17 @@ from rich.text import Text
 
 from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
 from executive.engine.executive import Executive
-from executive.frontends.tree_lines import Line, lines
+from executive.journal import words
+from executive.journal.dumps.text import MARKS
 from executive.journal.journal import Event
-from executive.journal.pages import words
-from executive.journal.pages.model import State
-from executive.journal.pages.text import MARKS
+from executive.journal.snapshot import Shown, at_work, in_order, window
+from executive.journal.tree import State
 from robot.closing import Closing
 
 REFRESH_S, SELDOM_S = 0.1, 1.0
 _STYLES: dict[State, str] = {
     "waiting": "dim", "running": "bold yellow", "done": "green", "failed": "red",
+    "stopped": "magenta",
 }  # fmt: skip
 
 
@@ -98,15 +99,9 @@ class LiveTree(Silent):
         return Group(head, *self._tree(), foot)
 
     def _tree(self) -> list[Text]:
-        task = self._executive.tree.shown
-        if task is None:
-            return []
         room = max(6, self._console.size.height - 5)
-        shown = list(lines(task))
-        drawn = [_drawn(line) for line in shown]
-        running = [i for i, line in enumerate(shown) if line.state == "running"]
-        first = max(0, min(len(drawn) - room, (running[-1] if running else 0) - room // 2))
-        return drawn[first : first + room]
+        lines = window(in_order(at_work(self._executive.so_far)), room)
+        return [_drawn(depth, shown) for depth, shown in lines]
 
     def __enter__(self) -> Self:
         """Take the screen's last lines."""
@@ -119,12 +114,12 @@ class LiveTree(Silent):
         self._live.stop()
 
 
-def _drawn(line: Line) -> Text:
+def _drawn(depth: int, shown: Shown) -> Text:
     """One line of the tree in its colours."""
-    text = Text("  " * line.depth)
-    text.append(f"{MARKS[line.state]} {line.name}", style=_STYLES[line.state])
-    if line.note and line.state != "done":
-        text.append(f"  {line.note}", style="dim")
+    text = Text("  " * depth)
+    text.append(f"{MARKS[shown.state]} {shown.name}", style=_STYLES[shown.state])
+    if shown.note and shown.state != "done":
+        text.append(f"  {shown.note}", style="dim")
     return text
 
 

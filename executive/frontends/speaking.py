@@ -11,6 +11,7 @@ from pathlib import Path
 
 import typer
 
+from executive.journal import failures
 from executive.journal.journal import Event
 from intents.speech.audio import AudioError
 from intents.speech.voice import Silence, Synthesiser, Voice, voice
@@ -68,7 +69,7 @@ class Speech(Closing):
             self.hush()
         elif event.event == "job" and data["state"] in ("done", "failed"):
             cause = data.get("cause")
-            self.say(f"I could not do that: {cause}." if cause else "Done.")
+            self.say(failures.in_first_person("that", cause) if cause else failures.verdict(None))
 
     def finish(self, within_s: float = LAST_WORDS_S) -> None:
         """Let it finish what it says, in bounded time; Ctrl-C silences it."""

@@ -10,9 +10,8 @@ from typing import Any, Literal
 
 import msgspec
 
-from executive.journal import journal
+from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
-from executive.journal.telling import tell
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 
@@ -77,14 +76,15 @@ def look(folder: Path) -> Past:
         code, took_s = str(summary.get("code", "")), float(summary.get("simulated_s", 0.0))
         ending = _ending(code, "done" if code == "done" else "failed")
     else:
-        story = tell(journal.read(folder))
-        header = header or story.header
-        code = story.reason.code if story.reason else "done" if story.state == "done" else ""
-        took_s = story.last_s
+        run = reader.read(folder)
+        task = run.task
+        header = header or {**run.about, "text": run.text}
+        code = task.reason.code if task.reason else "done" if task.state == "done" else ""
+        took_s = run.end_s
         if journal.is_written(folder):
             code, ending = "", "under way"
         else:
-            ending = "idle" if story.idle else _ending(code, story.state)
+            ending = "idle" if run.idle else _ending(code, task.state)
     began = datetime.fromtimestamp(_began_s(folder)).astimezone()
     return Past(
         folder=str(folder),

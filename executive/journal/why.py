@@ -5,15 +5,12 @@ No model and no guess: every line is an event, or what the table of failures say
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Literal
 
 import msgspec
 
-from executive.journal import wording
-from executive.journal.journal import Event
-from executive.journal.story import Attempt, Note, Reason, Story, base
-from executive.journal.telling import tell
+from executive.journal import failures, words
+from executive.journal.run import Attempt, LogLine, Reason, Run, Task, Trouble
 
 LEAD_UP_S = 20.0
 """How long before a failure what happened to the robot is told with it."""
@@ -37,200 +34,196 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
         return "\n".join(self.lines)
 
 
-def why(events: Iterable[Event], *, live: bool = False) -> Explanation:
-    """Explain the newest job of a run.
+def why(run: Run, *, live: bool = False) -> Explanation:
+    """Explain the newest task of a run.
 
     Args:
-        events: of the journal, from its beginning.
+        run: what happened.
         live: the run is still under way, so that a journal without an end is nothing special.
     """
-    story = tell(events)
-    if story.state == "done":
-        return _done(story)
-    if story.state == "cancelled":
-        return _stopped(story)
-    if story.state == "failed":
-        return _failed(story)
-    if story.idle:
+    state = run.task.state
+    if state == "done":
+        return _done(run)
+    if state == "cancelled":
+        return _stopped(run)
+    if state == "failed":
+        return _failed(run)
+    if run.idle:
         return Explanation(status="idle", verdict=IDLE, lines=(IDLE,))
-    return _going_on(story) if live else _cut_off(story)
+    return _going_on(run) if live else _cut_off(run)
 
 
 # --- how it ended ------------------------------------------------------------------------------
 
 
-def _done(story: Story) -> Explanation:
-    verdict = f"Done{_after(story)}."
-    troubled = [one for one in story.attempts if one.reason is not None]
-    lines: list[str] = []
-    if troubled:
-        lines.append("On the way:")
-        for first in _firsts(troubled):
-            lines += _tries(story, first)
+def _done(run: Run) -> Explanation:
+    lines = _troubles("On the way:", run.task) or ["Every step worked the first time."]
+    lines += _happened(run.task.notes, "Besides:")
+    return _explained("done", f"Done{_after(run)}.", run, lines)
+
+
+def _failed(run: Run) -> Explanation:
+    reason = run.task.reason or Reason(cause="it failed without a reason")
+    verdict = f"Failed{_after(run)}: {failures.named(reason)}."
+    last = _to_blame(run.task, reason)
+    if last is not None:
+        lines = _because(run.task, last)
     else:
-        lines.append("Every step worked the first time.")
-    lines += _happened(story.notes, "Besides:")
-    return _explained("done", verdict, story, lines)
-
-
-def _failed(story: Story) -> Explanation:
-    reason = story.reason or Reason("internal", "it failed without a reason")
-    verdict = f"Failed{_after(story)}: {reason.cause} ({reason.code})."
-    last = _to_blame(story, reason)
-    lines: list[str] = []
-    if last is None:
-        lines += _doing(story)
+        lines = _doing(run)
         if reason.evidence:
-            lines.append(f"Measured: {wording.evidence(reason.evidence)}.")
-    else:
-        lines += _because(story, last)
-    lines += _lead_up(story, last)
-    lines += _before(story, last)
-    if reason.suggestion:
-        lines.append(f"What to do: {reason.suggestion}.")
-    return _explained("failed", verdict, story, lines)
+            lines.append(f"Measured: {words.evidence(reason.evidence)}.")
+    lines += _lead_up(run.task, last)
+    lines += _before(run.task, last)
+    lines += failures.advice(failures.suggestion(reason.code), end=".")
+    return _explained("failed", verdict, run, lines)
 
 
-def _stopped(story: Story) -> Explanation:
-    cause = story.reason.cause if story.reason else "stopped on request"
-    verdict = f"Stopped{_after(story)}: {cause}."
-    lines = _doing(story)
-    asked = [note for note in story.notes if note.kind in ("stop", "cancel", "abort")]
-    if asked and story.last_s > asked[0].t_s:
-        lines.append(f"It came to rest in {story.last_s - asked[0].t_s:.1f} s.")
-    lines += _happened(story.notes, "What happened:")
-    lines += _before(story, None)
-    return _explained("stopped", verdict, story, lines)
+def _stopped(run: Run) -> Explanation:
+    task = run.task
+    cause = task.reason.cause if task.reason else "stopped on request"
+    lines = _doing(run)
+    asked = [note for note in task.notes if note.kind in ("stop", "cancel", "abort")]
+    if asked and run.end_s > asked[0].t_s:
+        lines.append(f"It came to rest in {run.end_s - asked[0].t_s:.1f} s.")
+    lines += _happened(task.notes, "What happened:")
+    lines += _before(task, None)
+    return _explained("stopped", f"Stopped{_after(run)}: {cause}.", run, lines)
 
 
-def _going_on(story: Story) -> Explanation:
-    verdict = f"It is still going on, {story.last_s - story.began_s:.1f} s after it began."
-    lines = _doing(story, "It is doing") + _trouble_so_far(story)
-    return _explained("going on", verdict, story, lines)
+def _going_on(run: Run) -> Explanation:
+    verdict = f"It is still going on, {run.end_s - run.task.began_s:.1f} s after it began."
+    lines = _doing(run, "It is doing") + _trouble_so_far(run.task)
+    return _explained("going on", verdict, run, lines)
 
 
-def _cut_off(story: Story) -> Explanation:
-    verdict = f"The journal ends at {story.last_s:.1f} s without an outcome: it was cut off."
-    lines = _doing(story) + _trouble_so_far(story)
-    lines.append(
-        "What to do: go on where it was with `humanoid resume`, or see logs/ in its folder."
-    )
-    return _explained("cut off", verdict, story, lines)
+def _cut_off(run: Run) -> Explanation:
+    verdict = f"The journal ends at {run.end_s:.1f} s without an outcome: it was cut off."
+    cure = "go on where it was with `humanoid resume`, or see logs/ in its folder"
+    lines = _doing(run) + _trouble_so_far(run.task) + failures.advice(cure, end=".")
+    return _explained("cut off", verdict, run, lines)
 
 
-def _explained(status: Status, verdict: str, story: Story, lines: list[str]) -> Explanation:
+def _explained(status: Status, verdict: str, run: Run, lines: list[str]) -> Explanation:
     head = [verdict]
-    if story.text:
-        head.append(f"Asked for: {story.text}{_setting(story)}")
-    if story.missing:
-        lines.append(f"({story.missing} events are missing from the journal: the disk was full.)")
+    if run.task.text:
+        head.append(f"Asked for: {run.task.text}{_setting(run)}")
+    if run.missing:
+        lines.append(f"({run.missing} events are missing from the journal: the disk was full.)")
     return Explanation(status=status, verdict=verdict, lines=(*head, *lines))
 
 
 # --- the chain ---------------------------------------------------------------------------------
 
 
-def _to_blame(story: Story, reason: Reason) -> Attempt | None:
+def _to_blame(task: Task, reason: Reason) -> Attempt | None:
     """The go at a step whose failure became that of the whole; none if it came from above."""
-    failed = [one for one in story.attempts if one.reason is not None]
-    exact = [one for one in failed if one.reason == reason]
-    same = [one for one in failed if one.reason is not None and one.reason.code == reason.code]
-    found = exact or same
+    failed = _troubled(task)
+    exact = [go for go in failed if _became(go, reason)]
+    found = exact or [go for go in failed if go.trouble and go.trouble.code == reason.code]
     if found:
         return found[-1]
-    remedies = [one for go in failed for one in go.remedies if one.reason == reason]
-    if remedies:
-        return next(go for go in reversed(failed) if remedies[-1] in go.remedies)
-    return None
+    with_it = [go for go in failed if any(_became(remedy, reason) for remedy in go.remedies)]
+    return with_it[-1] if with_it else None
 
 
-def _because(story: Story, last: Attempt) -> list[str]:
+def _became(go: Attempt, reason: Reason) -> bool:
+    trouble = go.trouble
+    wanted = (reason.code, reason.cause, reason.evidence)
+    return trouble is not None and (trouble.code, trouble.cause, trouble.evidence) == wanted
+
+
+def _because(task: Task, last: Attempt) -> list[str]:
     """Every go at the step that was given up, the last one first: from symptom to cause."""
-    failed = [one for one in story.of(last) if one.reason is not None and one.ended_s is not None]
+    failed = [go for go in task.of(last) if go.trouble is not None]
     heading = f'Because "{last.step}" failed'
-    heading += f" {wording.times(len(failed))}, the last time first:" if len(failed) > 1 else ":"
+    heading += f" {words.times(len(failed))}, the last time first:" if len(failed) > 1 else ":"
     lines = [heading]
-    for one in list(reversed(failed))[:MOST_ATTEMPTS]:
-        lines += _go(one)
+    for go in list(reversed(failed))[:MOST_ATTEMPTS]:
+        lines += _go(go)
     if len(failed) > MOST_ATTEMPTS:
         lines.append(f"  and {len(failed) - MOST_ATTEMPTS} times before that")
     return lines
 
 
-def _tries(story: Story, first: Attempt) -> list[str]:
-    """Every go at a step that was done in the end, in order."""
-    lines = [f'  "{first.step}"']
-    for one in story.of(first):
-        if one.reason is not None:
-            lines += _go(one)
-        elif one.result == "done" and one.ended_s is not None:
-            lines.append(f"  {wording.at(one.ended_s)}  done")
+def _troubles(heading: str, task: Task) -> list[str]:
+    """Every go at each step that did not work at once, in order."""
+    steps = {go.of_step: go for go in reversed(_troubled(task))}
+    lines = [heading] if steps else []
+    for first in reversed(steps.values()):
+        lines.append(f'  "{first.step}"')
+        for go in task.of(first):
+            if go.trouble is not None:
+                lines += _go(go)
+            elif go.result == "done" and go.ended_s is not None:
+                lines.append(f"  {words.at(go.ended_s)}  done")
     return lines
 
 
-def _go(one: Attempt) -> list[str]:
+def _go(go: Attempt) -> list[str]:
     """One go that failed: where it was, what was measured, what was done about it."""
-    reason = one.reason or Reason("internal", "")
-    lines = [f"  {wording.at(one.ended_s or one.began_s)}  {_measured(reason)}"]
-    if one.phase:
-        lines.append(f"{_INDENT}while {_phase(one)}")
-    lines += [f"{_INDENT}then: {recovery.words}" for recovery in one.recoveries]
-    lines += [f"{_INDENT}  {_remedy(remedy)}" for remedy in one.remedies]
+    assert go.trouble is not None
+    lines = [f"  {words.at(go.trouble.t_s)}  {_measured(go.trouble)}"]
+    if go.phase:
+        lines.append(f"{_INDENT}while {_phase(go)}")
+    troubles = [one.trouble for one in (go, *go.remedies) if one.trouble is not None]
+    tried = sorted((one for trouble in troubles for one in trouble.tried), key=lambda one: one[0])
+    lines += [f"{_INDENT}then: {what}" for _, what in tried]
+    lines += [f"{_INDENT}  {_remedy(remedy)}" for remedy in go.remedies]
     return lines
 
 
-def _remedy(one: Attempt) -> str:
-    if one.reason is not None:
-        return f"{one.step}: failed, {_measured(one.reason)}"
-    if one.ended_s is None:
-        return f"{one.step}: {one.phase or 'begun'}"
-    return f"{one.step}: {one.result} in {one.ended_s - one.began_s:.1f} s"
+def _remedy(go: Attempt) -> str:
+    if go.trouble is not None:
+        return f"{go.step}: failed, {_measured(go.trouble)}"
+    if go.ended_s is None:
+        return f"{go.step}: {go.phase or 'begun'}"
+    return f"{go.step}: {go.result} in {go.ended_s - go.began_s:.1f} s"
 
 
-def _lead_up(story: Story, last: Attempt | None) -> list[str]:
+def _lead_up(task: Task, last: Attempt | None) -> list[str]:
     """What happened to the robot shortly before the first failure, and since."""
-    ends_s = [one.ended_s for one in story.of(last) if one.ended_s is not None] if last else []
+    ends_s = [go.ended_s for go in task.of(last) if go.ended_s is not None] if last else []
     since_s = ends_s[0] - LEAD_UP_S if ends_s else 0.0
-    notes = [note for note in story.notes if note.t_s >= since_s]
+    notes = [note for note in task.notes if note.t_s >= since_s]
     return _happened(notes, "What happened around it:")
 
 
-def _happened(notes: list[Note], heading: str) -> list[str]:
+def _happened(notes: list[LogLine], heading: str) -> list[str]:
     if not notes:
         return []
     shown = notes if len(notes) <= MOST_NOTES else [*notes[:4], *notes[-4:]]
-    lines = [f"  {wording.at(note.t_s)}  {note.words}" for note in shown]
+    lines = [f"  {words.at(note.t_s)}  {note.text}" for note in shown]
     if len(shown) < len(notes):
         lines.insert(4, f"{_INDENT}... {len(notes) - len(shown)} more ...")
     return [heading, *lines]
 
 
-def _trouble_so_far(story: Story) -> list[str]:
-    lines: list[str] = []
-    troubled = [one for one in story.attempts if one.reason is not None]
-    if troubled:
-        lines.append("Trouble so far:")
-        for first in _firsts(troubled):
-            lines += _tries(story, first)
-    return [*lines, *_happened(story.notes, "What happened:"), *_before(story, story.current)]
+def _trouble_so_far(task: Task) -> list[str]:
+    lines = _troubles("Trouble so far:", task)
+    return [*lines, *_happened(task.notes, "What happened:"), *_before(task, task.current)]
 
 
-def _before(story: Story, last: Attempt | None) -> list[str]:
+def _troubled(task: Task) -> list[Attempt]:
+    return [go for go in task.attempts if go.trouble is not None]
+
+
+def _before(task: Task, last: Attempt | None) -> list[str]:
     """What had been done before."""
-    done = [one.step for one in story.attempts if one.result == "done"]
+    done = [go.step for go in task.attempts if go.result == "done"]
     if last is not None:
         done = [step for step in done if step != last.step]
-    return [f"Done before: {wording.listed(dict.fromkeys(done))}."] if done else []
+    return [f"Done before: {words.listed(dict.fromkeys(done))}."] if done else []
 
 
-def _doing(story: Story, opening: str = "It was doing") -> list[str]:
+def _doing(run: Run, opening: str = "It was doing") -> list[str]:
     """What it was doing at the end of the journal."""
-    going = story.current
-    if going is None and story.attempts and story.attempts[-1].result == "stopped":
-        going = story.attempts[-1]
+    task = run.task
+    going = task.current
+    if going is None and task.attempts and task.attempts[-1].result == "stopped":
+        going = task.attempts[-1]
     if going is None:
         return ["Nothing was being done at that moment."]
-    since_s = story.last_s - going.began_s
+    since_s = run.end_s - going.began_s
     text = f'{opening} "{going.step}" since {going.began_s:.1f} s ({since_s:.1f} s)'
     return [f"{text}, {_phase(going)}." if going.phase else f"{text}."]
 
@@ -240,31 +233,25 @@ def _doing(story: Story, opening: str = "It was doing") -> list[str]:
 _INDENT = " " * 13
 
 
-def _measured(reason: Reason) -> str:
+def _measured(trouble: Trouble) -> str:
     """A failure with its evidence."""
-    measured = wording.evidence(reason.evidence)
-    return f"{reason.cause} ({reason.code}{f': {measured}' if measured else ''})"
+    return failures.named(trouble, measured=words.evidence(trouble.evidence))
 
 
-def _phase(one: Attempt) -> str:
-    end_s = one.ended_s
-    span = f", for {end_s - one.phase_s:.1f} s" if end_s is not None else ""
-    return f"{one.phase}{span}"
+def _phase(go: Attempt) -> str:
+    end_s = go.ended_s
+    span = f", for {end_s - go.phase_s:.1f} s" if end_s is not None else ""
+    return f"{go.phase}{span}"
 
 
-def _after(story: Story) -> str:
-    took_s = story.took_s if story.took_s is not None else story.last_s - story.began_s
-    return f" after {took_s:.1f} s"
+def _after(run: Run) -> str:
+    took_s = run.task.took_s
+    return f" after {run.end_s - run.task.began_s if took_s is None else took_s:.1f} s"
 
 
-def _setting(story: Story) -> str:
-    header = story.header
-    parts = [str(header[key]) for key in ("runtime", "world") if header.get(key)]
-    if header.get("seed") is not None:
-        parts.append(f"seed {header['seed']}{', varied' if header.get('varied') else ''}")
+def _setting(run: Run) -> str:
+    about = run.about
+    parts = [str(about[key]) for key in ("runtime", "world") if about.get(key)]
+    if about.get("seed") is not None:
+        parts.append(f"seed {about['seed']}{', varied' if about.get('varied') else ''}")
     return f"  ({', '.join(parts)})" if parts else ""
-
-
-def _firsts(attempts: list[Attempt]) -> list[Attempt]:
-    """One go of each step."""
-    return list({(one.step, base(one.id)): one for one in reversed(attempts)}.values())[::-1]

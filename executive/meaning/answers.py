@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import HEALTH, HELD, WORLD, Blackboard
-from executive.meaning.knowledge import Knowledge, full_name, stands_on
-from executive.skills.parameters import SayParams
+from executive.meaning.knowledge import Knowledge, stands_on
+from executive.skills.say import SayParams
 from robot.errors import Failure, failure
 from robot.messages import Place, Track
 
@@ -62,7 +62,7 @@ def _seen(board: Blackboard, ids: frozenset[str], places: tuple[Place, ...]) -> 
 
 def _names(ids: Iterable[str], knowledge: Knowledge) -> str:
     infos = [knowledge.object(object_id) for object_id in ids]
-    names = [full_name(info) for info in infos if info is not None]
+    names = [info.full_name for info in infos if info is not None]
     return " and ".join(names)
 
 

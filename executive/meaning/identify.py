@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from executive.meaning.knowledge import Knowledge, full_name
+from executive.meaning.knowledge import Knowledge
 from intents import goals
 from intents.grounding import Ambiguous, Entity, Unknown, describe, ground
 from intents.relations import Viewpoint
@@ -99,7 +99,7 @@ class Scene:
             return
         if len(self.held) >= HANDS:
             infos = [self.knowledge.object(held) for held in self.held]
-            names = " and ".join(full_name(info) for info in infos if info is not None)
+            names = " and ".join(info.full_name for info in infos if info is not None)
             raise cannot("hands_full", f"both hands are full by then, with {names}")
         self.held.append(object_id)
 

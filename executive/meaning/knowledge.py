@@ -37,7 +37,7 @@ class Knowledge:
 
     def _thing(self, info: ObjectInfo) -> Thing:
         return Thing(
-            name=plain_name(info),
+            name=info.plain_name,
             synonyms=info.synonyms,
             category=info.category,
             color=info.color,
@@ -48,7 +48,7 @@ class Knowledge:
         """An object for grounding; where it is has to be seen, so it is left open."""
         return Entity(
             id=info.id,
-            name=plain_name(info),
+            name=info.plain_name,
             category=info.category,
             color=info.color,
             size_m=info.shape.size_m,
@@ -61,18 +61,18 @@ class Knowledge:
 
     def _size_word(self, info: ObjectInfo) -> str:
         """A size word where it tells this object from others of its name."""
-        name = plain_name(info)
-        alike = [volume(other) for other in self.map.objects if plain_name(other) == name]
+        name = info.plain_name
+        alike = [volume(other) for other in self.map.objects if other.plain_name == name]
         ratio = volume(info) * len(alike) / sum(alike)
         return "small" if ratio < SMALL else "big" if ratio > BIG else ""
 
     def object(self, object_id: str) -> ObjectInfo | None:
         """The object with an id."""
-        return _first(item for item in self.map.objects if item.id == object_id)
+        return self.map.object(object_id)
 
     def place(self, place_id: str) -> Place | None:
         """The place with an id."""
-        return _first(item for item in self.map.places if item.id == place_id)
+        return self.map.place(place_id)
 
     def places(self, name: str) -> tuple[Place, ...]:
         """Every place that a name can mean: none, one, or several of the same name."""
@@ -115,19 +115,6 @@ def _is_room(place: Place) -> bool:
 def _over(p_W: Vector3, place: Place) -> bool:
     x, y, _ = (place.X_WP.inverse() @ SE3(p_W)).p
     return abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
-
-
-def plain_name(info: ObjectInfo) -> str:
-    """The name without the colour in front of it: "cup" of a "red cup"."""
-    prefix = f"{info.color} "
-    plain = info.name.removeprefix(prefix) if info.color else info.name
-    return plain or info.name
-
-
-def full_name(info: ObjectInfo) -> str:
-    """What the object is called on screen: "the red cup"."""
-    plain = plain_name(info)
-    return f"the {info.color} {plain}" if info.color else f"the {plain}"
 
 
 def volume(info: ObjectInfo) -> float:

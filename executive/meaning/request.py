@@ -136,7 +136,7 @@ def meant(
         task = understand(goals, scene)
     except CannotMean as end:
         return refused(end.failure)
-    refusal = check(task, where.knowledge, where.description)
+    refusal = check(task, where.world_map, where.description)
     if refusal is not None:
         return refused(refusal)
     return Understood(

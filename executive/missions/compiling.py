@@ -225,7 +225,7 @@ class Compiler:
         except CannotMean as end:
             problem = (end.failure.cause, end.failure.suggestion)
             return Meant(part=None, after=self._hands, problem=problem)
-        refusal = check(part, scene.knowledge, self._description)
+        refusal = check(part, scene.knowledge.map, self._description)
         problem = (refusal.cause, refusal.suggestion) if refusal else ("", "")
         return Meant(part=part, after=self._hands, problem=problem)
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from executive.behaviours.conditions import Predicate
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.knowledge import full_name
 from executive.meaning.tasks import question_of
 from executive.missions import schema as s
 from executive.missions.names import Names
@@ -167,7 +166,7 @@ class Conditions:
     def _hands(self, board: Blackboard) -> str:
         held = board.read(HELD).values()
         infos = [self._names.knowledge.object(object_id) for object_id in held]
-        names = " and ".join(full_name(info) for info in infos if info is not None)
+        names = " and ".join(info.full_name for info in infos if info is not None)
         return f"the robot holds {names or 'nothing'}"
 
     def _whereabouts(self, infos: list[ObjectInfo]) -> Words:
@@ -180,7 +179,7 @@ class Conditions:
             said: list[str] = []
             for info in infos:
                 track = tracks.get(info.id)
-                name = full_name(info)
+                name = info.full_name
                 if info.id in board.read(HELD).values():
                     said.append(f"{name} is in the hand")
                 elif track is None or track.X_WO is None or track.missing:

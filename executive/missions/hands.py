@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 
 from executive.meaning.request import Setting
-from executive.skills.parameters import PickParams, PlaceParams
 from robot.errors import Failure
 from robot.messages import Place, Side
 from robot.planning.requests import (
@@ -55,30 +54,30 @@ class Hands:
         )
         return Surroundings(map=self._where.world_map, objects=things)
 
-    def pick(self, params: PickParams, start: Stance) -> PickPlan | Failure | None:
+    def pick(
+        self, object_id: str, start: Stance, *, side: Side | None
+    ) -> PickPlan | Failure | None:
         """How a thing would be taken; None where it is not known where it is."""
-        if params.object_id not in self._poses or not self._may_plan():
-            self._poses.pop(params.object_id, None)
+        if object_id not in self._poses or not self._may_plan():
+            self._poses.pop(object_id, None)
             return None
         taken = [side for side, _ in self._held.values()]
         free: list[Side] = [side for side in self._where.description.hands if side not in taken]
-        side = params.side or (free[0] if len(free) == 1 else None)
+        side = side or (free[0] if len(free) == 1 else None)
         plan = self.solver.solve(
-            PickRequest(object_id=params.object_id, around=self.around(), start=start, side=side)
+            PickRequest(object_id=object_id, around=self.around(), start=start, side=side)
         )
         assert isinstance(plan, PickPlan | Failure)
         if isinstance(plan, PickPlan):
-            shape = self._shapes[params.object_id]
-            held = Held(id=params.object_id, shape=shape, X_GO=plan.X_OG.inverse())
-            self._held[params.object_id] = (plan.side, held)
-            del self._poses[params.object_id]
+            shape = self._shapes[object_id]
+            held = Held(id=object_id, shape=shape, X_GO=plan.X_OG.inverse())
+            self._held[object_id] = (plan.side, held)
+            del self._poses[object_id]
         return plan
 
-    def place(
-        self, params: PlaceParams, place: Place | None, start: Stance
-    ) -> PlacePlan | Failure | None:
+    def put(self, object_id: str, place: Place | None, start: Stance) -> PlacePlan | Failure | None:
         """How a thing would be put down; None where that cannot be said."""
-        side, held = self._held.pop(params.object_id, (None, None))
+        side, held = self._held.pop(object_id, (None, None))
         if side is None or held is None or place is None or not self._may_plan():
             return None
         plan = self.solver.solve(
@@ -86,8 +85,12 @@ class Hands:
         )
         assert isinstance(plan, PlacePlan | Failure)
         if isinstance(plan, PlacePlan):
-            self._poses[params.object_id] = plan.X_WO
+            self._poses[object_id] = plan.X_WO
         return plan
+
+    def let_go(self, object_id: str) -> None:
+        """Have a thing out of the hand, and nowhere that is known. May be repeated."""
+        self._held.pop(object_id, None)
 
     def _may_plan(self) -> bool:
         self._plans += 1

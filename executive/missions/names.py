@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from executive.meaning.knowledge import Knowledge, full_name
+from executive.meaning.knowledge import Knowledge
 from executive.missions.problems import Problems
 from intents import goals, parser
 from intents.context import Context
@@ -125,7 +125,7 @@ class Names:
                 return goal.object
         if isinstance(outcome, Question):
             raise Wrong(f"{text!r} is not clear", outcome.question)
-        names = [full_name(info).removeprefix("the ") for info in self.knowledge.map.objects]
+        names = [info.full_name.removeprefix("the ") for info in self.knowledge.map.objects]
         raise Wrong(f"there is no object {text!r} in this world", _nearest(wanted, names))
 
     def _place(self, text: str) -> str:

@@ -15,10 +15,11 @@ from typing import Any
 import msgspec
 
 from executive.journal.journal import Event
-from executive.meaning.knowledge import Knowledge, full_name, stands_on
+from executive.meaning.knowledge import Knowledge, stands_on
 from executive.skills.holding import Held
 from executive.skills.motions.fingers import LEAST_GAP_M
-from executive.skills.parameters import PickParams, PlaceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from executive.trees.build import finished
 from executive.trees.parts import Errand, Part, of_any_attempt, walk
 from robot.link import BodyLink
@@ -189,7 +190,7 @@ class _Things:
         info = self._knowledge.object(params.object_id)
         if info is None:
             return ""
-        name = full_name(info)
+        name = info.full_name
         holding = params.object_id in self._held
         if isinstance(params, PickParams):
             return "" if holding else f"{name} is in no hand"

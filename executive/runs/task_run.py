@@ -13,19 +13,19 @@ from msgspec.structs import replace
 from executive.engine import loop
 from executive.engine.executive import Executive, Outcome
 from executive.engine.jobs import UNLIMITED, Limits
+from executive.journal import failures
 from executive.journal.journal import FILE, Event
-from executive.meaning.knowledge import full_name
 from executive.meaning.request import Setting, Understood
 from executive.missions.fault_plans import FaultPlan
 from executive.runs import run_folder
 from executive.runs.faults import Injector, SlowPlanner
 from executive.runs.run_folder import Expected, Placed, Summary
 from executive.runs.session import Session
-from executive.skills.parameters import PlaceParams
+from executive.skills.place import PlaceParams
 from executive.trees.parts import errands
 from robot.clock import Clock
 from robot.closing import Closing
-from robot.errors import CATALOGUE, Failure
+from robot.errors import Failure
 from robot.messages import LoopTiming, WorldState
 from robot.planning.worker import Planner
 
@@ -173,7 +173,7 @@ def _summary(
 
 def _suggestion(reason: Failure) -> str:
     """What a person can do; there is always something."""
-    return reason.suggestion or CATALOGUE[reason.code].suggestion or "say it again to begin anew"
+    return failures.suggestion(reason.code, reason.suggestion) or "say it again to begin anew"
 
 
 def late_periods(runtime: loop.Runtime) -> tuple[str, ...]:
@@ -206,7 +206,7 @@ def _placed(job: Job, world: WorldState | None) -> tuple[Placed, ...]:
         on = knowledge.surface_under(X_WO)
         where = f"on the {on.name}" if on else "on no known place"
         found.append(
-            Placed(object=full_name(info), where=where, x_m=round(x, 3), y_m=round(y, 3),
+            Placed(object=info.full_name, where=where, x_m=round(x, 3), y_m=round(y, 3),
                    z_m=round(z, 3))
         )  # fmt: skip
     return tuple({placed.object: placed for placed in found}.values())
@@ -214,7 +214,7 @@ def _placed(job: Job, world: WorldState | None) -> tuple[Placed, ...]:
 
 def closing(summary: Summary) -> list[str]:
     """The last lines: what happened, and what to do about it."""
-    lines = ["Done."] if summary.status == "done" else [f"Failed: {summary.cause} ({summary.code})"]
+    lines = [failures.verdict(None if summary.status == "done" else summary)]
     lines += [
         f"  {item.object} is believed to be {item.where}, at "
         f"({item.x_m:.2f}, {item.y_m:.2f}, {item.z_m:.2f}) m"
@@ -230,6 +230,4 @@ def closing(summary: Summary) -> list[str]:
     lines += [f"  {late}" for late in summary.late]
     if summary.folder:
         lines.append(f"  journal: {summary.folder}/journal.jsonl")
-    if summary.suggestion:
-        lines.append(f"What to do: {summary.suggestion}")
-    return lines
+    return lines + failures.advice(summary.suggestion)

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from msgspec.structs import replace
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.get_up import get_up
 from executive.skills.motions.script import Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.walk import stand_still
-from executive.skills.parameters import BalanceParams
-from robot.messages import OneLeg, Side
+from executive.skills.parameters import SkillParams, lasting
+from executive.skills.scripted import ScriptedSkill
+from robot.errors import Failure, failure
+from robot.messages import OneLeg, Side, WorldMap
+from robot.model.description import RobotDescription
+
+BalanceMode = Literal["stand", "get_up", "squat", "one_leg", "lean", "hold"]
 
 SQUAT = 0.75
 """Base height of a squat as a part of the nominal one."""
@@ -19,19 +26,58 @@ LEAN_RAD = 0.35
 LEAN_BACK_RAD = -0.2
 TURN_RAD = 0.5
 SHIFT_S = 8.0
+MAX_ONE_LEG_S = 60.0
 STANDING = ("stand", "get_up", "hold")
 PUSHED_M_S = 0.15
+THERE_AND_BACK_S: dict[BalanceMode, float] = {
+    "stand": 0.5, "get_up": 0.5, "squat": 2.5, "one_leg": 2.0, "lean": 2.1, "hold": 0.5,
+}  # fmt: skip
+"""Taking a posture and coming back from it: for the forecast."""
 
 
-class Balance(ScriptedSkill):
+class BalanceParams(SkillParams, frozen=True, kw_only=True):
+    """Take a posture and hold it. To stand, only "get_up" leaves the floor if the robot lies there.
+
+    `side` is the leg stood on, or with "lean" the side leant to; a lean without one is forward.
+    """
+
+    mode: BalanceMode
+    side: Literal["left", "right", "forward", "backward"] | None = None
+    duration_s: float = 3.0
+
+    def __post_init__(self) -> None:
+        """Check the span and the side."""
+        lasting(self.duration_s)
+        if self.mode == "one_leg" and self.side not in (None, "left", "right"):
+            raise ValueError(f"a leg is left or right, not {self.side}")
+
+
+class Balance(ScriptedSkill[BalanceParams]):
     """Take a posture, hold it for its time, and stand again."""
 
+    name = "balance"
+    summary = "stand, squat, lean, stand on one leg, get up"
+    takes = BalanceParams
     resources = frozenset({"legs"})
+
+    @classmethod
+    def refusal(
+        cls, wanted: BalanceParams, world_map: WorldMap, robot: RobotDescription
+    ) -> Failure | None:
+        """What is too long for one leg."""
+        if wanted.mode != "one_leg" or wanted.duration_s <= MAX_ONE_LEG_S:
+            return None
+        text = f"{wanted.duration_s:g} s on one leg is too long: at most {MAX_ONE_LEG_S:g} s"
+        return failure("invalid_goal", text)
+
+    @classmethod
+    def forecast(cls, wanted: BalanceParams, outlook: Outlook) -> Forecast:
+        """Taking the posture, holding it, standing again."""
+        return Forecast(wanted.duration_s + THERE_AND_BACK_S[wanted.mode])
 
     def __init__(self, parameters: BalanceParams, context: SkillContext) -> None:
         """Which posture, for how long."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._held_s = 0.0
 
     def script(self) -> Script[None]:

@@ -1,6 +1,8 @@
-"""Every skill there is: from parameters to the skill that carries them out."""
+"""Every skill there is: one row each, from parameters to the skill that carries them out."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from executive.skills.balance import Balance
 from executive.skills.context import SkillContext
@@ -9,54 +11,42 @@ from executive.skills.gesture import Gesture
 from executive.skills.give import Give
 from executive.skills.look import Look
 from executive.skills.navigate import Navigate
-from executive.skills.parameters import (
-    BalanceParams,
-    FollowParams,
-    GestureParams,
-    GiveParams,
-    LookParams,
-    NavigateParams,
-    PickParams,
-    PlaceParams,
-    SayParams,
-    SearchParams,
-    SkillParams,
-    StopParams,
-    WaitParams,
-)
+from executive.skills.parameters import SkillParams
 from executive.skills.pick import Pick
 from executive.skills.place import PutDown
 from executive.skills.say import Say
+from executive.skills.scripted import P, ScriptedSkill
 from executive.skills.search import Search
 from executive.skills.skill import Skill
 from executive.skills.stop import Stop
 from executive.skills.wait import Wait
 
+SKILLS: tuple[type[ScriptedSkill[Any]], ...] = (
+    Navigate,
+    Search,
+    Pick,
+    PutDown,
+    Give,
+    Follow,
+    Gesture,
+    Look,
+    Balance,
+    Say,
+    Wait,
+    Stop,
+)
+"""The catalogue, in the order in which people read it."""
+
+_TAKING: dict[type[SkillParams], type[ScriptedSkill[Any]]] = {
+    skill.takes: skill for skill in SKILLS
+}
+
+
+def skill_of(parameters: P) -> type[ScriptedSkill[P]]:
+    """The skill that takes these parameters."""
+    return _TAKING[type(parameters)]
+
 
 def make(parameters: SkillParams, context: SkillContext) -> Skill:
     """The skill for these parameters; made for one goal, used once."""
-    match parameters:
-        case NavigateParams():
-            return Navigate(parameters, context)
-        case PickParams():
-            return Pick(parameters, context)
-        case PlaceParams():
-            return PutDown(parameters, context)
-        case LookParams():
-            return Look(parameters, context)
-        case SearchParams():
-            return Search(parameters, context)
-        case BalanceParams():
-            return Balance(parameters, context)
-        case GiveParams():
-            return Give(parameters, context)
-        case FollowParams():
-            return Follow(parameters, context)
-        case GestureParams():
-            return Gesture(parameters, context)
-        case SayParams():
-            return Say(parameters, context)
-        case WaitParams():
-            return Wait(parameters, context)
-        case StopParams():
-            return Stop(parameters, context)
+    return skill_of(parameters)(parameters, context)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.standpoints import stances_around
 from executive.skills.motions.stow import stow_arms
 from executive.skills.motions.walk import follow, plan_path, stand_still
-from executive.skills.parameters import FollowParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from robot.messages import PersonInfo, Place
 from robot.se3 import SE3
 
@@ -27,15 +28,42 @@ LOOK_EVERY_S = 0.5
 NO_WAY = ("no_path", "goal_in_collision", "start_in_collision", "planner_timeout")
 
 
-class Follow(ScriptedSkill):
+class FollowParams(SkillParams, frozen=True, kw_only=True):
+    """Walk behind a person, until they stop or, if one is given, until they are at a place."""
+
+    person_id: str
+    place_id: str | None = None
+
+
+class Follow(ScriptedSkill[FollowParams]):
     """Stay a step behind a person; ends when they have stood still for a while, or are there."""
 
+    name = "follow"
+    summary = "walk behind a person until they stop"
+    takes = FollowParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def forecast(cls, wanted: FollowParams, outlook: Outlook) -> Forecast:
+        """The way to where the map has them; to a place, on from there to it if they are not there.
+
+        How far they lead when no place is said nobody knows: they are taken to stand.
+        """
+        person = outlook.map.person(wanted.person_id)
+        place = outlook.map.place(wanted.place_id or "")
+        if person is None:
+            return Forecast(STOPPED_S)
+        told = _forecast_closing_up(person, outlook)
+        if place is None:
+            return told if told.takes_s > STOPPED_S else told.then(STOPPED_S - told.takes_s)
+        if not told.problem and not _is_at(person.X_WO, place):
+            onwards = outlook.walk_to_place(place)
+            told = Forecast(told.takes_s + onwards.takes_s, onwards.problem)
+        return told.then(SEEN_S)
 
     def __init__(self, parameters: FollowParams, context: SkillContext) -> None:
         """Whom, and where to."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._looked_s = self._moved_s = self._begin_s = -math.inf
         self._at = SE3()
 
@@ -105,6 +133,12 @@ class Follow(ScriptedSkill):
         if place is None:
             return near and still >= STOPPED_S
         return near and still >= SEEN_S and _is_at(self._at, place)
+
+
+def _forecast_closing_up(person: PersonInfo, outlook: Outlook) -> Forecast:
+    if math.dist(person.X_WO.p[:2], outlook.X_WS.p[:2]) <= NEAR_M:
+        return Forecast(0.0)
+    return outlook.walk(stances_around(person.X_WO.p, outlook.X_WS, distance_m=DISTANCE_M)[:1])
 
 
 def _is_at(X_WO: SE3, place: Place) -> bool:

@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
-from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at, turn_head
+from executive.skills.motions.pacing import BEGIN_S, turning_s
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arm
 from executive.skills.motions.walk import stand_still, turn_by
-from executive.skills.parameters import GestureParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
 from robot.messages import Side
 from robot.planning.requests import Joints
 from robot.se3 import SE3, Array, Vector3, wrap_angle
+
+GestureKind = Literal[
+    "wave", "point", "nod", "shake_head", "bow",
+    "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
+]  # fmt: skip
 
 BOW_RAD, BOW_S = 0.35, 0.8
 NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
@@ -34,17 +41,51 @@ ARMS: dict[str, tuple[Side, ...]] = {
     "raise_both_arms": ("left", "right"),
 }
 HEAD_ONLY = ("nod", "shake_head")
+SIGN_S: dict[GestureKind, float] = {
+    "wave": 9.7, "point": 3.7, "nod": 1.7, "shake_head": 2.2, "bow": 2.3,
+    "raise_arm": 4.4, "raise_left_arm": 4.4, "raise_right_arm": 4.4, "raise_both_arms": 7.8,
+}  # fmt: skip
+"""The sign alone, measured in a `--fast` run in the kitchen: for the forecast."""
 
 
-class Gesture(ScriptedSkill):
+class GestureParams(SkillParams, frozen=True, kw_only=True):
+    """Make a sign, towards an object, a place or a person if one is given."""
+
+    kind: GestureKind
+    object_id: str | None = None
+    place_id: str | None = None
+    person_id: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is at most one target, and one to point at."""
+        targets = [self.object_id, self.place_id, self.person_id]
+        given = sum(target is not None for target in targets)
+        if given > 1 or (self.kind == "point" and not given):
+            raise ValueError(f"a gesture ({self.kind}) is towards one thing, not {given}")
+
+
+class Gesture(ScriptedSkill[GestureParams]):
     """Make a sign and come back to how the body stood."""
 
-    def __init__(self, parameters: GestureParams, context: SkillContext) -> None:
-        """Which, towards what."""
-        super().__init__(context)
-        self.parameters = parameters
-        arms: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
-        self.resources = frozenset({"head"}) if parameters.kind in HEAD_ONLY else arms
+    name = "gesture"
+    summary = "wave, point, nod, shake the head, bow, raise an arm"
+    takes = GestureParams
+    resources = frozenset({"legs", "left_arm", "right_arm", "head"})
+
+    @classmethod
+    def needs(cls, wanted: GestureParams) -> frozenset[Resource]:
+        """The head alone for what it does alone."""
+        return frozenset({"head"}) if wanted.kind in HEAD_ONLY else cls.resources
+
+    @classmethod
+    def forecast(cls, wanted: GestureParams, outlook: Outlook) -> Forecast:
+        """The sign, and turning the body to what it is for where that is far to the side."""
+        p_W = None if wanted.kind in HEAD_ONLY else _foreseen(wanted, outlook)
+        aside_rad = 0.0 if p_W is None else _aside_rad(outlook.X_WS, p_W)
+        if abs(aside_rad) <= AHEAD_RAD:
+            return Forecast(SIGN_S[wanted.kind])
+        outlook.move(SE3.from_xy_yaw(0.0, 0.0, aside_rad))
+        return Forecast(SIGN_S[wanted.kind] + BEGIN_S + turning_s(aside_rad))
 
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""
@@ -84,9 +125,7 @@ class Gesture(ScriptedSkill):
 
     def _face(self, p_W: Vector3) -> Script[None]:
         """Turn the body towards a point that is far to the side."""
-        X_WS = self.body.X_WS
-        to_rad = math.atan2(p_W[1] - X_WS.p[1], p_W[0] - X_WS.p[0])
-        aside_rad = wrap_angle(to_rad - X_WS.yaw_rad)
+        aside_rad = _aside_rad(self.body.X_WS, p_W)
         if abs(aside_rad) > AHEAD_RAD:
             yield from turn_by(self.body, aside_rad)
             yield from stand_still(self.body)
@@ -154,6 +193,21 @@ class Gesture(ScriptedSkill):
                     raise
         yield from body.wait(1.0)
         yield from stow_arm(body, side)
+
+
+def _foreseen(wanted: GestureParams, outlook: Outlook) -> Vector3 | None:
+    """Where a dry run has what it is towards; an object where the place that it stands on is."""
+    person = outlook.map.person(wanted.person_id or "")
+    place = outlook.map.place(wanted.place_id or "") or outlook.place_of(wanted.object_id or "")
+    if person is not None:
+        return person.X_WO.p
+    return place.X_WP.p if place is not None else None
+
+
+def _aside_rad(X_WS: SE3, p_W: Vector3) -> float:
+    """How far to the side of where the robot faces a point is, positive to its left."""
+    to_rad = math.atan2(p_W[1] - X_WS.p[1], p_W[0] - X_WS.p[0])
+    return wrap_angle(to_rad - X_WS.yaw_rad)
 
 
 def _pointing(shoulder: Array, p_W: Array, reach_m: float) -> SE3:

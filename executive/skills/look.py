@@ -3,32 +3,53 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
-from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.gaze import see, turn_head
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import LookParams
+from executive.skills.parameters import SkillParams, exactly_one, finite
+from executive.skills.scripted import ScriptedSkill
+from robot.se3 import Vector3
 
 FACE_HEIGHT_M = 1.5
 GAZE_S = 0.5
-
-
 AROUND_RAD = (0.0, 0.9, -0.9, 0.0)
 AROUND_M, AROUND_HEIGHT_M = 2.0, 0.8
+LOOK_S = 1.1
+"""Of turning the head and looking: for the forecast."""
 
 
-class Look(ScriptedSkill):
+class LookParams(SkillParams, frozen=True, kw_only=True):
+    """Turn the head towards an object, a place, a person or a point p_W, or to all sides."""
+
+    object_id: str | None = None
+    place_id: str | None = None
+    person_id: str | None = None
+    p_W: Vector3 | None = None
+    around: Literal[True] | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is one target."""
+        exactly_one(self, "object_id", "place_id", "person_id", "p_W", "around")
+        if self.p_W is not None:
+            finite(*self.p_W)
+
+
+class Look(ScriptedSkill[LookParams]):
     """Look at an object until it is seen; at a place, a person, a point, all sides for a moment."""
 
+    name = "look"
+    summary = "turn the head towards something, or to all sides"
+    takes = LookParams
     resources = frozenset({"head"})
 
-    def __init__(self, parameters: LookParams, context: SkillContext) -> None:
-        """At what."""
-        super().__init__(context)
-        self.parameters = parameters
+    @classmethod
+    def forecast(cls, wanted: LookParams, outlook: Outlook) -> Forecast:
+        """A moment."""
+        return Forecast(LOOK_S)
 
     def script(self) -> Script[None]:
         """Turn the head; the body stays."""

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 
+import msgspec
 from msgspec.structs import replace
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.pacing import BEGIN_S, WALK_M_S, turning_s
 from executive.skills.motions.planning import pose_of, stance_of
 from executive.skills.motions.script import GaveUp, Script
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.standpoints import (
     AT_PERSON_M,
     heading_to,
@@ -21,24 +23,96 @@ from executive.skills.motions.standpoints import (
 )
 from executive.skills.motions.stow import stow_arms
 from executive.skills.motions.walk import follow, plan_path, stand_still, turn_by, walk_to
-from executive.skills.parameters import FloorPose, NavigateParams, Step
+from executive.skills.parameters import SkillParams, exactly_one, finite, within
+from executive.skills.scripted import ScriptedSkill
+from robot.errors import Failure, failure
+from robot.messages import WorldMap
+from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle
 
+MAX_DISPLACEMENT_M = 20.0
+MAX_TURN_RAD = 4.0 * math.pi
 FREEING_M = 0.4
 DETOUR = 1.25
 """A path longer than the straight line by more than this goes around something."""
 
 
-class Navigate(ScriptedSkill):
+class FloorPose(msgspec.Struct, frozen=True, kw_only=True):
+    """A stance X_WS on the floor; without a heading any will do."""
+
+    x_m: float
+    y_m: float
+    yaw_rad: float | None = None
+
+
+class Step(msgspec.Struct, frozen=True, kw_only=True):
+    """A motion relative to where the robot stands: first turn, then walk."""
+
+    forward_m: float = 0.0
+    left_m: float = 0.0
+    turn_rad: float = 0.0
+
+
+class NavigateParams(SkillParams, frozen=True, kw_only=True):
+    """Walk somewhere: exactly one of a pose, a place of the map, an object or person, a step."""
+
+    pose: FloorPose | None = None
+    place_id: str | None = None
+    person_id: str | None = None
+    by: Step | None = None
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        exactly_one(self, "pose", "place_id", "person_id", "by")
+        if self.pose is not None:
+            finite(self.pose.x_m, self.pose.y_m, self.pose.yaw_rad or 0.0)
+        if self.by is not None:
+            within("forward_m", self.by.forward_m, MAX_DISPLACEMENT_M)
+            within("left_m", self.by.left_m, MAX_DISPLACEMENT_M)
+            within("turn_rad", self.by.turn_rad, MAX_TURN_RAD)
+
+
+class Navigate(ScriptedSkill[NavigateParams]):
     """Walk there and stand within 3 cm and 3 degrees."""
 
+    name = "navigate"
+    summary = "walk to a place, a person or a pose, or by a step"
+    takes = NavigateParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def refusal(
+        cls, wanted: NavigateParams, world_map: WorldMap, robot: RobotDescription
+    ) -> Failure | None:
+        """What lies outside the map."""
+        if wanted.pose is None:
+            return None
+        x_min, y_min, x_max, y_max = world_map.bounds_m
+        x_m, y_m = wanted.pose.x_m, wanted.pose.y_m
+        if x_min <= x_m <= x_max and y_min <= y_m <= y_max:
+            return None
+        text = f"({x_m:g}, {y_m:g}) is outside this world"
+        bounds = f"x from {x_min:g} to {x_max:g} m, y from {y_min:g} to {y_max:g} m"
+        return failure("invalid_goal", text, suggestion=bounds)
+
+    @classmethod
+    def forecast(cls, wanted: NavigateParams, outlook: Outlook) -> Forecast:
+        """The way."""
+        if wanted.by is not None:
+            return _forecast_step(wanted.by, outlook)
+        if wanted.pose is not None:
+            yaw_rad = wanted.pose.yaw_rad or outlook.X_WS.yaw_rad
+            return outlook.walk([(wanted.pose.x_m, wanted.pose.y_m, yaw_rad)])
+        person = outlook.map.person(wanted.person_id or "")
+        if person is not None:
+            away_m = AT_PERSON_M + person.radius_m
+            return outlook.walk(stances_around(person.X_WO.p, outlook.X_WS, distance_m=away_m))
+        return outlook.walk_to_place(outlook.map.place(wanted.place_id or ""))
 
     def __init__(self, parameters: NavigateParams, context: SkillContext) -> None:
         """Where to."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._turned_rad = 0.0
         self._goal: Stance | None = None
 
@@ -132,3 +206,9 @@ def _walk_straight(body: Body, goal: Stance) -> Script[None]:
         yield from walk_to(body, goal)
         return
     yield from step_to(body, goal)
+
+
+def _forecast_step(by: Step, outlook: Outlook) -> Forecast:
+    outlook.move(SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0)))
+    walked_s = math.hypot(by.forward_m, by.left_m) / WALK_M_S
+    return Forecast(BEGIN_S + walked_s + turning_s(by.turn_rad))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.fingers import check_grips, close_fingers, open_fingers, set_payload
@@ -22,11 +23,13 @@ from executive.skills.motions.object_search import find
 from executive.skills.motions.planning import ask, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import UPRIGHT_RAD, surroundings, tilt
-from executive.skills.parameters import PickParams
-from robot.messages import ObjectInfo, Side
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
+from robot.errors import Failure, failure
+from robot.messages import ObjectInfo, Side, WorldMap
+from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
@@ -35,23 +38,60 @@ APPROACH_M_S = 0.12
 LIFT_M_S = 0.12
 LOWER_M_S = 0.06
 OPEN_MARGIN_M = 0.045
+FINGER_MARGIN_M = 0.01
+MAX_LIFT_KG = 1.0
 GRASPS = 2
 REACH_CORRECTIONS = 2
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the object."""
 LEAST_LOAD = 0.3
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
+PICK_S = 14.0
+"""Of a typical pick, the walk there left out: for the forecast."""
 
 
-class Pick(ScriptedSkill):
+class PickParams(SkillParams, frozen=True, kw_only=True):
+    """Take an object; without a side the planner chooses the hand."""
+
+    object_id: str
+    side: Side | None = None
+
+
+class Pick(ScriptedSkill[PickParams]):
     """Take an object off a surface with one hand; ends in the carry posture, clear of it."""
 
+    name = "pick"
+    summary = "find a thing, take it with one hand, and step back with it"
+    takes = PickParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def refusal(
+        cls, wanted: PickParams, world_map: WorldMap, robot: RobotDescription
+    ) -> Failure | None:
+        """What no hand closes on, or carries."""
+        info = world_map.object(wanted.object_id)
+        if info is None:
+            text = f"there is no object {wanted.object_id!r} in this world"
+            return failure("unknown_object", text)
+        width_m = min(info.shape.size_m[:2])
+        opening_m = max(hand.max_opening_m for hand in robot.hands.values()) - FINGER_MARGIN_M
+        if width_m > opening_m:
+            text = f"{info.full_name} is {width_m * 100:.0f} cm wide, the hand opens to hold "
+            return failure("no_grasp", f"{text}{opening_m * 100:.0f} cm", width_m=width_m)
+        if info.mass_kg > MAX_LIFT_KG:
+            text = f"{info.full_name} weighs {info.mass_kg:g} kg, a hand carries {MAX_LIFT_KG:g} kg"
+            return failure("invalid_goal", text, suggestion="name something lighter")
+        return None
+
+    @classmethod
+    def forecast(cls, wanted: PickParams, outlook: Outlook) -> Forecast:
+        """The way, and typically `PICK_S` there."""
+        return outlook.pick(wanted.object_id, side=wanted.side).then(PICK_S)
 
     def __init__(self, parameters: PickParams, context: SkillContext) -> None:
         """What to take."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._tare_n = 0.0
         self._begin_s = 0.0
         self._X_WG_pre: SE3 | None = None

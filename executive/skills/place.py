@@ -8,6 +8,7 @@ import math
 import msgspec
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, back_away, bring_in, come_nearer, withdraw
 from executive.skills.motions.body_access import Body
@@ -16,12 +17,13 @@ from executive.skills.motions.gaze import look_at, see
 from executive.skills.motions.planning import ask, held_in, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import occupant, surroundings, tilt
-from executive.skills.parameters import PlaceParams
+from executive.skills.parameters import SkillParams, exactly_one, finite
+from executive.skills.scripted import ScriptedSkill
 from robot.errors import Failure, failure
-from robot.messages import ObjectInfo, Place, Side
+from robot.messages import ObjectInfo, Place, Side, WorldMap
+from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
 from robot.se3 import SE3
@@ -43,6 +45,24 @@ OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
+ARM_REACH_M = 0.50
+SQUAT_M = 0.15
+PLACE_S = 14.0
+"""Of putting down, the walk there left out: for the forecast."""
+
+
+class PlaceParams(SkillParams, frozen=True, kw_only=True):
+    """Put what is held on a place of the map, or at an exact pose X_WO of its own."""
+
+    object_id: str
+    place_id: str | None = None
+    X_WO: SE3 | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is one target."""
+        exactly_one(self, "place_id", "X_WO")
+        if self.X_WO is not None:
+            finite(*self.X_WO.p)
 
 
 class Release(msgspec.Struct, frozen=True, kw_only=True):
@@ -53,15 +73,46 @@ class Release(msgspec.Struct, frozen=True, kw_only=True):
     X_WG_back: SE3
 
 
-class PutDown(ScriptedSkill):
+class PutDown(ScriptedSkill[PlaceParams]):
     """Put an object down; ends with the arm home, clear of the place, the object seen there."""
 
+    name = "place"
+    summary = "put what a hand holds on a place, and look whether it stands"
+    takes = PlaceParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def refusal(
+        cls, wanted: PlaceParams, world_map: WorldMap, robot: RobotDescription
+    ) -> Failure | None:
+        """What is higher or lower than a hand gets.
+
+        The reach is that of a hand from a shoulder, by `ARM_REACH_M`, from `SQUAT_M` lower at best.
+        """
+        place = world_map.place(wanted.place_id or "")
+        if wanted.place_id is not None and place is None:
+            text = f"there is no place {wanted.place_id!r} in this world"
+            return failure("unknown_place", text)
+        X = wanted.X_WO or (place.X_WP if place else None)
+        if X is None:
+            return None
+        lowest_m = robot.shoulder_height_m - ARM_REACH_M - SQUAT_M
+        highest_m = robot.shoulder_height_m + ARM_REACH_M
+        if lowest_m <= X.p[2] <= highest_m:
+            return None
+        name = f"the {place.name}" if place else "that spot"
+        text = f"{name} is {X.p[2]:.2f} m high; the hands reach {lowest_m:.2f} to {highest_m:.2f} m"
+        return failure("out_of_reach", text, suggestion="name another place", height_m=X.p[2])
+
+    @classmethod
+    def forecast(cls, wanted: PlaceParams, outlook: Outlook) -> Forecast:
+        """The way, and typically `PLACE_S` there."""
+        place = outlook.map.place(wanted.place_id or "")
+        return outlook.put(wanted.object_id, place).then(PLACE_S)
 
     def __init__(self, parameters: PlaceParams, context: SkillContext) -> None:
         """What to put where."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._release: Release | None = None
         self._released = False
 

@@ -3,20 +3,43 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import SayParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
+
+MAX_TEXT = 1000
+SPEAK_S = 0.05
+"""Handing a text to the voice, which then speaks while the robot goes on."""
 
 
-class Say(ScriptedSkill):
+class SayParams(SkillParams, frozen=True, kw_only=True):
+    """Say a text."""
+
+    text: str
+
+    def __post_init__(self) -> None:
+        """Check the length."""
+        if len(self.text) > MAX_TEXT:
+            raise ValueError(f"text of {len(self.text)} characters: at most {MAX_TEXT}")
+
+
+class Say(ScriptedSkill[SayParams]):
     """Hand a text to the voice."""
 
+    name = "say"
+    summary = "say something aloud"
+    takes = SayParams
     resources = frozenset({"voice"})
+
+    @classmethod
+    def forecast(cls, wanted: SayParams, outlook: Outlook) -> Forecast:
+        """A moment."""
+        return Forecast(SPEAK_S)
 
     def __init__(self, parameters: SayParams, context: SkillContext) -> None:
         """What to say."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._said = False
 
     def script(self) -> Script[None]:

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
-from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.object_search import find
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
 from executive.skills.motions.stow import stow_arms
-from executive.skills.parameters import SearchParams
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
+
+SEARCH_S = 4.0
+"""Of looking around, the walk there left out: for the forecast."""
 
 
-class Search(ScriptedSkill):
+class SearchParams(SkillParams, frozen=True, kw_only=True):
+    """Look for an object: here, where it was last, then at each of the places (none: all)."""
+
+    object_id: str
+    place_ids: tuple[str, ...] = ()
+
+
+class Search(ScriptedSkill[SearchParams]):
     """Look around, then go from place to place; ends when the object is in sight."""
 
+    name = "search"
+    summary = "look for a thing, here and then from place to place"
+    takes = SearchParams
     resources = frozenset({"legs", "head", "left_arm", "right_arm"})
 
-    def __init__(self, parameters: SearchParams, context: SkillContext) -> None:
-        """For what, and where."""
-        super().__init__(context)
-        self.parameters = parameters
+    @classmethod
+    def forecast(cls, wanted: SearchParams, outlook: Outlook) -> Forecast:
+        """As if it were at the first place asked for, or where it stands."""
+        asked = [outlook.map.place(place_id) for place_id in wanted.place_ids]
+        at = next(iter(asked), None) or outlook.place_of(wanted.object_id)
+        return outlook.walk_to_place(at).then(SEARCH_S)
 
     def script(self) -> Script[None]:
         """Find it with the eyes, wherever it is believed to be."""

@@ -3,20 +3,39 @@
 from __future__ import annotations
 
 from executive.skills.context import SkillContext
+from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
-from executive.skills.motions.scripted import ScriptedSkill
-from executive.skills.parameters import WaitParams
+from executive.skills.parameters import SkillParams, lasting
+from executive.skills.scripted import ScriptedSkill
 
 
-class Wait(ScriptedSkill):
+class WaitParams(SkillParams, frozen=True, kw_only=True):
+    """Do nothing for a while; without a duration until stopped."""
+
+    duration_s: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the span."""
+        if self.duration_s is not None:
+            lasting(self.duration_s)
+
+
+class Wait(ScriptedSkill[WaitParams]):
     """Wait for a time, or until stopped."""
 
+    name = "wait"
+    summary = "do nothing for a while"
+    takes = WaitParams
     resources = frozenset()
+
+    @classmethod
+    def forecast(cls, wanted: WaitParams, outlook: Outlook) -> Forecast:
+        """The span; nothing if it is until told."""
+        return Forecast(wanted.duration_s or 0.0)
 
     def __init__(self, parameters: WaitParams, context: SkillContext) -> None:
         """How long."""
-        super().__init__(context)
-        self.parameters = parameters
+        super().__init__(parameters, context)
         self._begin_s: float | None = None
 
     def script(self) -> Script[None]:

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal
 
-from executive.skills.parameters import (
-    BalanceParams,
-    LookParams,
-    NavigateParams,
-    PickParams,
-    SearchParams,
-    Step,
-)
+from executive.skills.balance import BalanceParams
+from executive.skills.look import LookParams
+from executive.skills.navigate import NavigateParams, Step
+from executive.skills.pick import PickParams
+from executive.skills.search import SearchParams
 from executive.trees.parts import Errand
 from robot.errors import Failure
 

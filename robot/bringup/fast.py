@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from robot.bringup.lockstep import Lockstep
 from robot.bus.bus import LocalBus
-from robot.control.loop import ControlLoop
+from robot.clock import SimulatedClock
+from robot.control.loop import NEEDS, ControlLoop
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.wiring import Wiring
 from robot.model import description
 from robot.perception.node import PerceptionNode
 from robot.reality.contract import World
@@ -36,9 +39,14 @@ class FastRuntime(Lockstep):
         """
         bus = bus or LocalBus()
         body = description.load(robot)
+        plant = world.plant(body, seed=seed, physics_ms=PHYSICS_MS)
+        clock = SimulatedClock()
+        wiring = Wiring(robot=body, clock=clock, bus=bus, plant=plant)
         super().__init__(
-            world.plant(body, seed=seed, physics_ms=PHYSICS_MS),
+            plant,
             lambda: ControlLoop(body),
-            PerceptionNode(bus, body),
+            PerceptionNode(wiring),
+            body=BodyDevices(wiring, needs=NEEDS),
             bus=bus,
+            clock=clock,
         )

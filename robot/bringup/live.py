@@ -20,6 +20,7 @@ from robot.bus.run import Run
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, Waker, WallClock
 from robot.closing import Closing
+from robot.drivers import registry
 from robot.errors import BusError, ConfigError, Failure, ProcessError, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
@@ -89,9 +90,9 @@ class LiveRuntime(Closing):
             handle: on the process above, where that one looks after the processes.
 
         Raises:
-            ConfigError: if the robot cannot be used.
+            ConfigError: if the robot or one of its drivers cannot be used.
         """
-        description.load(robot)
+        registry.check(description.load(robot))
         self.timing: dict[str, LoopTiming] = {}
         self._plan = Run(
             folder=str(folder),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack
 from typing import Protocol, Self
 
 from robot.bringup.processes import CONTROLLER
@@ -11,8 +12,9 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.closing import Closing
-from robot.drivers.motors import MotorCommand, MotorState
-from robot.drivers.simulated import SimulatedMotors
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError, Failure, failure
 from robot.link import BusLink
 from robot.messages import BodyCommand, BodyState
@@ -32,7 +34,7 @@ class Controller(Protocol):
         """Take one command."""
         ...
 
-    def tick(self, state: MotorState) -> MotorCommand:
+    def tick(self, sample: BodySample) -> MotorCommand:
         """One period of the motor bus."""
         ...
 
@@ -41,8 +43,8 @@ class Controller(Protocol):
         ...
 
 
-class Perception(Protocol):
-    """Reads its topics from the bus and publishes the world state."""
+class Perception(AbstractContextManager[object], Protocol):
+    """Opens its sensors, reads them and the bus, and publishes the world state."""
 
     def step(self) -> None:
         """Work off what came."""
@@ -68,19 +70,25 @@ class Lockstep(Closing):
         control: Callable[[], Controller],
         perception: Perception,
         *,
+        body: BodyDevices,
         bus: LocalBus,
+        clock: SimulatedClock,
     ) -> None:
-        """Put the parts together; `control` makes a controller, and another when one was killed."""
+        """Put the parts together; `control` makes a controller, and another when one was killed.
+
+        `body` is what the controller has of the plant; `clock` is moved on from here.
+        """
         self.restarted: list[str] = []
         self.plant = plant
-        self.clock = SimulatedClock()
+        self.clock = clock
         self.link = BusLink(bus, self.clock)
         self._bus = bus
         self._control = control
         self._controller: Controller | None = control()
         self._perception = perception
         self._commands = bus.subscribe(topics.BODY_COMMAND)
-        self._motors = SimulatedMotors(plant)
+        self._body = body
+        self._opened = ExitStack()
         self._time_ms = 0
         self._failure: Failure | None = None
         self._lost = False
@@ -88,13 +96,16 @@ class Lockstep(Closing):
         self._back_ms = math.inf
 
     def __enter__(self) -> Self:
-        """Open the motors."""
-        self._motors.__enter__()
+        """Open motors and sensors."""
+        with ExitStack() as stack:
+            stack.enter_context(self._perception)
+            stack.enter_context(self._body)
+            self._opened = stack.pop_all()
         return self
 
     def close(self) -> None:
         """Damp the motors and close the bus."""
-        self._motors.close()
+        self._opened.close()
         self._bus.close()
 
     def failure(self) -> Failure | None:
@@ -139,7 +150,7 @@ class Lockstep(Closing):
             self._failure = failure("controller_lost", "the controller was killed")
 
     def _run_until(self, end_ms: int) -> None:
-        commands, motors = self._commands, self._motors
+        commands, body = self._commands, self._body
         step = self.plant.step
         while self._time_ms < end_ms:
             if self._controller is None and self._time_ms >= self._back_ms:
@@ -147,7 +158,7 @@ class Lockstep(Closing):
             if (controller := self._controller) is not None:
                 for command in commands.take():
                     controller.handle(command)
-                motors.write(controller.tick(motors.read()))
+                body.write(controller.tick(body.read()))
             if self._time_ms % STATE_PERIOD_MS == 0:
                 self._report()
             step(CONTROL_PERIOD_MS)
@@ -160,7 +171,8 @@ class Lockstep(Closing):
         if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
         sensed = list(self.plant.sense(now_s))
-        for name, message in sensed:
-            self._bus.publish(topics.named(name), message)
+        for topic, message in sensed:
+            self._bus.publish(topic, message)
+        self._body.relay()
         if sensed:
             self._perception.step()

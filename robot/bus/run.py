@@ -13,7 +13,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     """A live run.
 
     `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
-    sockets and the motors' shared memory. `variation_seed` shuffles the world, None leaves it.
+    sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
     `simulated` says whether reality is.
     """
 
@@ -26,9 +26,9 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     simulated: bool = True
 
     @property
-    def motors_path(self) -> Path:
-        """The motors' shared memory."""
-        return Path(self.sockets) / "motors"
+    def memory(self) -> Path:
+        """Folder of the simulated plant's shared memory."""
+        return Path(self.sockets)
 
     def save(self, path: Path) -> None:
         """Write it as JSON."""

@@ -1,7 +1,7 @@
 """Every topic of the robot in one table: its name, what travels on it, how often, who sends it.
 
 Health is derived from this table: a topic with a rate is silent when its newest message is older
-than a few periods.
+than a few periods, and its row says what that means.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
-from robot.errors import BusError
 from robot.messages import (
     BodyCommand,
     BodyState,
@@ -27,13 +26,29 @@ M = TypeVar("M")
 Process = Literal["executive", "controller", "perception", "plant"]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Silence:
+    """What it means that a topic is silent: after so many periods, and seconds at least.
+
+    `code` is a failure's, `level` the name of what health makes of it (`executive.health`), `text`
+    what people read.
+    """
+
+    code: str
+    level: Literal["HOLD", "SIT"]
+    text: str
+    periods: float = 3.0
+    at_least_s: float = 0.5
+
+
 @dataclass(frozen=True)
 class Topic(Generic[M]):
     """A named stream of messages of one type.
 
     `kind` is the type (a struct or a union of structs), `rate_hz` the rate its source promises,
     None for events that come when they come. `queue` is how many messages a subscriber that
-    takes them one by one may fall behind before the oldest are dropped.
+    takes them one by one may fall behind before the oldest are dropped. A topic without `silence`
+    is not missed.
     """
 
     name: str
@@ -41,42 +56,49 @@ class Topic(Generic[M]):
     rate_hz: float | None
     source: Process
     queue: int = 8
+    silence: Silence | None = None
 
 
 BODY_COMMAND: Topic[BodyCommand] = Topic("body/command", BodyCommand, None, "executive", queue=256)
-BODY_STATE: Topic[BodyState] = Topic("body/state", BodyState, 50.0, "controller", queue=64)
-DEPTH: Topic[DepthImage] = Topic("sensors/depth", DepthImage, 10.0, "plant")
-LIDAR: Topic[LidarScan] = Topic("sensors/lidar", LidarScan, 10.0, "plant")
+BODY_STATE: Topic[BodyState] = Topic(
+    "body/state", BodyState, 50.0, "controller", queue=64,
+    silence=Silence(
+        code="controller_lost",
+        level="SIT",
+        text="the controller stopped reporting; the motors damp by themselves",
+        periods=10.0,
+    ),
+)  # fmt: skip
+LIDAR: Topic[LidarScan] = Topic(
+    "sensors/lidar", LidarScan, 10.0, "perception",
+    silence=Silence(code="sensor_silent", level="HOLD", text="the lidar is silent"),
+)  # fmt: skip
+DEPTH: Topic[DepthImage] = Topic(
+    "sensors/depth", DepthImage, 10.0, "perception",
+    silence=Silence(code="sensor_silent", level="HOLD", text="the camera is silent"),
+)  # fmt: skip
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
-POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "plant")
-WORLD_STATE: Topic[WorldState] = Topic("world/state", WorldState, 10.0, "perception")
+POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "controller")
+WORLD_STATE: Topic[WorldState] = Topic(
+    "world/state", WorldState, 10.0, "perception",
+    silence=Silence(code="localisation_lost", level="HOLD", text="the world model is silent"),
+)  # fmt: skip
 CONTROLLER_TIMING: Topic[LoopTiming] = Topic("controller/timing", LoopTiming, 2.0, "controller")
 PLANT_TIMING: Topic[LoopTiming] = Topic("plant/timing", LoopTiming, 1.0, "plant")
 
 TOPICS: tuple[Topic[Any], ...] = (
     BODY_COMMAND,
     BODY_STATE,
-    DEPTH,
+    WORLD_STATE,  # before camera and lidar: when perception dies, that is what is told first
     LIDAR,
+    DEPTH,
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,
     POWER,
-    WORLD_STATE,
     CONTROLLER_TIMING,
     PLANT_TIMING,
 )
 BY_NAME: dict[str, Topic[Any]] = {topic.name: topic for topic in TOPICS}
-
-
-def named(name: str) -> Topic[Any]:
-    """The topic of that name.
-
-    Raises:
-        BusError: if the table has no such topic.
-    """
-    if name not in BY_NAME:
-        raise BusError(f"no topic {name!r}; the table has {', '.join(sorted(BY_NAME))}")
-    return BY_NAME[name]

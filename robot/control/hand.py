@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from robot.drivers.motors import MotorState
+from robot.drivers.motor_bus import MotorState
 from robot.messages import Activity, Grip, HandState, Side
 from robot.model.body import BodyModel
 from robot.physics import GRAVITY_M_S2
@@ -72,13 +72,16 @@ class HandControl:
             self.target, self._force_n = 0.0, min(self.hand.max_force_n, force_n)
             self.activity = Activity(id=0, status="done", detail=STOPPED)
 
-    def update(self, dt_s: float, state: MotorState, rotation_NW: Array) -> float:
+    def update(
+        self, dt_s: float, state: MotorState, *, wrist_wrench: Array, rotation_NW: Array
+    ) -> float:
         """Advance; returns the motor's position target, limited so that kp x error is the force.
 
-        `rotation_NW` turns the wrist sensor's frame into N, shape (3, 3).
+        `wrist_wrench` is measured at both wrists, shape (2, 6); `rotation_NW` turns the sensor's
+        frame of this one into N, shape (3, 3).
         """
         self._time_s += dt_s
-        x, y, z = rotation_NW.dot(state.wrist_wrench[self.row, :3]).tolist()
+        x, y, z = rotation_NW.dot(wrist_wrench[self.row, :3]).tolist()
         load = -z - self._weight_n
         self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])

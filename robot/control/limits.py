@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from robot.drivers.motors import MotorCommand, MotorState
+from robot.drivers.motor_bus import MotorCommand, MotorState
 from robot.model.body import BodyModel
 from robot.se3 import Array
 

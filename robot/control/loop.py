@@ -21,7 +21,8 @@ from robot.control.starting import planar
 from robot.control.walking.footsteps import stance_of
 from robot.control.walking.gait import Reference
 from robot.control.whole_body import WholeBody
-from robot.drivers.motors import MotorCommand, MotorState
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
 from robot.errors import Failure, failure
 from robot.fusion.base_state import BaseStateEstimator
 from robot.kinematics.dynamics import Dynamics
@@ -52,6 +53,8 @@ from robot.se3 import SE3, Array
 
 BUS_PERIOD_S = 0.002
 UNSOLVED_TO_DAMP = 20
+NEEDS: frozenset[Capability] = frozenset({"position", "torque", "gains"})
+"""What this controller asks of motors."""
 
 
 class ControlLoop:
@@ -80,10 +83,10 @@ class ControlLoop:
 
     # --- start ---------------------------------------------------------------------------------
 
-    def _start(self, state: MotorState, *, taking_over: bool = False) -> None:
+    def _start(self, sample: BodySample, *, taking_over: bool = False) -> None:
         """Find the robot, and begin as it is; `taking_over`: another controller moved it."""
-        body, data = self.body, self.dynamics.data
-        X_NB, left, right = starting.find(self.dynamics, state, taking_over=taking_over)
+        body, data, state = self.body, self.dynamics.data, sample.motors
+        X_NB, left, right = starting.find(self.dynamics, sample, taking_over=taking_over)
         self.estimator = BaseStateEstimator(body, X_NB)
         self.posture = Posture(self.estimator, self.dynamics)
         self.legs = Legs(body, self.whole, left, right, X_NB.p[2])
@@ -99,9 +102,9 @@ class ControlLoop:
         }
         self.head = Head(body, state.q)
         self._reference: Reference | None = None
-        self._gyro, self._accel = state.gyro_rad_s.copy(), state.accel_m_s2.copy()
+        self._gyro, self._accel = sample.imu.gyro_rad_s.copy(), sample.imu.accel_m_s2.copy()
         self._samples = 0
-        self._state = state
+        self._sample = sample
         self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
         self._started = True
         if self.posture.upright:
@@ -139,7 +142,7 @@ class ControlLoop:
             self.arms[command.side].follow(command)
         elif isinstance(command, HoldArm):
             arm = self.arms[command.side]
-            arm.hold(command, self._state.q[arm.motors])
+            arm.hold(command, self._sample.motors.q[arm.motors])
         elif isinstance(command, MoveHand):
             X_NG = self.body.site_pose(self.dynamics.data, self.body.grasp_site[command.side])
             self.arms[command.side].reach(command, X_NG, self.hands[command.side].load_n)
@@ -199,31 +202,32 @@ class ControlLoop:
         """Stand arms the motors again if the robot is upright on its feet."""
         if not isinstance(command, Stand) or not self.posture.upright:
             return False
-        if not steady(self._state.gyro_rad_s):
+        if not steady(self._sample.imu.gyro_rad_s):
             return False
         self.limits.reset()
-        self._start(self._state)
+        self._start(self._sample)
         if self.mode == "stand":
             self._failure = None
         return self.mode == "stand"
 
     # --- every tick ----------------------------------------------------------------------------
 
-    def tick(self, state: MotorState) -> MotorCommand:
-        """One bus period: read the state, return what to send."""
+    def tick(self, sample: BodySample) -> MotorCommand:
+        """One bus period: read what the body feels, return what to send."""
+        state, imu = sample.motors, sample.imu
         if not self._started:
             taking_over = starting.took_over(state)
-            self._start(state, taking_over=taking_over)
+            self._start(sample, taking_over=taking_over)
             self._since_s = state.stamp_s
             if taking_over:
                 self._take_over(state)
-        self._state = state
-        self._gyro += state.gyro_rad_s
-        self._accel += state.accel_m_s2
+        self._sample = sample
+        self._gyro += imu.gyro_rad_s
+        self._accel += imu.accel_m_s2
         self._samples += 1
         if self._ticks_to_solve < 0.5:
             self._ticks_to_solve += self._ticks_per_solve
-            self._solve(state)
+            self._solve(sample)
         else:
             self._command.stamp_s = state.stamp_s
         self._ticks_to_solve -= 1.0
@@ -236,8 +240,8 @@ class ControlLoop:
             self._failure = failure("lost_balance", self.limits.tripped)
         return self._command
 
-    def _solve(self, state: MotorState) -> None:
-        dt_s = BUS_PERIOD_S * self._samples
+    def _solve(self, sample: BodySample) -> None:
+        dt_s, state = BUS_PERIOD_S * self._samples, sample.motors
         dynamics, body, data = self.dynamics, self.body, self.dynamics.data
         estimator = self.estimator
         estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
@@ -249,28 +253,27 @@ class ControlLoop:
         qvel[:3], qvel[3:6] = estimator.v, estimator.w_B
         body.write_joints(data, state.q, state.qd)
         dynamics.kinematics()
-        shift_v = estimator.correct(
-            dt_s, dynamics.sole_position, dynamics.sole_velocity, state.ankle_wrench[:, 2]
-        )
+        bearing_n = sample.force.ankle_wrench[:, 2]
+        shift_v = estimator.correct(dt_s, dynamics.sole_position, dynamics.sole_velocity, bearing_n)
         dynamics.shift_base_velocity(shift_v)
         dynamics.dynamics()
         self._update_mode()
         if self.mode == "fallen" or self._getting_up is not None:
             estimator.v[:] = 0.0  # no foot bears anything that would hold a drift
         if self._getting_up is not None:
-            self._command = self._rise(self._getting_up, dt_s, state)
+            self._command = self._rise(self._getting_up, dt_s, sample)
         elif self.mode in ("damping", "fallen"):
             self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
         else:
-            self._command = self._compute(dt_s, state)
+            self._command = self._compute(dt_s, sample)
 
-    def _rise(self, rising: GettingUp, dt_s: float, state: MotorState) -> MotorCommand:
+    def _rise(self, rising: GettingUp, dt_s: float, sample: BodySample) -> MotorCommand:
         """Play the motions of getting up; on its feet, hand over to the whole body."""
-        body = self.body
+        body, state = self.body, sample.motors
         rising.update(dt_s, self.dynamics, state.q, state.qd)
         if rising.outcome == "on its feet":
             activity, self._getting_up = self.legs.activity, None
-            self._start(state)
+            self._start(sample)
             self.mode = "rising"  # until it stands tall
             self.legs.stand(Stand(stamp_s=state.stamp_s, id=activity.id))
         elif rising.outcome == "failed":
@@ -282,8 +285,8 @@ class ControlLoop:
             state.stamp_s, rising.q.copy(), rising.qd.copy(), zero, body.kp, body.kd
         )
 
-    def _compute(self, dt_s: float, state: MotorState) -> MotorCommand:
-        body, dynamics = self.body, self.dynamics
+    def _compute(self, dt_s: float, sample: BodySample) -> MotorCommand:
+        body, dynamics, state = self.body, self.dynamics, sample.motors
         standing = self.legs.gait.phase == "stand"
         rest_acc = np.zeros(body.model.nv)
         q_des, qd_des = state.q.copy(), np.zeros(body.count)
@@ -293,7 +296,10 @@ class ControlLoop:
             q_des[arm.motors], qd_des[arm.motors] = arm.q, arm.qd
             rest_acc[arm.dofs] = arm.qdd
         for side, hand in self.hands.items():
-            q_des[hand.motor] = hand.update(dt_s, state, self._wrist_rotation[side])
+            q_des[hand.motor] = hand.update(
+                dt_s, state,
+                wrist_wrench=sample.force.wrist_wrench, rotation_NW=self._wrist_rotation[side],
+            )  # fmt: skip
         self.head.update(dt_s, dynamics, state.q[self.head.motors])
         q_des[self.head.motors] = self.head.q
         task, self._reference = self.legs.update(dt_s, dynamics, self.estimator.load, rest_acc)
@@ -339,7 +345,7 @@ class ControlLoop:
 
     def state(self) -> BodyState:
         """The newest state; call after the first tick."""
-        body, data, state = self.body, self.dynamics.data, self._state
+        body, data, state = self.body, self.dynamics.data, self._sample.motors
         legs = self.legs
         com, velocity = self.dynamics.com, self.dynamics.com_velocity
         omega = legs.gait.omega_1_s

@@ -14,32 +14,34 @@ from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.timing import Lateness
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, WallClock
-from robot.control.loop import BUS_PERIOD_S, ControlLoop
-from robot.drivers.motors import MotorBus
-from robot.drivers.shared_memory import SharedMotors
+from robot.control.loop import BUS_PERIOD_S, NEEDS, ControlLoop
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.simulation.shared_plant import SharedPlant
+from robot.drivers.wiring import Wiring
 from robot.model import description
 
 STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 250, 0.3
 TURN_POLL_S = 0.001
 
 
-def serve(loop: ControlLoop, motors: MotorBus, bus: Bus, *, clock: Clock, stop: Stop) -> None:
+def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop: Stop) -> None:
     """Run until asked to stop. After a pause of the process the motors damp until re-armed."""
     commands = bus.subscribe(topics.BODY_COMMAND)
     lateness = Lateness("controller", BUS_PERIOD_S)
     stamp_s, ticks = -1.0, 0
     while not stop:
-        state = motors.read()
-        if state.stamp_s == stamp_s:
+        sample = body.read()
+        if sample.motors.stamp_s == stamp_s:
             continue
-        stamp_s = state.stamp_s
+        stamp_s = sample.motors.stamp_s
         if (pause_s := lateness.tick(clock.now_s())) > PAUSE_S:
             loop.trip(f"the controller stood still for {pause_s:.2f} s")
         for command in commands.take():
             loop.handle(command)
-        motors.write(loop.tick(state))
+        body.write(loop.tick(sample))
         if ticks % STATE_TICKS == 0:
             bus.publish(topics.BODY_STATE, loop.state())
+            body.relay()
         if ticks % TIMING_TICKS == 0:
             bus.publish(topics.CONTROLLER_TIMING, lateness.report(stamp_s, clock.now_s()))
         ticks += 1
@@ -52,15 +54,17 @@ def main(run_file: str, parent_pid: str) -> None:
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     loop, stop = ControlLoop(robot), Stop()
-    motors = SharedMotors.of(robot, config.motors_path, clock=clock)
-    with ZenohBus("controller", config.sockets) as bus, motors:
-        if not motors.claim():
-            ControlLoop(robot).tick(motors.read())  # the first tick of a process is a slow one
-        ask_for_real_time()
-        gc.freeze()  # what start-up made stays: the collector need not look at it in every period
-        while not stop and not motors.claim():
-            clock.sleep_until(clock.now_s() + TURN_POLL_S)
-        serve(loop, motors, bus, clock=clock, stop=stop)
+    with ZenohBus("controller", config.sockets) as bus:
+        plant = SharedPlant(robot, config.memory, clock=clock)  # opened by a simulated driver
+        wiring = Wiring(robot=robot, clock=clock, bus=bus, plant=plant)
+        with BodyDevices(wiring, needs=NEEDS) as body:
+            if not body.claim():
+                ControlLoop(robot).tick(body.read())  # the first tick of a process is a slow one
+            ask_for_real_time()
+            gc.freeze()  # what start-up made stays: the collector need not look at it every period
+            while not stop and not body.claim():
+                clock.sleep_until(clock.now_s() + TURN_POLL_S)
+            serve(loop, body, bus, clock=clock, stop=stop)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from robot.control.walking.footsteps import Sole, stance_of
-from robot.drivers.motors import MotorState
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorState
 from robot.errors import Failure, failure
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Mode
@@ -37,18 +38,18 @@ class Found(NamedTuple):
     right: Sole
 
 
-def find(dynamics: Dynamics, state: MotorState, *, taking_over: bool) -> Found:
+def find(dynamics: Dynamics, sample: BodySample, *, taking_over: bool) -> Found:
     """Find the odometry frame: the stance is its origin, the floor its z = 0.
 
     Args:
         dynamics: of the robot; its base and joints are written.
-        state: what motors and IMU say.
+        sample: what motors, IMU and soles say.
         taking_over: whether another controller moved it a moment ago.
     """
     body, data = dynamics.body, dynamics.data
-    X_AB = SE3((0.0, 0.0, 0.0), _upright(dynamics, state, taking_over=taking_over))
+    X_AB = SE3((0.0, 0.0, 0.0), _upright(dynamics, sample, taking_over=taking_over))
     body.write_base(data, X_AB)
-    body.write_joints(data, state.q)
+    body.write_joints(data, sample.motors.q)
     dynamics.kinematics()
     X_AL, X_AR = (body.site_pose(data, body.sole_site[side]) for side in SIDES)
     stance = stance_of(planar(X_AL), planar(X_AR))
@@ -62,19 +63,20 @@ def planar(X: SE3) -> Sole:
     return Sole(X.p[0], X.p[1], X.yaw_rad)
 
 
-def _upright(dynamics: Dynamics, state: MotorState, *, taking_over: bool) -> Quaternion:
+def _upright(dynamics: Dynamics, sample: BodySample, *, taking_over: bool) -> Quaternion:
     """Orientation with heading zero: from gravity at rest, else from the soles lying flat.
 
     A robot whose controller died may be in mid-step: the soles that bear it say what is up. Or it
     lies, which they do not.
     """
-    felt_B = state.accel_m_s2
+    felt_B = sample.imu.accel_m_s2
     norm = float(np.linalg.norm(felt_B))
-    bearing = state.ankle_wrench[:, 2].clip(min=0.0) / (GRAVITY_M_S2 * dynamics.body.mass_kg)
+    weight_n = GRAVITY_M_S2 * dynamics.body.mass_kg
+    bearing = sample.force.ankle_wrench[:, 2].clip(min=0.0) / weight_n
     in_a_step = taking_over and float(bearing.sum()) > CARRYING_SHARE
     up_B = felt_B / norm
     if in_a_step or abs(norm - GRAVITY_M_S2) >= AT_REST_M_S2:
-        soles_B = _up_of_soles(dynamics, state, bearing if in_a_step else np.ones(2))
+        soles_B = _up_of_soles(dynamics, sample.motors, bearing if in_a_step else np.ones(2))
         flat = float(soles_B @ up_B) > math.cos(LYING_RAD) * float(np.linalg.norm(soles_B))
         up_B = soles_B if flat or not taking_over else up_B
     x, y, z = (float(value) for value in up_B)

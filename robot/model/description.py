@@ -77,7 +77,6 @@ class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     height: int
     fovy_rad: float
     range_m: float
-    rate_hz: float
 
 
 class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -86,7 +85,6 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     site: str
     beams: int
     range_m: float
-    rate_hz: float
 
 
 class Battery(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -164,7 +162,11 @@ class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A humanoid: joint groups, limits, feet, hands, sensors, postures."""
+    """A humanoid: joint groups, limits, feet, hands, sensors, postures.
+
+    `drivers` names what moves and senses it, by device (`robot.drivers.registry`); one that is not
+    named is simulated.
+    """
 
     name: str
     mjcf: str
@@ -181,7 +183,9 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     body_radius_m: float
     battery: Battery | None = None
     getting_up: GettingUp | None = None
+    drivers: dict[str, str] = {}
     folder: str = ""
+    file: str = ""
 
     @property
     def motor_names(self) -> tuple[str, ...]:
@@ -192,6 +196,10 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Motor indices of a joint group, in the group's order."""
         names = self.motor_names
         return [names.index(name) for name in self.groups[group]]
+
+    def path(self) -> Path:
+        """Where the description lies."""
+        return Path(self.folder) / self.file
 
     def mjcf_path(self) -> Path:
         """Where the MJCF lies."""
@@ -218,7 +226,7 @@ def load(name_or_path: str = "juno") -> RobotDescription:
             hint = config.nearest(name_or_path, names)
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
     description = config.load(path, RobotDescription)
-    description = msgspec.structs.replace(description, folder=str(path.parent))
+    description = msgspec.structs.replace(description, folder=str(path.parent), file=path.name)
     _check(description, str(path))
     return description
 

@@ -8,6 +8,7 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
+from robot.drivers.wiring import Wiring
 from robot.model import description
 from robot.perception.node import PerceptionNode
 
@@ -18,13 +19,15 @@ def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     config, clock = run.load(run_file), WallClock()
+    robot = description.load(config.robot)
     with ZenohBus("perception", config.sockets) as bus:
-        node = PerceptionNode(bus, description.load(config.robot))
+        node = PerceptionNode(Wiring(robot=robot, clock=clock, bus=bus))
         stop = Stop()
-        while not stop:
-            due_s = clock.now_s() + PERIOD_S
-            node.step()
-            clock.sleep_until(due_s)
+        with node:
+            while not stop:
+                due_s = clock.now_s() + PERIOD_S
+                node.step()
+                clock.sleep_until(due_s)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,17 @@
-"""Perception: topics in, world state out. The same object runs in `fast` and `live`."""
+"""Perception: sensors in, world state out. The same object runs in `fast` and `live`."""
 
 from __future__ import annotations
 
 import math
+from typing import Self
 
 import mujoco
 import numpy as np
 
 from robot.bus import topics
-from robot.bus.bus import Bus, Subscription
+from robot.closing import Closing
+from robot.drivers.senses import Senses
+from robot.drivers.wiring import Wiring
 from robot.fusion.history import BodyHistory
 from robot.fusion.localisation import Localiser
 from robot.fusion.unmapped import UnmappedObstacles
@@ -23,7 +26,6 @@ from robot.messages import (
     WorldState,
 )
 from robot.model.body import BodyModel
-from robot.model.description import RobotDescription
 from robot.se3 import SE3
 
 PERIOD_S = 0.1
@@ -34,30 +36,30 @@ REMEMBER_S = 6.0
 """The camera turns away from what it has seen: it is kept in mind for so long."""
 
 
-class PerceptionNode:
+class PerceptionNode(Closing):
     """Turns fixes, sightings, depth and lidar into the world model.
 
+    Camera and lidar are its own: it opens them, and publishes what they bring.
     A message waits until the body state of its own time has come (at most `PATIENCE_S`), so that
     head and base stood where it is believed that they stood. Time is the newest stamp.
     """
 
-    def __init__(self, bus: Bus, description: RobotDescription) -> None:
+    def __init__(self, wiring: Wiring) -> None:
         """Subscribe; compile the body for the poses of camera and lidar.
 
         Raises:
             DescriptionError: if description and MJCF disagree.
+            ConfigError: if the description names a driver that there is not.
         """
+        bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
+        self._senses = Senses(wiring, "perception")
         self._bus = bus
         self._states = bus.subscribe(topics.BODY_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)
         self._known: WorldMap | None = None
-        self._inputs: list[Subscription[Message]] = [
-            bus.subscribe(topics.ORACLE_FIX),
-            bus.subscribe(topics.DEPTH),
-            bus.subscribe(topics.ORACLE_SIGHTINGS),
-            bus.subscribe(topics.LIDAR),
-        ]
+        self._fixes = bus.subscribe(topics.ORACLE_FIX)
+        self._sightings = bus.subscribe(topics.ORACLE_SIGHTINGS)
         self._waiting: list[Message] = []
         self._depth: DepthImage | None = None
         self._body = BodyModel(description)
@@ -75,14 +77,23 @@ class PerceptionNode:
         self._now_s = self._looked_s = -math.inf
         self._published_s = -math.inf
 
+    def __enter__(self) -> Self:
+        """Open the sensors. Raises DriverError if one is not there."""
+        self._senses.__enter__()
+        return self
+
+    def close(self) -> None:
+        """Let go of the sensors."""
+        self._senses.close()
+
     def step(self) -> None:
         """Work off what came; publish the world state at most every `PERIOD_S`."""
         self._learn_map()
         for state in self._states.take():
             self._history.add(state)
             self._now_s = max(self._now_s, state.stamp_s)
-        for messages in self._inputs:
-            self._waiting += messages.take()
+        # Of one instant: a fix places what is seen, and depth says what a sighting could not see.
+        self._waiting += [*self._fixes.take(), *self._senses.relay(), *self._sightings.take()]
         waiting, self._waiting = self._waiting, []
         for message in waiting:
             self._now_s = max(self._now_s, message.stamp_s)

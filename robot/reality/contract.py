@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
-from robot.drivers.motors import MotorCommand, MotorState
+from robot.bus.topics import Topic
+from robot.drivers.wiring import SimulatedPlant
 from robot.messages import Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
@@ -94,23 +95,15 @@ class World(Protocol):
         ...
 
 
-class Plant(Protocol):
+class Plant(SimulatedPlant, Protocol):
     """A robot in its world: `step` advances whole milliseconds, `sense` gives what is due."""
-
-    def read(self) -> MotorState:
-        """Measure the motors and the body's own sensors."""
-        ...
-
-    def write(self, command: MotorCommand) -> MotorCommand:
-        """Command every motor."""
-        ...
 
     def step(self, count: int = 1) -> None:
         """Advance; raises DriverError if the physics diverged."""
         ...
 
-    def sense(self, now_s: float) -> Sequence[tuple[str, Message]]:
-        """Names of topics and messages of the sensors that are due."""
+    def sense(self, now_s: float) -> Sequence[tuple[Topic[Any], Message]]:
+        """Topics and messages of the sensors that are due."""
         ...
 
     def suffer(self, fault: Fault) -> None:

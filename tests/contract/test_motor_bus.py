@@ -1,39 +1,51 @@
-"""What every driver of motors promises, tried on each."""
+"""What every driver of motors promises, tried on each row of the registry."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import get_args
 
+import msgspec
 import numpy as np
 import pytest
 
+from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
-from robot.drivers.motors import MotorBus
-from robot.drivers.shared_memory import SILENCE_S, MotorServer, SharedMotors
-from robot.drivers.simulated import SimulatedMotors
+from robot.drivers.motor_bus import Capability, MotorBus
+from robot.drivers.registry import MOTORS
+from robot.drivers.simulation.fingerprint import fingerprint
+from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
+from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
+from robot.model import description
 from tests.fakes.motors import FakePlant, hold
 
-COUNT = 3
+ROBOT = description.load("juno")
+COUNT = len(ROBOT.motors)
 
 
 @dataclass
 class Device:
-    """A driver, the plant behind it, and what lets a period pass between them."""
+    """A driver of a row, another of the same device, the plant behind, a period between them."""
 
     driver: MotorBus
+    spare: MotorBus
+    clock: SimulatedClock
     plant: FakePlant
     period: Callable[[], None]
 
 
-def simulated(tmp_path: Path) -> Device:
+def simulated_here(tmp_path: Path) -> Device:
     plant = FakePlant(COUNT)
-    return Device(SimulatedMotors(plant), plant, lambda: plant.step(2))
+    clock = SimulatedClock()
+    wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=plant)
+    driver, spare = (MOTORS.drivers["simulated"](wiring) for _ in range(2))
+    return Device(driver, spare, clock, plant, lambda: plant.step(2))
 
 
-def shared(tmp_path: Path) -> Device:
-    plant, clock = FakePlant(COUNT), SimulatedClock()
-    server = MotorServer(tmp_path / "motors", count=COUNT, configuration=b"a" * 32)
+def simulated_elsewhere(tmp_path: Path) -> Device:
+    plant = FakePlant(COUNT)
+    server = PlantServer(ROBOT, tmp_path)
     server.publish(plant.read())
 
     def period() -> None:
@@ -42,20 +54,36 @@ def shared(tmp_path: Path) -> Device:
         plant.step(2)
         server.publish(plant.read())
 
-    driver = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
-    return Device(driver, plant, period)
+    def driver(clock: SimulatedClock) -> MotorBus:
+        there = SharedPlant(ROBOT, tmp_path, clock=clock)
+        wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=there)
+        return MOTORS.drivers["simulated"](wiring)
+
+    clock = SimulatedClock()
+    return Device(driver(clock), driver(clock), clock, plant, period)
 
 
-@pytest.fixture(params=[simulated, shared])
+BENCHES = {"simulated": (simulated_here, simulated_elsewhere)}
+
+
+@pytest.fixture(params=[bench for benches in BENCHES.values() for bench in benches])
 def device(request: pytest.FixtureRequest, tmp_path: Path) -> Device:
     return request.param(tmp_path)
 
 
+def test_every_row_is_tried():
+    assert set(BENCHES) == set(MOTORS.drivers)
+
+
+def test_what_it_can_do_is_known_before_it_is_opened(device: Device):
+    assert device.driver.capabilities <= set(get_args(Capability))
+
+
 def test_a_closed_driver_refuses(device: Device):
-    with pytest.raises(DriverError):
-        device.driver.read()
-    with pytest.raises(DriverError):
-        device.driver.write(hold(COUNT, 0.0))
+    driver = device.driver
+    for ask in (driver.read, driver.claim, lambda: driver.write(hold(COUNT, 0.0))):
+        with pytest.raises(DriverError):
+            ask()
     with device.driver:
         pass
     with pytest.raises(DriverError):
@@ -65,14 +93,15 @@ def test_a_closed_driver_refuses(device: Device):
 def test_the_state_is_the_plants(device: Device):
     with device.driver as driver:
         device.period()
-        got, want = driver.read(), device.plant.read()
+        got, want = driver.read(), device.plant.read().motors
     for name in ("stamp_s", "watchdog", "command_stamp_s"):
         assert getattr(got, name) == getattr(want, name)
-    for name in (
-        "q", "qd", "tau", "temperature_c", "gyro_rad_s", "accel_m_s2", "ankle_wrench",
-        "wrist_wrench",
-    ):  # fmt: skip
+    measured = {"temperature": "temperature_c", "torque": "tau"}
+    able = {name for capability, name in measured.items() if capability in driver.capabilities}
+    for name in {"q", "qd", "age_s", *able}:
         np.testing.assert_array_equal(getattr(got, name), getattr(want, name))
+    for name in {*measured.values()} - able:
+        assert np.isnan(getattr(got, name)).all()
 
 
 def test_states_go_on_and_belong_to_the_reader(device: Device):
@@ -135,73 +164,11 @@ def test_leaving_damps_every_motor(device: Device, error: Exception | None):
     device.driver.close()
 
 
-def test_a_dead_plant_is_an_error_within_a_second(tmp_path: Path):
-    device = shared(tmp_path)
-    clock = SimulatedClock()
-    driver = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
-    with driver:
-        device.period()
-        driver.read()
-        with pytest.raises(DriverError, match="silent"):
-            while True:
-                driver.read()
-        assert SILENCE_S <= clock.now_s() <= 1.2 * SILENCE_S
-        assert driver.repeats > 100
-
-
-def test_reading_waits_at_most_a_period(tmp_path: Path):
-    device = shared(tmp_path)
-    clock = SimulatedClock()
-    driver = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
-    with driver:
-        device.period()
-        state = driver.read()
-        before_s = clock.now_s()
-        assert driver.read().stamp_s == state.stamp_s
-        assert clock.now_s() - before_s < 0.0025
-
-
-@pytest.mark.parametrize(
-    ("count", "configuration", "match"),
-    [(COUNT, b"b" * 32, "different robots"), (COUNT + 1, b"a" * 32, "different robots")],
-)
-def test_another_configuration_is_refused(tmp_path: Path, count, configuration, match):
-    shared(tmp_path)
-    driver = SharedMotors(
-        tmp_path / "motors", count=count, configuration=configuration, clock=SimulatedClock()
-    )
-    with pytest.raises(DriverError, match=match) as caught:
-        driver.__enter__()
-    if configuration == b"b" * 32:
-        assert (b"a" * 8).hex() in str(caught.value)
-        assert (b"b" * 8).hex() in str(caught.value)
-
-
-@pytest.mark.parametrize("content", [b"", b"junk", b"HUMOTOR9" + bytes(2000)])
-def test_another_layout_is_refused(tmp_path: Path, content: bytes):
-    (tmp_path / "motors").write_bytes(content)
-    driver = SharedMotors(
-        tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=SimulatedClock()
-    )
-    with pytest.raises(DriverError):
-        driver.__enter__()
-
-
-def test_no_plant_is_an_error_with_the_path(tmp_path: Path):
-    driver = SharedMotors(
-        tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=SimulatedClock()
-    )
-    with pytest.raises(DriverError, match="motors"):
-        driver.__enter__()
-
-
-def test_one_process_at_a_time_commands_shared_motors(tmp_path: Path):
-    device = shared(tmp_path)
-    clock = SimulatedClock()
-    spare = SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock)
-    with spare:
+def test_one_at_a_time_commands_the_motors(device: Device):
+    with device.spare as spare:
         with device.driver as first:
             first.write(hold(COUNT, 0.0))
+            assert first.claim()
             assert not spare.claim()
             with pytest.raises(DriverError, match="another controller"):
                 spare.write(hold(COUNT, 0.0))
@@ -211,12 +178,73 @@ def test_one_process_at_a_time_commands_shared_motors(tmp_path: Path):
         spare.write(hold(COUNT, 0.002))
 
 
-def test_a_spare_that_leaves_does_not_damp_the_motors_of_another(tmp_path: Path):
-    device = shared(tmp_path)
-    clock = SimulatedClock()
+def test_a_spare_that_leaves_does_not_damp_the_motors_of_another(device: Device):
     with device.driver as first:
         first.write(hold(COUNT, 0.0))
-        with SharedMotors(tmp_path / "motors", count=COUNT, configuration=b"a" * 32, clock=clock):
+        with device.spare:
             pass
         device.period()
-    assert device.plant.commands[-1].kp.all()
+        assert device.plant.commands[-1].kp.all()
+
+
+# --- over shared memory ----------------------------------------------------------------------
+
+
+@pytest.fixture
+def shared(tmp_path: Path) -> Device:
+    return simulated_elsewhere(tmp_path)
+
+
+def test_a_dead_plant_is_an_error_within_a_second(shared: Device):
+    with shared.driver as driver:
+        shared.period()
+        driver.read()
+        begun_s, ages_s = shared.clock.now_s(), [0.0]
+        with pytest.raises(DriverError, match="silent"):
+            while True:
+                ages_s.append(driver.read().age_s.min())
+        assert SILENCE_S <= shared.clock.now_s() - begun_s <= 1.2 * SILENCE_S
+    assert ages_s == sorted(ages_s)
+    assert ages_s[-1] == pytest.approx(SILENCE_S, rel=0.1)
+    assert len(ages_s) > 100
+
+
+def test_reading_waits_at_most_a_period(shared: Device):
+    with shared.driver as driver:
+        shared.period()
+        state = driver.read()
+        before_s = shared.clock.now_s()
+        assert driver.read().stamp_s == state.stamp_s
+        assert shared.clock.now_s() - before_s < 0.0025
+
+
+def other_robots():
+    *some, (name, last) = ROBOT.motors.items()
+    yield msgspec.structs.replace(ROBOT, name="other")
+    yield msgspec.structs.replace(ROBOT, motors={**dict(some), f"{name}_too": last, name: last})
+
+
+@pytest.mark.parametrize("other", [*other_robots()], ids=["named", "motors"])
+def test_another_robot_is_refused(shared: Device, tmp_path: Path, other):
+    with pytest.raises(DriverError, match="different robots") as caught:
+        SharedPlant(other, tmp_path, clock=SimulatedClock()).open()
+    for robot in (ROBOT, other):
+        assert fingerprint(robot).hex()[:16] in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"junk", b"HUMOTOR9" + bytes(20000)])
+def test_another_layout_is_refused(tmp_path: Path, content: bytes):
+    (tmp_path / "motors").write_bytes(content)
+    with pytest.raises(DriverError):
+        SharedPlant(ROBOT, tmp_path, clock=SimulatedClock()).open()
+
+
+def test_no_plant_is_an_error_with_the_path(tmp_path: Path):
+    with pytest.raises(DriverError, match=str(tmp_path / "motors")):
+        SharedPlant(ROBOT, tmp_path, clock=SimulatedClock()).open()
+
+
+def test_a_process_without_a_plant_has_no_simulated_motors():
+    wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=LocalBus())
+    with pytest.raises(DriverError, match="simulated plant"):
+        MOTORS.make(wiring)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from executive.engine.recorder import Recorder
 from executive.journal.journal import encode
-from executive.journal.pages.reading import Reader
+from executive.journal.reader import Reader
 from tests.fakes.rig import Rig
 
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from executive.engine.executive import Executive
 from executive.journal.journal import Journal
 from executive.skills.context import SkillContext
-from executive.skills.parameters import NavigateParams, PickParams, PlaceParams, WaitParams
-from executive.skills.parameters import Step as StepParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.navigate import Step as StepParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.wait import WaitParams
 from executive.trees.build import build
 from executive.trees.parts import Series
 from executive.trees.recovery import Errand

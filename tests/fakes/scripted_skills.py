@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from executive.skills.parameters import Parameters
+from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.errors import failure
 from robot.messages import WorldMap
@@ -28,7 +28,7 @@ class FakeSkill:
     """Plays a script and counts how it was called."""
 
     script: Script
-    params: Parameters
+    params: SkillParams
     attempt: int
     resources: frozenset[Resource] = frozenset()
     calls: list[str] = field(default_factory=list)
@@ -64,7 +64,7 @@ class Troupe:
         self.scripts = {kind: list(turns) for kind, turns in (scripts or {}).items()}
         self.made: list[FakeSkill] = []
 
-    def make(self, params: Parameters, attempt: int) -> FakeSkill:
+    def make(self, params: SkillParams, attempt: int) -> FakeSkill:
         turns = self.scripts.get(type(params), [Script()])
         script = turns.pop(0) if len(turns) > 1 else turns[0]
         skill = FakeSkill(script, params, attempt)

@@ -14,8 +14,8 @@ import pytest
 from robot.bringup.live import LiveRuntime
 from robot.bringup.processes import CONTROLLER
 from robot.clock import WallClock
-from robot.drivers.fingerprint import fingerprint
-from robot.drivers.shared_memory import SharedMotors
+from robot.drivers.motors.simulated import SimulatedMotors
+from robot.drivers.simulation.shared_plant import SharedPlant
 from robot.errors import ConfigError
 from robot.messages import LoopTiming, WalkTo
 from robot.model import description
@@ -99,12 +99,8 @@ def test_the_spare_holds_the_robot_up_when_the_controller_is_killed(live: LiveRu
 def test_without_a_spare_the_motors_damp_until_the_robot_is_told_to_stand(live: LiveRuntime):
     os.kill(live.supervisor.pid("controller"), signal.SIGKILL)
     robot = description.load("juno")
-    with SharedMotors(
-        live.run.motors_path,
-        count=len(robot.motors),
-        configuration=fingerprint(robot),
-        clock=WallClock(),
-    ) as reader:
+    plant = SharedPlant(robot, live.run.memory, clock=WallClock())
+    with SimulatedMotors(plant) as reader:
         assert eventually(lambda: reader.read().watchdog)
         state = reader.read()
         limits = [motor.torque_limit_nm for motor in robot.motors.values()]

@@ -10,13 +10,13 @@ from pathlib import Path
 import msgspec
 import typer
 
-from executive.frontends.dump.writer import explained, parse_formats
-from executive.journal import journal, past_runs
+from executive.frontends.dump.writer import parse_formats
+from executive.journal import journal, past_runs, reader
+from executive.journal.dumps.formats import FORMATS, Wish, render
+from executive.journal.dumps.text import Style
 from executive.journal.journal import FILE
-from executive.journal.pages.formats import FORMATS, Wish, render
-from executive.journal.pages.model import Run
-from executive.journal.pages.reading import read
-from executive.journal.pages.text import Style
+from executive.journal.run import Run
+from executive.journal.why import why
 from robot.errors import ConfigError, Problem
 
 TO_TERMINAL = frozenset({"text", "dot", "json"})
@@ -51,7 +51,7 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         t_s=asked.t_s,
         style=_style(asked),
         everything=asked.everything,
-        why=_why(folder) if kind == "html" else (),
+        why=why(run, live=journal.is_written(folder)).lines if kind == "html" else (),
     )
     data = render(run, kind, wish)
     if not run.nodes:
@@ -76,18 +76,11 @@ def load(folder: Path) -> Run:
     Raises:
         ConfigError: if its journal cannot be read, or there is nothing in it.
     """
-    path = folder / FILE
-    try:
-        run = read(path)
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be read: {error.strerror}") from None
+    run = reader.read(folder)
     if not run.events:
-        raise ConfigError([Problem(f"{path} has no event", suggestion="choose another run")])
+        text = f"{folder / FILE} has no event"
+        raise ConfigError([Problem(text, suggestion="choose another run")])
     return run
-
-
-def _why(folder: Path) -> tuple[str, ...]:
-    return explained(journal.read(folder), live=journal.is_written(folder))
 
 
 def _check_time(run: Run, t_s: float | None) -> None:

@@ -19,10 +19,8 @@ from typing import Literal, Self, get_args
 import typer
 
 from executive.engine.executive import Executive
+from executive.journal.dumps.formats import FORMATS, Format, Wish, render
 from executive.journal.journal import Event
-from executive.journal.pages.formats import FORMATS, Format, Wish, render
-from executive.journal.pages.model import Run
-from executive.journal.pages.reading import Reader
 from executive.journal.why import why
 from executive.runs.task_run import Progress, Show
 from robot.closing import Closing
@@ -68,22 +66,16 @@ class Dumper(Closing):
         self._directory = directory
         self._on: On = on
         self._formats = formats
-        self._reader = Reader()
-        self._events: list[Event] = []
+        self._run = executive.so_far
         self._due = False
         self._closed = False
         executive.journal.listen(self._heard)
-
-    @property
-    def run(self) -> Run:
-        """What is known of the run so far."""
-        return self._reader.run
 
     def update(self) -> None:
         """Write a moment if it is time; after every tick."""
         due, self._due = self._due or self._on == "tick", False
         if due and self.written < MOST_FILES:
-            self._write(f"{self.written:05d}-{self.run.end_s:.2f}s")
+            self._write(f"{self.written:05d}-{self._run.end_s:.2f}s")
             self.written += 1
 
     def close(self) -> None:
@@ -95,9 +87,6 @@ class Dumper(Closing):
     def _heard(self, event: Event) -> None:
         if self._closed:
             return
-        self._reader.event(event)
-        if "html" in self._formats:
-            self._events.append(event)
         if self._on == "change":
             self._due = self._due or event.event in _CHANGES
         elif self._on == "failure":
@@ -108,20 +97,12 @@ class Dumper(Closing):
         for kind in self._formats:
             path = self._directory / f"{name}.{FORMATS[kind][0]}"
             try:
-                lines = explained(self._events, live=True) if kind == "html" else ()
-                path.write_bytes(render(self.run, kind, Wish(why=lines)))
+                lines = why(self._run, live=True).lines if kind == "html" else ()
+                path.write_bytes(render(self._run, kind, Wish(why=lines)))
             except OSError as error:
                 self.problem = f"{path} cannot be written: {error.strerror}"
             except Exception as error:  # a picture must never stop a robot
                 self.problem = f"{path} cannot be drawn: {type(error).__name__}: {error}"
-
-
-def explained(events: list[Event], *, live: bool) -> tuple[str, ...]:
-    """Why it ended as it did, line by line; nothing of a journal that makes no sense."""
-    try:
-        return why(events, live=live).lines if events else ()
-    except (KeyError, TypeError, ValueError, AttributeError):
-        return ()
 
 
 def parse_formats(text: str) -> tuple[Format, ...]:

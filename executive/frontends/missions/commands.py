@@ -12,6 +12,7 @@ from executive.frontends import do as common
 from executive.frontends.missions.run import Run
 from executive.frontends.missions.run import run as run_mission
 from executive.frontends.reality import REALITY
+from executive.journal import failures
 from executive.missions import load
 from executive.missions.check import Options, check
 from executive.missions.plan import forecast, lines
@@ -74,7 +75,7 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
         status = "invalid" if wrong else "done"
         common.echo_json({"status": status, "missions": found})
     elif wrong:
-        typer.echo("What to do: correct that, then check again", err=True)
+        typer.echo("\n".join(failures.advice("correct that, then check again")), err=True)
     return INVALID if wrong else DONE
 
 

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 
 from executive.frontends.reality import REALITY
-from executive.journal import journal, past_runs
+from executive.journal import failures, journal, past_runs, reader
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
 from executive.journal.why import why as explain
@@ -28,7 +28,7 @@ _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
 def why(run: str | None, *, as_json: bool) -> int:
     """Say why a run (by default the newest) ended as it did; returns the exit status."""
     folder = past_runs.find(run)
-    told = explain(journal.read(folder), live=journal.is_written(folder))
+    told = explain(reader.read(folder), live=journal.is_written(folder))
     if as_json:
         record = {"folder": str(folder), **msgspec.to_builtins(told)}
         typer.echo(msgspec.json.encode(record))
@@ -78,10 +78,13 @@ def replay(run: str | None, *, as_json: bool) -> int:
         typer.echo("\n".join(differs(result.difference)))
     for change in result.changed:
         typer.echo(f"  note: {change}, since it was recorded")
-    if result.difference is not None and result.changed:
-        typer.echo("What to do: that is why it differs, most likely; replay with what it had then.")
-    elif result.difference is not None:
-        typer.echo("What to do: nothing changed that is known of; report it with the run folder.")
+    if result.difference is not None:
+        cure = (
+            "that is why it differs, most likely; replay with what it had then."
+            if result.changed
+            else "nothing changed that is known of; report it with the run folder."
+        )
+        typer.echo("\n".join(failures.advice(cure)))
     return status
 
 

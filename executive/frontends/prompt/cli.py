@@ -23,6 +23,7 @@ from executive.frontends.prompt.shell import Shell
 from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.frontends.supervised import FrontEnd, oversee
+from executive.journal import failures
 from executive.journal.journal import Event
 from executive.meaning import request
 from executive.runs import run_folder, runtimes
@@ -189,9 +190,8 @@ def words(event: Event) -> str:
     if event.event in ("step", "done") and not event.data.get("id"):
         return ""  # the executive's own business: coming to a stand
     if event.event == "job" and event.data["state"] in ENDINGS:
-        cause = event.data.get("cause")
         head = f"{ENDINGS[event.data['state']]} ({event.data['job']}): {event.data['text']}"
-        return f"{head}: {cause}" if cause else head
+        return head + failures.because(event.data.get("cause"))
     return sentence(event)
 
 

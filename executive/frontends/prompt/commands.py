@@ -12,11 +12,12 @@ from executive.frontends.prompt import saving
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.shell import Shell, number_of
 from executive.frontends.prompt.watch import Watch
-from executive.frontends.tree_lines import text as tree_text
-from executive.journal import past_runs
-from executive.journal.journal import read
+from executive.journal import failures, past_runs, reader
+from executive.journal.dumps.text import picture
+from executive.journal.snapshot import at_work
 from executive.journal.why import why
 from executive.missions import fault_plans
+from executive.skills.catalogue import SKILLS
 from robot.errors import ConfigError
 
 KEY_NAMES = tuple(key.name for key in KEYS)
@@ -117,9 +118,10 @@ def table(shell: Shell) -> tuple[Command, ...]:
             run=keeping.save, accepts=_begins("mission", bare=False), choices=lambda: ("mission",),
         ),
         Command(
-            name="help", usage="help [COMMAND]", summary="this list, or one command",
-            run=seeing.help, accepts=lambda rest: not rest or rest in shell.commands,
-            choices=lambda: tuple(shell.commands),
+            name="help", usage="help [COMMAND | skills]",
+            summary="this list, or one command, or what the robot can do",
+            run=seeing.help, accepts=lambda rest: rest in ("", "skills", *shell.commands),
+            choices=lambda: ("skills", *shell.commands),
         ),
         Command(
             name="quit", usage="quit", summary="stop, and leave (also Ctrl-D)", run=keeping.quit
@@ -178,8 +180,8 @@ class _Seeing:
         if rest:
             observer.tree_wanted = rest == "on"
             return
-        shown = self._shell.robot.executive.tree.shown
-        self._shell.out(tree_text(shown) if shown is not None else "There is no task.")
+        shown = at_work(self._shell.robot.executive.so_far)
+        self._shell.out(picture(shown) if shown else "There is no task.")
 
     def watch(self, rest: str) -> None:
         if not rest:
@@ -198,7 +200,7 @@ class _Seeing:
         return tuple(self._watches)
 
     def why(self, _rest: str) -> None:
-        self._shell.out(why(read(self._shell.folder), live=True).text)
+        self._shell.out(why(reader.read(self._shell.folder), live=True).text)
 
     def history(self, _rest: str) -> None:
         jobs = self._shell.robot.executive.jobs
@@ -226,6 +228,10 @@ class _Seeing:
 
     def help(self, rest: str) -> None:
         commands = self._shell.commands
+        if rest == "skills":
+            for skill in SKILLS:
+                self._shell.out(f"  {skill.name:10} {skill.summary}")
+            return
         if rest:
             self._shell.out(f"{commands[rest].usage}\n  {commands[rest].summary}")
             return
@@ -378,6 +384,6 @@ class _Keeping:
 
 def _row(job: Job) -> str:
     took = f"{job.took_s:.1f} s" if job.took_s is not None else ""
-    reason = f": {job.failure.cause}" if job.failure else ""
+    reason = failures.because(job.failure.cause if job.failure else None)
     urgent = " (urgent)" if job.urgent else ""
     return f"{job.number:3} {job.state:11} {job.text}{urgent}  {took}{reason}".rstrip()

@@ -19,6 +19,7 @@ from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
+from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
@@ -26,7 +27,7 @@ from intents.outcomes import Goals, Question, Refusal, Reply
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
-from robot.errors import CATALOGUE, RobotError
+from robot.errors import RobotError
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
@@ -93,7 +94,7 @@ class Shell:
         lost = self.robot.lost
         if lost is None:
             return ""
-        cure = lost.suggestion or CATALOGUE[lost.code].suggestion
+        cure = failures.suggestion(lost.code, lost.suggestion)
         return f"The robot is gone: {lost.cause}; {cure}."
 
     def answer(self, text: str) -> None:

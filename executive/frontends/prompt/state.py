@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from executive.blackboard import HEALTH, HELD, PHASE, WORLD
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.journal import failures
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.tasks import HANDLERS
 from intents.grounding import Entity
@@ -79,6 +80,5 @@ def _ending(job: Job) -> str:
     """How a job ended, in the robot's words."""
     if job.failure is None:
         return f"I have done “{job.text}”."
-    if job.state == "cancelled":
-        return f"I stopped “{job.text}”: {job.failure.cause}."
-    return f"I could not do “{job.text}”: {job.failure.cause}."
+    stopped = job.state == "cancelled"
+    return failures.in_first_person(f"“{job.text}”", job.failure.cause, stopped=stopped)

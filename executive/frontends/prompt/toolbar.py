@@ -5,10 +5,9 @@ from __future__ import annotations
 from prompt_toolkit.formatted_text import StyleAndTextTuples
 
 from executive.frontends.prompt.view import View
-from executive.frontends.tree_lines import Line
 from executive.health import Level
-from executive.journal.pages.model import State
-from executive.journal.pages.text import MARKS
+from executive.journal.dumps.text import MARKS
+from executive.journal.snapshot import Shown, window
 
 STYLES: dict[str, str] = {
     "bottom-toolbar": "noreverse",
@@ -19,38 +18,25 @@ STYLES: dict[str, str] = {
     "tree.running": "fg:ansiyellow bold",
     "tree.done": "fg:ansigreen",
     "tree.failed": "fg:ansired",
+    "tree.stopped": "fg:ansimagenta",
     "tree.note": "fg:ansibrightblack",
-}
-_LINE: dict[State, str] = {
-    "waiting": "class:tree.waiting",
-    "running": "class:tree.running",
-    "done": "class:tree.done",
-    "failed": "class:tree.failed",
 }
 
 
 def toolbar(view: View, *, columns: int, rows: int) -> StyleAndTextTuples:
     """The toolbar for a terminal of that width, with at most `rows` lines of tree."""
     parts: StyleAndTextTuples = []
-    for line in window(view.tree, rows):
-        parts += _tree_line(line, columns)
+    for depth, shown in window(view.tree, rows):
+        parts += _tree_line(depth, shown, columns)
     parts += _status(view, columns)
     return parts
 
 
-def window(tree: tuple[Line, ...], rows: int) -> tuple[Line, ...]:
-    """The lines around what runs now, `rows` at most."""
-    running = [index for index, line in enumerate(tree) if line.state == "running"]
-    middle = running[-1] if running else 0
-    first = max(0, min(len(tree) - rows, middle - rows // 2))
-    return tree[first : first + rows]
-
-
-def _tree_line(line: Line, columns: int) -> StyleAndTextTuples:
-    name = f"{'  ' * line.depth}{MARKS[line.state]} {line.name}"[: columns - 1]
-    note = f"  {line.note}" if line.note and line.state != "done" else ""
+def _tree_line(depth: int, shown: Shown, columns: int) -> StyleAndTextTuples:
+    name = f"{'  ' * depth}{MARKS[shown.state]} {shown.name}"[: columns - 1]
+    note = f"  {shown.note}" if shown.note and shown.state != "done" else ""
     note = note[: max(0, columns - 1 - len(name))]
-    return [(_LINE[line.state], name), ("class:tree.note", note), ("", "\n")]
+    return [(f"class:tree.{shown.state}", name), ("class:tree.note", note), ("", "\n")]
 
 
 def _status(view: View, columns: int) -> StyleAndTextTuples:

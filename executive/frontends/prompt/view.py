@@ -11,8 +11,8 @@ from msgspec.structs import replace
 from executive.blackboard import BODY, HEALTH, HELD, HELP, PHASE, WORLD
 from executive.engine.executive import Executive
 from executive.engine.jobs import UNDER_WAY
-from executive.frontends.tree_lines import Line, lines
 from executive.health import Level
+from executive.journal.snapshot import Shown, at_work, in_order
 from robot.errors import Failure
 
 PACE_SPAN_S = 2.0
@@ -35,7 +35,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
         held: what is in the hands.
         help: what the robot asks a person for.
         pace: simulated seconds a second of wall time.
-        tree: the running job's tree, if somebody looks at it.
+        tree: the running job's tree in reading order, with depths, if somebody looks at it.
     """
 
     time_s: float = 0.0
@@ -50,7 +50,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
     held: tuple[str, ...] = ()
     help: str = ""
     pace: float = 1.0
-    tree: tuple[Line, ...] = ()
+    tree: tuple[tuple[int, Shown], ...] = ()
 
 
 def view_of_lost(last: View, lost: Failure) -> View:
@@ -67,7 +67,7 @@ class Observer:
     def __init__(self) -> None:
         """Nobody looks at the tree yet."""
         self.tree_wanted = False
-        self._tree: tuple[Line, ...] = ()
+        self._tree: tuple[tuple[int, Shown], ...] = ()
         self._tree_wall_s = -math.inf
         self._stamps: deque[tuple[float, float]] = deque()
 
@@ -111,11 +111,10 @@ class Observer:
         past_s = wall_s - stamps[0][0]
         return (now_s - stamps[0][1]) / past_s if past_s > 0.1 else 1.0
 
-    def _read_tree(self, executive: Executive, wall_s: float) -> tuple[Line, ...]:
+    def _read_tree(self, executive: Executive, wall_s: float) -> tuple[tuple[int, Shown], ...]:
         if not self.tree_wanted:
             return ()
         if wall_s - self._tree_wall_s >= PANEL_PERIOD_S:
             self._tree_wall_s = wall_s
-            shown = executive.tree.shown
-            self._tree = tuple(lines(shown)) if shown is not None else ()
+            self._tree = tuple(in_order(at_work(executive.so_far)))
         return self._tree

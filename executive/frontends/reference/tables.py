@@ -43,7 +43,7 @@ def silences() -> str:
             f"`{name}`",
             f"{BY_NAME[name].rate_hz:g} Hz",
             f"{max(concern.periods / (BY_NAME[name].rate_hz or 1.0), concern.at_least_s):g} s",
-            concern.level.name,
+            concern.level,
             f"`{concern.code}`",
         ]
         for name, concern in health_monitor.CONCERNS.items()

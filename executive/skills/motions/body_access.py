@@ -154,16 +154,16 @@ class Body:
 
     def object_info(self, object_id: str) -> ObjectInfo:
         """What the map knows of an object. Gives up on an id it does not know."""
-        for info in self.map.objects:
-            if info.id == object_id:
-                return info
+        info = self.map.object(object_id)
+        if info is not None:
+            return info
         raise give_up("unknown_object", f"there is no object {object_id!r} in {self.map.name}")
 
     def person(self, person_id: str) -> PersonInfo:
         """What the map knows of a person. Gives up on an id it does not know."""
-        for person in self.map.people:
-            if person.id == person_id:
-                return person
+        person = self.map.person(person_id)
+        if person is not None:
+            return person
         raise give_up("unknown_place", f"there is no person {person_id!r} in {self.map.name}")
 
     def X_WPerson(self, person_id: str) -> SE3:
@@ -174,9 +174,9 @@ class Body:
 
     def place(self, place_id: str) -> Place:
         """A place of the map. Gives up on an id it does not know."""
-        for place in self.map.places:
-            if place.id == place_id:
-                return place
+        place = self.map.place(place_id)
+        if place is not None:
+            return place
         raise give_up("unknown_place", f"there is no place {place_id!r} in {self.map.name}")
 
     # --- what it is told ---

@@ -5,7 +5,7 @@
         yield from move_arm(self.body, "right", plan)     # waits, then goes on
 
 A script that returns has succeeded; one that raises `GaveUp` has failed with a value. Scripts are
-run by `executive.skills.motions.scripted.ScriptedSkill`.
+run by `executive.skills.scripted.ScriptedSkill`.
 """
 
 from __future__ import annotations

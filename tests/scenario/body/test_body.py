@@ -131,17 +131,17 @@ def test_the_motors_damp_when_the_controller_stops(rig):
     """The plant goes on alone: its firmware lets the robot down, softly, by itself."""
     plant = rig.plant
     plant.step(15)  # the last command is 2 ms old
-    assert not plant.read().watchdog
+    assert not plant.read().motors.watchdog
     plant.step(5)
-    state = plant.read()
+    state = plant.read().motors
     assert state.watchdog
     fastest = 0.0
     for _ in range(200):
         plant.step(10)
-        fastest = max(fastest, float(np.abs(plant.read().qd).max()))
+        fastest = max(fastest, float(np.abs(plant.read().motors.qd).max()))
     assert rig.X_WB.p[2] < 0.4
     assert fastest < 30.0
-    assert float(np.abs(plant.read().qd).max()) < 1.0  # it lies, and rests
+    assert float(np.abs(plant.read().motors.qd).max()) < 1.0  # it lies, and rests
 
 
 def test_damp_ends_everything_and_only_stand_begins_again(rig):

@@ -5,17 +5,13 @@ import math
 import msgspec
 import pytest
 
+from executive.skills.balance import BalanceParams
 from executive.skills.catalogue import make
 from executive.skills.context import SkillContext
 from executive.skills.motions.support import tilt
-from executive.skills.parameters import (
-    BalanceParams,
-    FloorPose,
-    NavigateParams,
-    PickParams,
-    PlaceParams,
-    Step,
-)
+from executive.skills.navigate import FloorPose, NavigateParams, Step
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from robot.bringup.fast import FastRuntime
 from robot.model.description import load
 from robot.planning.inline import InlinePlanner

@@ -23,6 +23,7 @@ from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request
 from executive.runs import runtimes
+from executive.skills.catalogue import SKILLS
 from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
 from tests.fakes.voices import Loudspeaker
@@ -126,6 +127,8 @@ def test_every_command_explains_itself(shell: Shell):
         assert command.usage.startswith(command.name)
         assert not command.summary.endswith(".")
         shell.line(f"help {command.name}")
+    shell.line("help skills")
+    assert all(skill.summary in shell.out.text for skill in SKILLS)
 
 
 def test_a_question_is_open_until_it_is_answered(shell: Shell):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot.drivers.motors import MotorCommand
+from robot.drivers.motor_bus import MotorCommand
 from robot.model import description
 from sim import world
 from sim.plant import Plant

@@ -7,7 +7,9 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.bus.timing import Lateness
 from robot.clock import SimulatedClock
-from robot.drivers.shared_memory import MotorServer, SharedMotors
+from robot.drivers.motors.simulated import SimulatedMotors
+from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.shared_plant import PlantServer, SharedPlant
 from robot.reality import faults
 from robot.reality.faults import FAULT
 from sim import world
@@ -19,12 +21,11 @@ from sim.plant import Plant
 def parts(robot, tmp_path):
     plant = Plant(world.load("kitchen"), robot, seed=0)
     bus, clock = LocalBus(), SimulatedClock()
-    server = MotorServer.of(robot, tmp_path / "motors")
-    live = LivePlant(plant, server, bus, clock=clock)
-    live.period()
-    with SharedMotors.of(robot, tmp_path / "motors", clock=clock) as motors:
-        yield plant, live, motors, bus, clock
-    server.close()
+    with PlantServer(robot, tmp_path) as server:
+        live = LivePlant(plant, server, bus, clock=clock)
+        live.period()
+        with SimulatedMotors(SharedPlant(robot, tmp_path, clock=clock)) as motors:
+            yield plant, live, motors, bus, clock
 
 
 def test_time_stands_still_until_the_first_command(parts, hold):
@@ -43,7 +44,7 @@ def test_a_dead_controller_is_waited_for_then_the_motors_damp(parts, hold):
     begun_s = clock.now_s()
     for _ in range(12):
         live.period()
-    assert plant.read().watchdog
+    assert plant.read().motors.watchdog
     waited_s = clock.now_s() - begun_s
     assert 9 * PATIENCE_S < waited_s < 12 * PATIENCE_S
     before_s = clock.now_s()
@@ -69,7 +70,7 @@ def test_an_answering_controller_keeps_the_wall_clock(parts, hold, monkeypatch):
         live.period()
     assert plant.time_s == pytest.approx(0.2, abs=0.003)
     assert clock.now_s() - begun_s == pytest.approx(0.2, abs=0.005)
-    assert plant.read().command_stamp_s >= plant.time_s - 0.003
+    assert plant.read().motors.command_stamp_s >= plant.time_s - 0.003
 
 
 def test_a_late_answer_is_taken_and_the_next_one_waited_for(parts, hold):
@@ -79,7 +80,7 @@ def test_a_late_answer_is_taken_and_the_next_one_waited_for(parts, hold):
     before_s = clock.now_s()
     motors.write(hold(plant.time_s - 0.002))
     live.period()
-    assert plant.read().command_stamp_s == pytest.approx(plant.time_s - 0.004)
+    assert plant.read().motors.command_stamp_s == pytest.approx(plant.time_s - 0.004)
     assert clock.now_s() - before_s >= PATIENCE_S
 
 
@@ -104,7 +105,7 @@ def test_it_reports_its_timing(parts, hold):
 
 def test_camera_and_lidar_go_slower_while_the_controller_is_pressed_for_time(parts, hold):
     _, live, motors, bus, _ = parts
-    readers = [bus.subscribe(topic) for topic in (topics.LIDAR, topics.ORACLE_FIX)]
+    readers = [bus.subscribe(topic) for topic in (emulated(topics.LIDAR), topics.ORACLE_FIX)]
 
     def counted(duration_s: float) -> list[int]:
         for reader in readers:

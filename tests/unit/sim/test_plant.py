@@ -29,7 +29,7 @@ def test_mimic_fingers_start_with_their_leaders(plant):
 
 def test_pd_holds_the_posture_standing(plant, run, robot):
     run(plant, 1.0)
-    error = plant.read().q - np.array(robot.posture("nominal"))
+    error = plant.read().motors.q - np.array(robot.posture("nominal"))
     assert np.abs(error).max() < 0.06
     assert plant.oracle.X_WB().p[2] == pytest.approx(robot.walking.base_height_m, abs=0.02)
 
@@ -40,38 +40,38 @@ def test_it_falls_as_fast_as_controllers_think(plant):
 
 def test_standing_the_feet_push_the_legs_up_with_the_weight(plant, run):
     run(plant, 1.0)
-    state = plant.read()
+    sample = plant.read()
     weight_n = plant.model.body_subtreemass[0] * GRAVITY_M_S2
     feet_n = 2 * 0.8 * GRAVITY_M_S2  # below the ankles' sensors
-    assert state.ankle_wrench[:, 2].sum() == pytest.approx(weight_n - feet_n, rel=0.05)
-    assert np.linalg.norm(state.accel_m_s2) == pytest.approx(GRAVITY_M_S2, rel=0.05)
+    assert sample.force.ankle_wrench[:, 2].sum() == pytest.approx(weight_n - feet_n, rel=0.05)
+    assert np.linalg.norm(sample.imu.accel_m_s2) == pytest.approx(GRAVITY_M_S2, rel=0.05)
 
 
 def test_hanging_hands_pull_the_arms_down(plant, run):
     run(plant, 1.0)
-    for side, wrench in zip(("left", "right"), plant.read().wrist_wrench, strict=True):
+    for side, wrench in zip(("left", "right"), plant.read().force.wrist_wrench, strict=True):
         force_W = plant.data.site(f"{side}_wrist_ft").xmat.reshape(3, 3) @ wrench[:3]
         assert force_W[2] < -3.0
 
 
 def test_without_commands_motors_damp_after_the_watchdog_time(plant, hold):
-    assert plant.read().watchdog  # nothing came yet
+    assert plant.read().motors.watchdog  # nothing came yet
     plant.write(hold(plant.time_s))
     plant.step(19)
-    assert not plant.read().watchdog
+    assert not plant.read().motors.watchdog
     plant.step(1)
-    assert plant.read().watchdog
+    assert plant.read().motors.watchdog
     plant.step(1000)
     height_m = plant.oracle.X_WB().p[2]
     assert height_m < 0.45  # it sank: damping does not carry
-    assert np.abs(plant.read().qd).max() < 15.0
+    assert np.abs(plant.read().motors.qd).max() < 15.0
 
 
 def test_a_late_command_ends_the_watchdog(plant, hold):
     plant.step(50)
     plant.write(hold(plant.time_s))
     plant.step(1)
-    state = plant.read()
+    state = plant.read().motors
     assert not state.watchdog
     assert state.command_stamp_s == pytest.approx(0.05)
 
@@ -86,7 +86,7 @@ def test_what_is_no_number_is_refused_and_changes_nothing(plant, hold, field, va
     with pytest.raises(DriverError, match=rf"{field}\[3\]"):
         plant.write(command)
     assert np.array_equal(plant.data.ctrl, before)
-    assert plant.read().command_stamp_s == 0.0
+    assert plant.read().motors.command_stamp_s == 0.0
 
 
 def test_a_command_sent_again_is_in_force_again(plant, hold):
@@ -99,7 +99,7 @@ def test_a_command_sent_again_is_in_force_again(plant, hold):
     command.stamp_s = 0.002
     assert plant.write(command).stamp_s == 0.002
     np.testing.assert_array_equal(plant.data.ctrl, driven)
-    assert not plant.read().watchdog
+    assert not plant.read().motors.watchdog
 
 
 def test_a_motor_that_is_off_damps_a_command_sent_again(plant, hold):
@@ -133,7 +133,7 @@ def test_torque_never_passes_the_limit(plant, hold, robot):
         command.kp *= 10.0
         plant.write(command)
         plant.step(2)
-        assert (np.abs(plant.read().tau) <= limits + 1e-9).all()
+        assert (np.abs(plant.read().motors.tau) <= limits + 1e-9).all()
 
 
 def test_same_seed_same_states_bit_for_bit(robot, hold):
@@ -144,7 +144,7 @@ def test_same_seed_same_states_bit_for_bit(robot, hold):
             plant.write(hold(plant.time_s))
             plant.step(5)
             sensed = [developed(message) for _, message in plant.sense()]
-            found += [plant.read().q.tobytes(), repr(sensed).encode()]
+            found += [plant.read().motors.q.tobytes(), repr(sensed).encode()]
         return (*found, plant.data.qpos.tobytes())
 
     first = states(7)
@@ -178,20 +178,20 @@ def test_a_push_gives_its_impulse(plant):
 
 def test_a_loaded_motor_gets_warm(plant, run):
     run(plant, 2.0)
-    temperature = dict(zip(plant.robot.motor_names, plant.read().temperature_c, strict=True))
+    temperature = dict(zip(plant.robot.motor_names, plant.read().motors.temperature_c, strict=True))
     assert temperature["left_knee"] > temperature["head_yaw"] >= 25.0
     assert temperature["left_knee"] < 60.0
 
 
 def test_noise_is_small_centred_and_off_on_request(robot, plant):
     noisy = Plant(world.empty(), robot, seed=3)
-    truth = plant.read()
-    samples = np.array([noisy.read().q - truth.q for _ in range(400)])
+    truth = plant.read().motors
+    samples = np.array([noisy.read().motors.q - truth.q for _ in range(400)])
     legs = robot.indices("left_leg")
     sigma = robot.sensors.encoder_noise_rad
     assert samples[:, legs].std() == pytest.approx(sigma, rel=0.1)
     assert np.abs(samples[:, legs].mean(axis=0)).max() < 0.25 * sigma
-    assert np.array_equal(plant.read().q, truth.q)
+    assert np.array_equal(plant.read().motors.q, truth.q)
 
 
 def test_physics_that_diverges_is_an_error(plant):

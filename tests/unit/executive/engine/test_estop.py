@@ -3,7 +3,8 @@
 import pytest
 
 from executive.engine.estop import StillPressed
-from executive.skills.parameters import NavigateParams, StopParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.stop import StopParams
 from tests.fakes.rig import WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 

@@ -60,6 +60,15 @@ def test_silence_becomes_a_finding(robot, topic, age_s, level, code):
     assert (health.failure.code if health.failure else None) == code
 
 
+def test_dead_perception_is_told_before_the_sensors_that_it_published(robot):
+    fresh = dict.fromkeys(RATES, 100.0)
+    silent = dict.fromkeys(("sensors/lidar", "sensors/depth", "world/state"), 99.0)
+    monitor = HealthMonitor(RATES, start_s=0.0)
+    health = monitor.look(100.0, {**fresh, **silent}, body=robot.body(), world=None)
+    assert len(health.findings) == 3
+    assert health.failure.code == "localisation_lost"
+
+
 def test_before_the_first_message_it_waits_then_gives_up():
     monitor = HealthMonitor(RATES, start_s=5.0)
     none = dict.fromkeys(RATES)

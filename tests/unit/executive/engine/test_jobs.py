@@ -8,7 +8,10 @@ from executive.behaviours.conditions import Check
 from executive.behaviours.run_skill import RunSkill
 from executive.engine.executive import JobError
 from executive.engine.jobs import Job, Limits, side_by_side
-from executive.skills.parameters import LookParams, NavigateParams, PickParams, WaitParams
+from executive.skills.look import LookParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.wait import WaitParams
 from executive.trees.idioms import in_order
 from executive.trees.recovery import Errand
 from tests.fakes.rig import PICK, WAIT, WALK, Rig

@@ -13,7 +13,7 @@ from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts, run
 from executive.journal.journal import Journal
 from executive.skills.context import SkillContext
-from executive.skills.parameters import WaitParams
+from executive.skills.wait import WaitParams
 from executive.trees.build import build
 from executive.trees.parts import Errand, Series
 from robot.clock import Waker

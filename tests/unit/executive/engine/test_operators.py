@@ -8,7 +8,8 @@ from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
 from executive.behaviours.run_skill import RunSkill
 from executive.blackboard import HELP
 from executive.engine.executive import JobError
-from executive.skills.parameters import NavigateParams, PickParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
 from executive.trees.idioms import Alternatives, in_order
 from tests.fakes.rig import PICK, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script

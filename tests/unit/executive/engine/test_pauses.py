@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from executive.engine.jobs import Limits
-from executive.skills.parameters import NavigateParams, PickParams, SearchParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.search import SearchParams
 from robot.messages import LidarScan
 from tests.fakes.rig import PICK, TICK_S, WALK, Rig
 from tests.fakes.scripted_skills import Script

@@ -1,6 +1,7 @@
 """With little left in the battery the robot goes back to where it began and ends its task."""
 
-from executive.skills.parameters import NavigateParams, WaitParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.wait import WaitParams
 from robot.messages import PowerState, WorldState
 from robot.se3 import SE3
 from tests.fakes.rig import WAIT, WALK, Rig

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from executive.behaviours.stage import STOP_TIMEOUT_S
-from executive.skills.parameters import NavigateParams, StopParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.stop import StopParams
 from tests.fakes.rig import PICK, TICK_S, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 

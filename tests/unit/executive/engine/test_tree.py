@@ -9,14 +9,12 @@ import pytest
 from executive.behaviours.stage import STOP_TIMEOUT_S
 from executive.blackboard import ABORT, FAILURE, HEALTH, RECOVERIES
 from executive.journal.journal import Journal
-from executive.skills.parameters import (
-    NavigateParams,
-    PickParams,
-    PlaceParams,
-    SearchParams,
-    StopParams,
-    WaitParams,
-)
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.search import SearchParams
+from executive.skills.stop import StopParams
+from executive.skills.wait import WaitParams
 from executive.trees.build import build
 from executive.trees.parts import Branch
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES, Errand

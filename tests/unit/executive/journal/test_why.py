@@ -4,9 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.journal import wording
+from executive.journal import words
 from executive.journal.journal import Event
-from executive.journal.why import why
+from executive.journal.reader import told as run_of
+from executive.journal.why import Explanation, why
 
 RUN = ("run", {"text": "pick up the red cup", "runtime": "fast", "world": "kitchen", "seed": 3})
 PICK = {"step": "pick up the red cup", "id": "1"}
@@ -29,6 +30,10 @@ def journal(*entries) -> list[Event]:
             now_s += 1.0
         events.append(Event(len(events), now_s, kind, data))
     return events
+
+
+def explained(events, *, live: bool = False) -> Explanation:
+    return why(run_of(events), live=live)
 
 
 def job(state: str, **data):
@@ -61,7 +66,7 @@ def test_a_failure_is_told_from_the_last_go_back_to_what_began_it():
         job("failed", **MISSED),
         ("outcome", {**MISSED, "took_s": 62.0, "recoveries": 1}),
     )
-    told = why(events)
+    told = explained(events)
     assert told.status == "failed"
     assert told.lines == (
         "Failed after 62.0 s: the fingers closed on air (grasp_missed).",
@@ -81,7 +86,9 @@ def test_a_failure_is_told_from_the_last_go_back_to_what_began_it():
 
 def test_a_success_tells_what_had_to_be_recovered():
     again = {"step": PICK["step"], "id": "1+1"}
-    told = why(journal(*FAILS, (50.0, "done", again), job("done"), ("outcome", {"code": "done"})))
+    told = explained(
+        journal(*FAILS, (50.0, "done", again), job("done"), ("outcome", {"code": "done"}))
+    )
     assert told.status == "done"
     assert told.lines[2:] == (
         "On the way:",
@@ -95,13 +102,13 @@ def test_a_success_tells_what_had_to_be_recovered():
 
 
 def test_a_prompt_at_which_nothing_was_asked_is_no_run_that_was_cut_off():
-    told = why([Event(0, 0.0, "run", {"text": "prompt", "attended": True})])
+    told = explained([Event(0, 0.0, "run", {"text": "prompt", "attended": True})])
     assert (told.status, told.text) == ("idle", "Nothing was asked for.")
-    assert why([Event(0, 0.0, "run", {"text": "squat"})]).status == "cut off"
+    assert explained([Event(0, 0.0, "run", {"text": "squat"})]).status == "cut off"
 
 
 def test_a_run_that_was_killed_tells_where_it_was():
-    told = why(journal(*FAILS[:4]))
+    told = explained(journal(*FAILS[:4]))
     assert told.status == "cut off"
     assert told.verdict == "The journal ends at 30.0 s without an outcome: it was cut off."
     assert 'doing "pick up the red cup" since 2.0 s (28.0 s), closing the left' in told.text
@@ -109,7 +116,7 @@ def test_a_run_that_was_killed_tells_where_it_was():
 
 
 def test_a_run_under_way_tells_what_it_does_and_its_trouble_so_far():
-    told = why(journal(*FAILS), live=True)
+    told = explained(journal(*FAILS), live=True)
     assert told.status == "going on"
     assert "Trouble so far:" in told.text
     assert 'doing "pick up the red cup" since 35.0 s' in told.text
@@ -117,7 +124,7 @@ def test_a_run_under_way_tells_what_it_does_and_its_trouble_so_far():
 
 
 def test_a_stop_tells_who_wanted_it_and_how_long_it_took():
-    told = why(
+    told = explained(
         journal(
             *FAILS[:4],
             (33.0, "stop", {"why": "stopped on request"}),
@@ -141,7 +148,7 @@ def test_a_failure_from_above_tells_what_it_interrupted_and_what_was_measured():
         "cause": "no fix for 2.0 s",
         "evidence": {"fix_age_s": 2.0},
     }
-    told = why(
+    told = explained(
         journal(
             *FAILS[:4],
             (31.0, "health", {"name": "localisation", "level": "HOLD", **lost}),
@@ -165,7 +172,7 @@ def test_of_several_jobs_the_newest_is_explained():
         Event(22, 65.0, "done", {"step": "squat", "id": "1"}),
         Event(23, 65.0, "job", {"job": 2, "text": "squat", "state": "done", "urgent": False}),
     ]
-    told = why([*first, *second])
+    told = explained([*first, *second])
     assert told.status == "done"
     assert told.text.startswith("Done after 5.0 s.\nAsked for: squat")
     assert "red cup" not in told.text
@@ -173,11 +180,11 @@ def test_of_several_jobs_the_newest_is_explained():
 
 def test_lost_events_are_told():
     events = journal(*FAILS)
-    assert "2 events are missing" in why([*events[:4], *events[6:]]).text
+    assert "2 events are missing" in explained([*events[:4], *events[6:]]).text
 
 
 def test_old_journals_without_ids_and_jobs_are_understood():
-    told = why(
+    told = explained(
         journal(
             RUN,
             ("step", {"step": "walk"}),
@@ -217,7 +224,7 @@ EVENTS = st.builds(
 
 @given(st.lists(EVENTS, max_size=30), st.booleans())
 def test_no_journal_breaks_it(events, live):
-    told = why(events, live=live)
+    told = explained(events, live=live)
     assert told.verdict
     assert told.lines[0] == told.verdict
 
@@ -233,4 +240,4 @@ def test_no_journal_breaks_it(events, live):
     ],
 )
 def test_measurements_are_told_with_their_units(measured, said):
-    assert wording.evidence(measured) == said
+    assert words.evidence(measured) == said

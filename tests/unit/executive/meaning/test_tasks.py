@@ -7,7 +7,8 @@ import pytest
 from benchmarks.intents.endpoint import Reply, serving
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.request import Refused, Understood, request
-from executive.skills.parameters import PickParams, PlaceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from executive.trees.parts import errands
 from intents.language_model import Endpoint, LanguageModel
 from intents.outcomes import Question

@@ -16,7 +16,10 @@ from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
 from executive.missions.plan import forecast
 from executive.missions.template import template
-from executive.skills.parameters import NavigateParams, PickParams, SayParams, WaitParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.say import SayParams
+from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from robot import yaml_nodes
 from robot.errors import ConfigError

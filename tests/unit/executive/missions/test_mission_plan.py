@@ -1,11 +1,17 @@
 """A dry run asks the planner, so that what it calls feasible is, and takes about so long."""
 
+import math
+
 import pytest
 from msgspec.structs import replace
 
 from executive.meaning import request
-from executive.missions.pacing import walking_s
 from executive.missions.plan import forecast
+from executive.missions.rehearsal import Rehearsal
+from executive.skills.catalogue import skill_of
+from executive.skills.give import BEFORE_PERSON_M
+from executive.skills.motions.pacing import walking_s
+from executive.trees.parts import errands
 from robot.model.description import load
 from robot.planning.requests import BasePath
 from sim.reality import SimulatedWorld, Simulation
@@ -50,3 +56,48 @@ def test_what_no_hand_reaches_is_told():
     pick, place = (row for row in forecast(TASK, where).rows if row.kind == "step")
     assert "short of the red cup" in pick.problem
     assert place.problem == ""  # nothing is known against it
+
+
+def steps(text):
+    task = request.request(text, KITCHEN).task
+    return [row for row in forecast(task, KITCHEN).rows if row.kind == "step"]
+
+
+@pytest.mark.parametrize(
+    ("text", "ran_s"),  # the runs in `--fast`, seed 0
+    [
+        ("wave at anna", 9.8),
+        ("nod at anna", 1.9),
+        ("follow anna", 19.0),
+        ("bow", 2.3),
+        ("point at the table", 3.7),
+    ],
+)
+def test_what_is_between_robot_and_people_takes_as_long_as_in_a_run(text, ran_s):
+    (step,) = steps(text)
+    assert step.problem == ""
+    assert step.takes_s == pytest.approx(ran_s, rel=0.15)
+
+
+def test_a_sign_takes_longer_when_the_body_has_to_turn_first():
+    (ahead,) = steps("point at the table")
+    _, behind = steps("turn around, then point at the table")
+    assert behind.takes_s > ahead.takes_s + 1.0
+
+
+def test_what_is_given_away_is_brought_to_the_person_and_gone_from_the_hand():
+    outlook = Rehearsal(KITCHEN)
+    assert outlook.place_of("red_cup").name == "table"
+    for errand in errands(request.request("give the red cup to anna", KITCHEN).task):
+        told = skill_of(errand.params).forecast(errand.params, outlook)
+        assert told.problem == ""
+        assert told.takes_s > 10.0
+    anna = outlook.map.person("anna")
+    assert math.dist(outlook.X_WS.p[:2], anna.X_WO.p[:2]) == pytest.approx(BEFORE_PERSON_M)
+    assert outlook.place_of("red_cup") is None
+    assert not outlook.carrying
+
+
+def test_whoever_is_followed_is_taken_to_go_on_to_the_place():
+    (there,), (here,) = steps("follow anna to the shelf"), steps("follow anna to the table")
+    assert there.takes_s > here.takes_s + 5.0

@@ -8,7 +8,7 @@ import pytest
 from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.reach import posture_rad
-from executive.skills.parameters import FloorPose, NavigateParams, Step
+from executive.skills.navigate import FloorPose, NavigateParams, Step
 from robot.errors import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
 from robot.planning.requests import BasePathRequest

@@ -4,15 +4,11 @@ import math
 
 import pytest
 
-from executive.skills.gesture import RAISED, TIMES
-from executive.skills.give import PULL_N
-from executive.skills.parameters import (
-    FollowParams,
-    GestureParams,
-    GiveParams,
-    LookParams,
-    PickParams,
-)
+from executive.skills.follow import FollowParams
+from executive.skills.gesture import RAISED, TIMES, GestureParams
+from executive.skills.give import PULL_N, GiveParams
+from executive.skills.look import LookParams
+from executive.skills.pick import PickParams
 from robot.messages import Grip, Look, MoveArm, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest
 from robot.se3 import SE3

@@ -5,7 +5,7 @@ import math
 import msgspec
 import pytest
 
-from executive.skills.parameters import PickParams
+from executive.skills.pick import PickParams
 from robot.errors import failure
 from robot.messages import DepthImage, Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest, PickRequest

@@ -5,7 +5,8 @@ import math
 import pytest
 from msgspec.structs import replace
 
-from executive.skills.parameters import PickParams, PlaceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from robot.errors import failure
 from robot.messages import Grip, MoveHand
 from robot.physics import GRAVITY_M_S2

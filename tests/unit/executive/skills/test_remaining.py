@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from executive.skills.parameters import (
-    BalanceParams,
-    PickParams,
-    PlaceParams,
-    SayParams,
-    WaitParams,
-)
+from executive.skills.balance import BalanceParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.say import SayParams
 from executive.skills.skill import Resumable
+from executive.skills.wait import WaitParams
 from tests.fakes.stage import Stage
 
 ON_COUNTER = PlaceParams(object_id="cup", place_id="counter")

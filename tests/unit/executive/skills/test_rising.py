@@ -2,7 +2,7 @@
 
 import pytest
 
-from executive.skills.parameters import BalanceParams
+from executive.skills.balance import BalanceParams
 from robot.messages import Activity, GetUp, Stand
 from tests.fakes.puppet import Puppet
 from tests.fakes.stage import Stage

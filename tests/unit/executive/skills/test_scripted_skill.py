@@ -2,8 +2,10 @@
 
 import pytest
 
+from executive.skills.forecast import Forecast
 from executive.skills.motions.script import Script, give_up
-from executive.skills.motions.scripted import ScriptedSkill
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.wait import WaitParams
 from robot.messages import Stand
 from tests.fakes.stage import Stage
 
@@ -12,8 +14,12 @@ class Counting(ScriptedSkill):
     resources = frozenset({"legs"})
 
     def __init__(self, context, ticks, end=None):
-        super().__init__(context)
+        super().__init__(WaitParams(), context)
         self.ticks, self.end, self.closed = ticks, end, False
+
+    @classmethod
+    def forecast(cls, wanted, outlook):
+        return Forecast(0.0)
 
     def script(self) -> Script[None]:
         self.body.phase = "counting"
@@ -102,7 +108,7 @@ def test_stop_before_start_moves_nothing(stage):
 
 
 def test_a_fall_ends_the_skill_at_once(stage):
-    from executive.skills.parameters import BalanceParams
+    from executive.skills.balance import BalanceParams
 
     assert stage.run(BalanceParams(mode="hold"), until_phase="holding").status == "running"
     stage.puppet.mode = "fallen"
@@ -112,7 +118,7 @@ def test_a_fall_ends_the_skill_at_once(stage):
 
 
 def test_a_silent_body_is_a_failure_not_a_hang(stage):
-    from executive.skills.parameters import BalanceParams
+    from executive.skills.balance import BalanceParams
 
     stage.run(BalanceParams(mode="hold"), until_phase="holding")
     frozen = stage.puppet.body()

@@ -4,14 +4,12 @@ import math
 
 import pytest
 
-from executive.skills.parameters import (
-    BalanceParams,
-    LookParams,
-    SayParams,
-    SearchParams,
-    StopParams,
-    WaitParams,
-)
+from executive.skills.balance import BalanceParams
+from executive.skills.look import LookParams
+from executive.skills.say import SayParams
+from executive.skills.search import SearchParams
+from executive.skills.stop import StopParams
+from executive.skills.wait import WaitParams
 from robot.messages import Look, OneLeg, Stand, Walk
 from robot.se3 import SE3
 from tests.fakes.stage import Stage

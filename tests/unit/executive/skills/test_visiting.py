@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.standpoints import BEFORE_EDGE_M, has_room, stances_around, stances_at
-from executive.skills.parameters import NavigateParams
+from executive.skills.navigate import NavigateParams
 from robot.messages import Obstacle, Place, Shape
 from robot.se3 import SE3, wrap_angle
 from tests.fakes.stage import Stage

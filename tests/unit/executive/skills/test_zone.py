@@ -5,7 +5,8 @@ import math
 import pytest
 
 from executive.skills.motions.personal_space import PATIENCE_S, ZONE_M
-from executive.skills.parameters import FloorPose, NavigateParams, PickParams
+from executive.skills.navigate import FloorPose, NavigateParams
+from executive.skills.pick import PickParams
 from robot.messages import MoveArm, MoveHand, Obstacle, Shape, Walk
 from robot.se3 import SE3
 from tests.fakes.stage import Stage

@@ -6,7 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from executive.skills.parameters import BalanceParams, NavigateParams, PickParams, SayParams
+from executive.skills.balance import BalanceParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.say import SayParams
 from executive.trees import parts as p
 from executive.trees.build import before, build, finished
 from tests.fakes.rig import PICK, WAIT, WALK, Rig

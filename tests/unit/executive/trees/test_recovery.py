@@ -5,7 +5,10 @@ from __future__ import annotations
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from executive.skills.parameters import NavigateParams, PickParams, PlaceParams, SearchParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.search import SearchParams
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES, unasked
 from executive.trees.remedies import HELP, REMEDIES, question
 from robot.errors import CATALOGUE, Failure, failure

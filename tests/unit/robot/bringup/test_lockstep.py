@@ -5,8 +5,14 @@ import pytest
 from robot.bringup.lockstep import TAKE_OVER_MS, Lockstep
 from robot.bus import topics
 from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.closing import Closing
+from robot.drivers.body_devices import BodyDevices
+from robot.drivers.motor_bus import MIT_MODE
+from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError
 from robot.messages import PoseFix, Stand
+from robot.model import description
 from robot.reality.faults import Kill, Remove
 from robot.se3 import SE3
 from tests.fakes.messages_for_tests import body_state
@@ -20,27 +26,37 @@ class Controller:
     def handle(self, command):
         self.handled.append((len(self.ticks), command))
 
-    def tick(self, state):
-        self.ticks.append(state.stamp_s)
-        return hold(3, state.stamp_s)
+    def tick(self, sample):
+        self.ticks.append(sample.motors.stamp_s)
+        return hold(3, sample.motors.stamp_s)
 
     def state(self):
         return body_state(self.ticks[-1])
 
 
-class Perception:
+class Perception(Closing):
     def __init__(self, plant):
         self.steps_ms, self._plant = [], plant
 
     def step(self):
         self.steps_ms.append(self._plant.time_ms)
 
+    def close(self):
+        pass
+
+
+def lockstep(plant, control, perception, bus):
+    clock = SimulatedClock()
+    wiring = Wiring(robot=description.load("juno"), clock=clock, bus=bus, plant=plant)
+    body = BodyDevices(wiring, needs=MIT_MODE)
+    return Lockstep(plant, control, perception, body=body, bus=bus, clock=clock)
+
 
 @pytest.fixture
 def parts():
     plant, controller, bus = FakePlant(), Controller(), LocalBus()
     perception = Perception(plant)
-    with Lockstep(plant, lambda: controller, perception, bus=bus) as runtime:
+    with lockstep(plant, lambda: controller, perception, bus) as runtime:
         yield runtime, plant, controller, perception, bus
 
 
@@ -87,7 +103,7 @@ def test_perception_runs_when_sensors_spoke(parts):
     fixes = bus.subscribe(topics.ORACLE_FIX)
     runtime.advance(0.05)
     assert perception.steps_ms == []
-    plant.due = [(topics.ORACLE_FIX.name, PoseFix(stamp_s=0.06, X_WB=SE3(), source="oracle"))]
+    plant.due = [(topics.ORACLE_FIX, PoseFix(stamp_s=0.06, X_WB=SE3(), source="oracle"))]
     runtime.advance(0.05)
     assert perception.steps_ms == [60]
     assert len(fixes.take()) == 1
@@ -95,7 +111,7 @@ def test_perception_runs_when_sensors_spoke(parts):
 
 def test_a_lost_plant_is_a_failure_and_time_goes_on():
     plant, bus = FakePlant(diverge_at_s=0.03), LocalBus()
-    with Lockstep(plant, Controller, Perception(plant), bus=bus) as runtime:
+    with lockstep(plant, Controller, Perception(plant), bus) as runtime:
         runtime.advance(0.02)
         assert runtime.failure() is None
         runtime.advance(0.05)
@@ -118,7 +134,7 @@ def test_a_killed_controller_is_followed_by_another_a_little_later():
         made.append(Controller())
         return made[-1]
 
-    with Lockstep(plant, control, Perception(plant), bus=bus) as runtime:
+    with lockstep(plant, control, Perception(plant), bus) as runtime:
         runtime.advance(0.1)
         kill(runtime)
         runtime.advance(0.1)

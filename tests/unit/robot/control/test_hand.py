@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from robot.control.hand import CLOSE_RATE_M_S, GIVE_UP_S, PEAK_SHARE, HandControl
-from robot.drivers.motors import MotorState
 from robot.messages import Grip
 from robot.se3 import SE3
+from tests.fakes.motors import motor_state
 
 DT_S = 0.005
 UPRIGHT = np.eye(3)
@@ -26,21 +26,21 @@ class Bench:
         self.load_n = 0.0
 
     def state(self, speed):
-        zero = np.zeros(self.body.count)
-        qd = zero.copy()
+        qd = np.zeros(self.body.count)
         qd[self.motor] = speed
+        return motor_state(self.q, qd=qd)
+
+    def update(self, speed):
         wrench = np.zeros((2, 6))
         wrench[1, 2] = -(self.load_n + self.control._weight_n)
-        return MotorState(
-            stamp_s=0.0, q=self.q, qd=qd, tau=zero, temperature_c=zero, gyro_rad_s=np.zeros(3),
-            accel_m_s2=np.zeros(3), ankle_wrench=np.zeros((2, 6)), wrist_wrench=wrench,
-            watchdog=False, command_stamp_s=0.0,
-        )  # fmt: skip
+        return self.control.update(
+            DT_S, self.state(speed), wrist_wrench=wrench, rotation_NW=UPRIGHT
+        )
 
     def run(self, duration_s):
         speed = 0.0
         for _ in range(round(duration_s / DT_S)):
-            target = self.control.update(DT_S, self.state(speed), UPRIGHT)
+            target = self.update(speed)
             self.force_n.append(self.body.kp[self.motor] * abs(target - self.q[self.motor]))
             before = self.q[self.motor]
             self.q[self.motor] = max(self.stop_m, before + 0.5 * (target - before))
@@ -88,8 +88,8 @@ def test_what_is_asked_is_kept_inside_the_hands_limits(bench, opening, force):
 
 def test_fingers_do_not_slam(bench):
     bench.grip(0.1)
-    before = bench.control.update(DT_S, bench.state(0.0), UPRIGHT)
-    after = bench.control.update(DT_S, bench.state(0.0), UPRIGHT)
+    before = bench.update(0.0)
+    after = bench.update(0.0)
     assert abs(after - before) <= CLOSE_RATE_M_S * DT_S + 1e-12
 
 
@@ -97,7 +97,7 @@ def test_fingers_that_never_rest_fail(bench):
     bench.grip(0.0)
     for k in range(round((GIVE_UP_S + 0.5) / DT_S)):
         bench.q[bench.motor] = 0.03 + 0.005 * (k % 2)
-        bench.control.update(DT_S, bench.state(0.5), UPRIGHT)
+        bench.update(0.5)
     assert bench.control.activity.status == "failed"
 
 

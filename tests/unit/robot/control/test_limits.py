@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot.control.limits import OVERSPEED, OVERSPEED_CYCLES, REFUSALS_TO_DAMP, Limits
-from robot.drivers.motors import MotorCommand, MotorState
-from robot.physics import GRAVITY_M_S2
+from robot.drivers.motor_bus import MotorCommand
+from tests.fakes.motors import motor_state
 
 
 @pytest.fixture
@@ -17,14 +17,8 @@ def limits(body):
 
 def at_rest(body):
     """Motors in the middle of their ranges."""
-    zero = np.zeros(body.count)
-    return MotorState(
-        stamp_s=1.0, q=0.5 * (body.lower_rad + body.upper_rad), qd=zero, tau=zero,
-        temperature_c=zero + 25.0, gyro_rad_s=np.zeros(3),
-        accel_m_s2=np.array([0.0, 0.0, GRAVITY_M_S2]),
-        ankle_wrench=np.zeros((2, 6)), wrist_wrench=np.zeros((2, 6)), watchdog=False,
-        command_stamp_s=1.0,
-    )  # fmt: skip
+    middle = 0.5 * (body.lower_rad + body.upper_rad)
+    return motor_state(middle, stamp_s=1.0, command_stamp_s=1.0)
 
 
 def hold(body, state):

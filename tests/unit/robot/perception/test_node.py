@@ -8,7 +8,19 @@ import pytest
 
 from robot.bus import topics
 from robot.bus.bus import LocalBus
-from robot.messages import DepthImage, ObjectInfo, PoseFix, Shape, Sighting, Sightings, WorldMap
+from robot.clock import SimulatedClock
+from robot.drivers.simulation.sensors import emulated
+from robot.drivers.wiring import Wiring
+from robot.messages import (
+    DepthImage,
+    LidarScan,
+    ObjectInfo,
+    PoseFix,
+    Shape,
+    Sighting,
+    Sightings,
+    WorldMap,
+)
 from robot.model import description
 from robot.model.body import BodyModel
 from robot.perception.node import PATIENCE_S, PerceptionNode
@@ -28,7 +40,9 @@ def robot():
 @pytest.fixture
 def node(robot):
     bus = LocalBus()
-    return bus, PerceptionNode(bus, robot), bus.subscribe(topics.WORLD_STATE)
+    wiring = Wiring(robot=robot, clock=SimulatedClock(), bus=bus)
+    with PerceptionNode(wiring) as node:
+        yield bus, node, bus.subscribe(topics.WORLD_STATE)
 
 
 def joints(robot) -> np.ndarray:
@@ -130,7 +144,7 @@ def test_a_taken_cup_is_missed_by_depth_and_camera_together(node, robot):
             stamp_s=0.1 * k, width=camera.width, height=camera.height,
             fovy_rad=camera.fovy_rad, depth_m=empty,
         )  # fmt: skip
-        bus.publish(topics.DEPTH, image)
+        bus.publish(emulated(topics.DEPTH), image)
         publish(bus, robot, 0.1 * k, sight=k == 1)
         perception.step()
         (track,) = worlds.latest.tracks
@@ -145,3 +159,15 @@ def test_what_never_meets_a_body_state_is_dropped(node, robot):
         bus.publish(topics.ORACLE_FIX, PoseFix(stamp_s=stamp_s, X_WB=SE3(), source="oracle"))
         perception.step()
     assert len(perception._waiting) < 5
+
+
+def test_what_its_sensors_bring_is_published(node, robot):
+    bus, perception, _ = node
+    heard = [bus.subscribe(topic) for topic in (topics.DEPTH, topics.LIDAR)]
+    image = DepthImage(stamp_s=0.1, width=2, height=1, fovy_rad=1.0, depth_m=bytes(8))
+    scan = LidarScan(stamp_s=0.1, angle_min_rad=-3.1, angle_step_rad=0.1, ranges_m=(1.0, 2.0))
+    bus.publish(emulated(topics.DEPTH), image)
+    bus.publish(emulated(topics.LIDAR), scan)
+    perception.step()
+    perception.step()
+    assert [reader.take() for reader in heard] == [[image], [scan]]

@@ -2,20 +2,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 from prompt_toolkit.formatted_text import to_plain_text
 
-from executive.frontends.prompt.toolbar import toolbar, window
+from executive.frontends.prompt.toolbar import toolbar
 from executive.frontends.prompt.view import View, view_of_lost
-from executive.frontends.tree_lines import Line
 from executive.health import Level
+from executive.journal.snapshot import Shown, window
 from robot.errors import failure
 
 words = st.text(st.characters(codec="ascii", categories=("L", "N", "Zs")), max_size=60)
 trees = st.lists(
-    st.builds(
-        Line,
-        depth=st.integers(0, 30),
-        name=words,
-        state=st.sampled_from(["waiting", "running", "done", "failed"]),
-        note=words,
+    st.tuples(
+        st.integers(0, 30),
+        st.builds(
+            Shown,
+            id=st.just(0),
+            kind=st.just("skill"),
+            name=words,
+            state=st.sampled_from(["waiting", "running", "done", "failed", "stopped"]),
+            note=words,
+        ),
     ),
     max_size=60,
 )
@@ -43,7 +47,7 @@ def test_the_toolbar_fits_any_terminal(tree, goal, phase, unwell, columns, rows)
 @given(tree=trees, rows=st.integers(1, 20))
 def test_what_runs_stays_in_sight(tree, rows):
     shown = window(tuple(tree), rows)
-    running = [line for line in tree if line.state == "running"]
+    running = [line for line in tree if line[1].state == "running"]
     assert len(shown) == min(rows, len(tree))
     if running:
         assert running[-1] in shown

@@ -1,0 +1,75 @@
+"""A run as one HTML file that needs nothing else: no network, no other file, no server.
+
+Everything from the journal is data: it travels as JSON in which no character can end the script
+element, and the page only ever makes text of it. The policy in the page's head allows its own
+script and style, by their hashes, and nothing else: no other script, no request, no form.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+from importlib import resources
+from string import Template
+from typing import Any
+
+import msgspec
+
+from executive.journal.failures import verdict
+from executive.journal.run import Run
+from executive.journal.snapshot import inner
+
+_SCRIPTS = (
+    "1_run.js", "2_tools.js", "3_timeline.js", "4_lanes.js", "5_map.js", "6_panels.js", "7_main.js",
+)  # fmt: skip
+
+
+class Page(msgspec.Struct, kw_only=True):
+    """The data inside a page: the run, the nodes that only hold the tree together, and `why`."""
+
+    run: dict[str, Any]
+    inner: list[int]
+    why: list[str] = []
+
+
+def page(run: Run, *, why: list[str] | None = None) -> str:
+    """The page of a run; `why` are the lines of its explanation."""
+    files = resources.files("executive.journal.dumps") / "viewer"
+    script = "\n".join((files / name).read_text(encoding="utf-8") for name in _SCRIPTS)
+    style = (files / "viewer.css").read_text(encoding="utf-8")
+    template = Template((files / "page.html").read_text(encoding="utf-8"))
+    data = msgspec.json.encode(Page(run=run.dumped(), inner=sorted(inner(run)), why=why or []))
+    policy = (
+        f"default-src 'none'; script-src {_hash(script)}; style-src {_hash(style)}; "
+        "base-uri 'none'; form-action 'none'"
+    )
+    return template.substitute(
+        policy=policy,
+        title=html.escape(run.text or "a run"),
+        fallback=html.escape(fallback(run)),
+        style=style,
+        data=embedded(data.decode()),
+        script=script,
+    )
+
+
+def embedded(json: str) -> str:
+    """JSON that means the same and can stand in a script element whatever it contains."""
+    for letter in "<>&\u2028\u2029":
+        json = json.replace(letter, f"\\u{ord(letter):04x}")
+    return json
+
+
+def fallback(run: Run) -> str:
+    """How it ended, for readers without scripts."""
+    ending = run.outcome
+    if ending is None:
+        return "The run has no outcome yet. This page needs JavaScript to show it."
+    how = verdict(None) if ending.code == "done" else f"{verdict(ending)}."
+    return f"{how} This page needs JavaScript to show the rest."
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"

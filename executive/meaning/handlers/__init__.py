@@ -1,0 +1,1 @@
+"""What goals take, as steps of skills: a file a family of goals."""

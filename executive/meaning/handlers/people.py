@@ -1,0 +1,68 @@
+"""Goals that are between the robot and people: signs, looks, words."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from executive.meaning import answers
+from executive.meaning.handlers.moving import go_to_person
+from executive.meaning.identify import Scene, cannot
+from executive.skills.gesture import GestureKind, GestureParams
+from executive.skills.look import LookParams
+from executive.skills.say import SayParams
+from executive.trees.parts import Errand, Part, Series
+from intents import goals
+
+
+def gesture(goal: goals.Gesture, scene: Scene) -> Part:
+    """Make a sign, at somebody or something if that was said."""
+    words = goal.kind.replace("_", " ")
+    known = [kind for kind in get_args(GestureKind) if kind == goal.kind]
+    if not known:
+        can = ", ".join(kind.replace("_", " ") for kind in get_args(GestureKind))
+        raise cannot("unsupported", f"this robot cannot {words}", suggestion=f"it can {can}")
+    params = GestureParams(kind=known[0], **_towards(goal.at, scene))
+    return Errand(name=f"{words} at {goal.at}" if goal.at else words, params=params)
+
+
+def _towards(name: str | None, scene: Scene) -> dict[str, str]:
+    """What a gesture is for: a person, a place or an object, by its name."""
+    if name is None:
+        return {}
+    person = scene.knowledge.person(name)
+    if person is not None or name == goals.OPERATOR:
+        return {"person_id": (person or scene.person(goals.Person(who="operator"))).id}
+    if scene.knowledge.places(name):
+        return {"place_id": scene.places(name)[0].id}
+    *color, noun = name.split(maxsplit=1)
+    query = goals.ObjectQuery(name=noun, color=color[0] if color else None)
+    return {"object_id": scene.object(query).id}
+
+
+def say(goal: goals.Say, _scene: Scene) -> Part:
+    """Say a text."""
+    return Errand(name=f"say {goal.what!r}", params=SayParams(text=goal.what))
+
+
+def greet(goal: goals.Greet, scene: Scene) -> Part:
+    """Say hello, to somebody's face if it was said to whom."""
+    if goal.person == goals.Person():
+        return Errand(name="say hello", params=SayParams(text="Hello."))
+    found = scene.person(goal.person)
+    parts = (
+        Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id)),
+        Errand(name="say hello", params=SayParams(text=f"Hello, {found.name}.")),
+    )
+    return Series(name=f"greet {found.name}", parts=parts)
+
+
+def meet(goal: goals.Meet, scene: Scene) -> Part:
+    """Walk up to somebody and say hello."""
+    approach = go_to_person(goal.person, scene)
+    hello = greet(goals.Greet(person=goal.person), scene)
+    return Series(name="meet somebody", parts=(approach, hello))
+
+
+def report(goal: goals.Report, scene: Scene) -> Part:
+    """Say something of the robot itself."""
+    return Errand(name=f"report {goal.topic}", params=answers.report(goal.topic, scene.knowledge))

@@ -1,0 +1,65 @@
+"""Goals that are done with the eyes: looking, finding, counting."""
+
+from __future__ import annotations
+
+from executive.meaning import answers
+from executive.meaning.handlers.moving import go_to_person
+from executive.meaning.handlers.steps import about, search, surfaces
+from executive.meaning.identify import Scene, cannot
+from executive.skills.look import LookParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.search import SearchParams
+from executive.trees.parts import Errand, Part, Series
+from intents import goals
+from robot.messages import Place
+
+AROUND = "around"
+
+
+def look_at(goal: goals.LookAt, scene: Scene) -> Part:
+    """Turn the eyes to something; an object is looked for."""
+    if goal.place == AROUND:
+        return Errand(name="look around", params=LookParams(around=True))
+    if goal.object is not None:
+        info = scene.object(goal.object)
+        params = SearchParams(object_id=info.id)  # it ends with the object in sight
+        return about(info, f"look at {info.full_name}", params)
+    if goal.person is not None:
+        found = scene.person(goal.person)
+        return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
+    if goal.place is None:
+        raise cannot("invalid_goal", "look at what?", suggestion="name an object or a place")
+    place = scene.places(goal.place)[0]
+    return Errand(name=f"look at the {goal.place}", params=LookParams(place_id=place.id))
+
+
+def find(goal: goals.Find, scene: Scene) -> Part:
+    """Look for an object, or go and see a person."""
+    if goal.object is not None:
+        return search(scene.object(goal.object), goal.object, scene)
+    if goal.person is None:
+        raise cannot("invalid_goal", "find what?", suggestion="name an object")
+    found = scene.person(goal.person)
+    look = Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
+    return Series(name=f"find {found.name}", parts=(go_to_person(goal.person, scene), look))
+
+
+def count(goal: goals.Count, scene: Scene) -> Part:
+    """Look wherever it was said, then say how many there are."""
+    if goal.object is None:
+        raise cannot("unsupported", "this robot cannot count people yet")
+    ids = frozenset(info.id for info in scene.fitting(goal.object))
+    query = goal.object
+    places = surfaces(scene.places(query.at)) if query.at else ()
+    looks = tuple(_visit(place) for place in places)
+    noun = query.name or query.category or "object"
+    tell = Errand(name="say how many", params=answers.count(ids, places, noun=noun))
+    return Series(name=f"count the {noun}s", parts=(*looks, tell))
+
+
+def _visit(place: Place) -> Series:
+    parts = (
+        Errand(name=f"go to the {place.name}", params=NavigateParams(place_id=place.id)),
+        Errand(name=f"look at the {place.name}", params=LookParams(place_id=place.id)),
+    )
+    return Series(name=f"inspect the {place.name}", parts=parts)

@@ -1,0 +1,16 @@
+"""The depth camera of a simulated plant."""
+
+from __future__ import annotations
+
+from robot.bus import topics
+from robot.drivers.sensor_source import SensorSource
+from robot.drivers.simulation.sensors import BusSensor
+from robot.drivers.wiring import Wiring
+from robot.messages import DepthImage
+from robot.model.description import Camera
+
+
+def make(wiring: Wiring) -> SensorSource[DepthImage, Camera]:
+    """The simulated camera."""
+    camera = wiring.robot.sensors.camera
+    return BusSensor(wiring.bus, topics.DEPTH, frame=camera.site, calibration=camera)

@@ -1,0 +1,139 @@
+"""Every driver in one table. A new one is a file in its family's folder and a row here.
+
+The description names a driver for each device (`drivers: {motors: can}`); one that it does not name
+is simulated. A driver's file is loaded when it is made, so that what it needs (a CAN library, a
+camera's) is wanted of nobody else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from robot import config, yaml_nodes
+from robot.bus import topics
+from robot.bus.topics import Topic
+from robot.drivers.body_sample import ForceReading, ImuReading
+from robot.drivers.motor_bus import MotorBus
+from robot.drivers.sensor_source import SensorSource
+from robot.drivers.wiring import Wiring
+from robot.errors import ConfigError
+from robot.messages import DepthImage, LidarScan, PowerState
+from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescription
+
+R = TypeVar("R")
+D_co = TypeVar("D_co", covariant=True)
+SIMULATED = "simulated"
+
+
+@dataclass(frozen=True)
+class Family(Generic[D_co]):
+    """The drivers of one device.
+
+    Attributes:
+        device: its key in the description's `drivers`.
+        drivers: name to what makes one, which opens nothing.
+    """
+
+    device: str
+    drivers: Mapping[str, Callable[[Wiring], D_co]]
+
+    def make(self, wiring: Wiring) -> D_co:
+        """The driver that the description names.
+
+        Raises:
+            ConfigError: if there is none of that name, with file, line and the nearest name.
+            DriverError: if what it is plugged into is missing.
+        """
+        check(wiring.robot)
+        return self.drivers[wiring.robot.drivers.get(self.device, SIMULATED)](wiring)
+
+
+@dataclass(frozen=True)
+class Sense(Family[SensorSource[R, object]], Generic[R]):
+    """The drivers of a sensor whose readings are published.
+
+    Attributes:
+        topic: where; its source is the process that opens the sensor.
+    """
+
+    topic: Topic[R]
+
+
+def _simulated_motors(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.simulated import make
+
+    return make(wiring)
+
+
+def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
+    from robot.drivers.imu.simulated import make
+
+    return make(wiring)
+
+
+def _simulated_force(wiring: Wiring) -> SensorSource[ForceReading, None]:
+    from robot.drivers.force.simulated import make
+
+    return make(wiring)
+
+
+def _simulated_camera(wiring: Wiring) -> SensorSource[DepthImage, Camera]:
+    from robot.drivers.camera.simulated import make
+
+    return make(wiring)
+
+
+def _simulated_lidar(wiring: Wiring) -> SensorSource[LidarScan, Lidar]:
+    from robot.drivers.lidar.simulated import make
+
+    return make(wiring)
+
+
+def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | None]:
+    from robot.drivers.battery.simulated import make
+
+    return make(wiring)
+
+
+MOTORS = Family("motors", {SIMULATED: _simulated_motors})
+
+# What the controller reads in every period (`robot.drivers.body_devices`).
+IMU = Family("imu", {SIMULATED: _simulated_imu})
+FORCE = Family("force", {SIMULATED: _simulated_force})
+
+# What is published: its topic's source is the process that opens it (`robot.drivers.senses`).
+SENSES: tuple[Sense[Any], ...] = (
+    Sense("camera", {SIMULATED: _simulated_camera}, topics.DEPTH),
+    Sense("lidar", {SIMULATED: _simulated_lidar}, topics.LIDAR),
+    Sense("battery", {SIMULATED: _simulated_battery}, topics.POWER),
+)
+
+FAMILIES: tuple[Family[object], ...] = (MOTORS, IMU, FORCE, *SENSES)
+
+
+def check(robot: RobotDescription) -> None:
+    """Whether every driver that a description names is in the table.
+
+    Raises:
+        ConfigError: naming each device and driver that is not, with file, line and nearest name.
+    """
+    families = {family.device: family for family in FAMILIES}
+    wrong: dict[str, tuple[str, str]] = {}
+    for device, driver in robot.drivers.items():
+        if device not in families:
+            cure = config.nearest(device, list(families))
+            wrong[device] = f"unknown device {device!r} in drivers", cure
+        elif driver not in (known := families[device].drivers):
+            cure = config.nearest(driver, list(known))
+            wrong[device] = f"unknown driver {driver!r} of the device {device!r}", cure
+    if not wrong:
+        return
+    node = yaml_nodes.read(robot.path())
+    raise ConfigError(
+        [
+            config.place(node, f"$.drivers.{device}").problem(text, cure)
+            for device, (text, cure) in wrong.items()
+        ]
+    )

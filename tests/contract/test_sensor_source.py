@@ -1,0 +1,193 @@
+"""What every driver of a sensor promises, tried on each row of the registry."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robot.bus import topics
+from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.drivers.registry import FORCE, IMU, SENSES
+from robot.drivers.sensor_source import SensorSource
+from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
+from robot.drivers.wiring import Wiring
+from robot.errors import DriverError
+from robot.messages import DepthImage, LidarScan, PowerState
+from robot.model import description
+from robot.model.body import BodyModel
+from tests.fakes.motors import FakePlant
+
+ROBOT = description.load("juno")
+COUNT = len(ROBOT.motors)
+FAMILIES = {family.device: family for family in (IMU, FORCE, *SENSES)}
+CALIBRATION = {
+    "imu": ROBOT.sensors.imu, "force": None, "camera": ROBOT.sensors.camera,
+    "lidar": ROBOT.sensors.lidar, "battery": ROBOT.battery,
+}  # fmt: skip
+
+
+@dataclass
+class Device:
+    """A driver, its family's name, and what makes the device measure and gives the truth."""
+
+    name: str
+    source: SensorSource
+    measure: Callable[[float], object]
+
+
+def bus_device(name, topic, reading):
+    def bench(tmp_path: Path) -> Device:
+        bus = LocalBus()
+        wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=bus)
+
+        def measure(stamp_s: float) -> object:
+            message = reading(stamp_s)
+            bus.publish(emulated(topic), message)
+            return message
+
+        return Device(name, FAMILIES[name].make(wiring), measure)
+
+    return bench
+
+
+def inside_here(name):
+    def bench(tmp_path: Path) -> Device:
+        plant = FakePlant()
+        wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=LocalBus(), plant=plant)
+
+        def measure(stamp_s: float) -> object:
+            plant.time_ms = round(1000 * stamp_s)
+            return getattr(plant.read(), name)
+
+        return Device(name, FAMILIES[name].make(wiring), measure)
+
+    return bench
+
+
+def inside_elsewhere(name):
+    def bench(tmp_path: Path) -> Device:
+        plant, server, clock = FakePlant(COUNT), PlantServer(ROBOT, tmp_path), SimulatedClock()
+        there = SharedPlant(ROBOT, tmp_path, clock=clock)
+        wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=there)
+
+        def measure(stamp_s: float) -> object:
+            plant.time_ms = round(1000 * stamp_s)
+            server.publish(plant.read())
+            return getattr(plant.sample, name)
+
+        measure(0.0)  # opening waits for a first one
+        return Device(name, FAMILIES[name].make(wiring), measure)
+
+    return bench
+
+
+def image(stamp_s: float) -> DepthImage:
+    return DepthImage(stamp_s=stamp_s, width=2, height=1, fovy_rad=1.0, depth_m=bytes(8))
+
+
+def scan(stamp_s: float) -> LidarScan:
+    return LidarScan(stamp_s=stamp_s, angle_min_rad=-3.1, angle_step_rad=0.1, ranges_m=(1.0, 2.0))
+
+
+def power(stamp_s: float) -> PowerState:
+    return PowerState(stamp_s=stamp_s, charge=0.5, power_w=90.0, source="emulated")
+
+
+BENCHES = {
+    ("imu", "simulated"): (inside_here("imu"), inside_elsewhere("imu")),
+    ("force", "simulated"): (inside_here("force"), inside_elsewhere("force")),
+    ("camera", "simulated"): (bus_device("camera", topics.DEPTH, image),),
+    ("lidar", "simulated"): (bus_device("lidar", topics.LIDAR, scan),),
+    ("battery", "simulated"): (bus_device("battery", topics.POWER, power),),
+}
+
+
+@pytest.fixture(
+    params=[bench for benches in BENCHES.values() for bench in benches],
+    ids=[f"{'-'.join(row)}-{k}" for row, benches in BENCHES.items() for k in range(len(benches))],
+)
+def device(request: pytest.FixtureRequest, tmp_path: Path) -> Device:
+    return request.param(tmp_path)
+
+
+def numbers(reading) -> dict:
+    """The fields of a reading, arrays as lists."""
+    names = getattr(reading, "__struct_fields__", None) or reading.__dataclass_fields__
+    fields = {name: getattr(reading, name) for name in names}
+    return {
+        name: value.tolist() if isinstance(value, np.ndarray) else value
+        for name, value in fields.items()
+    }
+
+
+def test_every_row_is_tried():
+    rows = {(name, driver) for name, family in FAMILIES.items() for driver in family.drivers}
+    assert set(BENCHES) == rows
+
+
+def test_a_closed_driver_refuses(device: Device):
+    with pytest.raises(DriverError):
+        device.source.read()
+    with device.source:
+        pass
+    with pytest.raises(DriverError):
+        device.source.read()
+    device.source.__exit__(None, None, None)
+
+
+def test_a_reading_is_what_was_measured_and_comes_once(device: Device):
+    with device.source as source:
+        source.read()
+        for stamp_s in (0.1, 0.2, 0.3):
+            truth = device.measure(stamp_s)
+            (reading,) = source.read()
+            assert numbers(reading) == numbers(truth)
+            assert reading.stamp_s == stamp_s
+            assert not source.read()
+
+
+def test_who_reads_late_gets_the_newest_last(device: Device):
+    with device.source as source:
+        for stamp_s in (0.1, 0.2, 0.3):
+            device.measure(stamp_s)
+        stamps_s = [reading.stamp_s for reading in source.read()]
+    assert stamps_s == sorted(set(stamps_s))
+    assert stamps_s[-1] == 0.3
+
+
+def test_its_frame_is_a_site_of_the_body(device: Device):
+    if device.source.frame:
+        assert BodyModel(ROBOT).site_id(device.source.frame) >= 0
+    else:
+        assert device.name in ("force", "battery")
+
+
+def test_it_knows_its_calibration(device: Device):
+    assert device.source.calibration == CALIBRATION[device.name]
+
+
+@pytest.mark.parametrize("name", ["imu", "force"])
+def test_a_dead_plant_is_an_error_within_a_second(name: str, tmp_path: Path):
+    bench = inside_elsewhere(name)(tmp_path)
+    clock = SimulatedClock()
+    there = SharedPlant(ROBOT, tmp_path, clock=clock)
+    wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=there)
+    with FAMILIES[name].make(wiring) as source:
+        bench.measure(0.1)
+        assert source.read()
+        clock.sleep_until(0.9 * SILENCE_S)
+        assert not source.read()
+        clock.sleep_until(1.1 * SILENCE_S)
+        with pytest.raises(DriverError, match="silent"):
+            source.read()
+
+
+@pytest.mark.parametrize("name", ["imu", "force"])
+def test_a_process_without_a_plant_has_no_simulated_sensor_of_the_body(name: str):
+    wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=LocalBus())
+    with pytest.raises(DriverError, match="simulated plant"):
+        FAMILIES[name].make(wiring)

@@ -1,0 +1,73 @@
+"""A description names its drivers; what it names wrongly is told with the cure."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.drivers import registry
+from robot.drivers.wiring import Wiring
+from robot.errors import ConfigError
+from robot.model import description
+
+JUNO = Path(description.__file__).parent / "juno"
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """Juno with other drivers."""
+
+    def load(drivers: str):
+        folder = tmp_path / "juno"
+        shutil.copytree(JUNO, folder, dirs_exist_ok=True)
+        path = folder / "juno.yaml"
+        text, count = re.subn(r"(?m)^drivers: .*\n", drivers, path.read_text())
+        assert count == 1
+        path.write_text(text)
+        return description.load(str(path))
+
+    return load
+
+
+def line_of(robot, word: str) -> int:
+    lines = robot.path().read_text().splitlines()
+    return next(k for k, line in enumerate(lines, 1) if word in line)
+
+
+def test_the_shipped_robot_names_every_device():
+    juno = description.load("juno")
+    assert set(juno.drivers) == {family.device for family in registry.FAMILIES}
+    registry.check(juno)
+
+
+def test_what_is_not_named_is_simulated(robot):
+    registry.check(robot(""))
+    wiring = Wiring(robot=robot(""), clock=SimulatedClock(), bus=LocalBus())
+    assert [sense.make(wiring).frame for sense in registry.SENSES] == ["head_camera", "lidar", ""]
+
+
+@pytest.mark.parametrize(
+    ("drivers", "word", "message", "cure"),
+    [
+        ("drivers:\n  imu: simulated\n  motors: simulatd\n", "simulatd",
+         "unknown driver 'simulatd' of the device 'motors'", "did you mean 'simulated'?"),
+        ("drivers:\n  motrs: simulated\n", "motrs",
+         "unknown device 'motrs' in drivers", "did you mean 'motors'?"),
+    ],
+)  # fmt: skip
+def test_an_unknown_name_is_told_with_file_line_and_the_nearest(
+    robot, drivers, word, message, cure
+):
+    wrong = robot(drivers)
+    wiring = Wiring(robot=wrong, clock=SimulatedClock(), bus=LocalBus())
+    for ask in (lambda: registry.check(wrong), lambda: registry.MOTORS.make(wiring)):
+        with pytest.raises(ConfigError) as caught:
+            ask()
+        (problem,) = caught.value.problems
+        assert problem.message == message
+        assert problem.suggestion == cure
+        assert problem.file == str(wrong.path())
+        assert problem.line == line_of(wrong, word)
