@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from benchmarks.campaign import Job
+from benchmarks.campaign import Trial
 
 TRIALS = "benchmarks.trials"
 DIRECTIONS = 16
@@ -27,7 +27,7 @@ POSTURES: dict[str, tuple[str, dict[str, Any]]] = {
 }
 
 
-def jobs(*, quick: bool) -> list[Job]:
+def jobs(*, quick: bool) -> list[Trial]:
     """Every run; `quick` shortens walks and thins out directions, goals and seeds."""
     return [
         *_walks(10.0 if quick else 60.0),
@@ -42,39 +42,39 @@ def jobs(*, quick: bool) -> list[Job]:
     ]
 
 
-def _job(key: str, function: str, *, alone: bool = False, **arguments: Any) -> Job:
+def _job(key: str, function: str, *, alone: bool = False, **arguments: Any) -> Trial:
     call = function if ":" in function else f"{TRIALS}:{function}"
-    return Job(key, call, arguments, alone)
+    return Trial(key, call, arguments, alone)
 
 
-def _walks(duration_s: float) -> list[Job]:
+def _walks(duration_s: float) -> list[Trial]:
     return [
         _job(f"walk/{name}", "walk", seed=1, duration_s=duration_s, **twist)
         for name, twist in STEADY.items()
     ]
 
 
-def _random_walks(count: int, duration_s: float) -> list[Job]:
+def _random_walks(count: int, duration_s: float) -> list[Trial]:
     return [
         _job(f"random/{seed}", "random_walk", seed=seed, duration_s=duration_s)
         for seed in range(count)
     ]
 
 
-def _goals(count: int) -> list[Job]:
+def _goals(count: int) -> list[Trial]:
     odometry = [_job(f"goal/{seed}", "goal", seed=seed) for seed in range(count)]
     fixes = [_job(f"goal-fixes/{seed}", "goal_localised", seed=seed) for seed in range(count)]
     return odometry + fixes
 
 
-def _postures() -> list[Job]:
+def _postures() -> list[Trial]:
     return [
         _job(f"posture/{name}", "posture", command=command, fields=fields, seed=2)
         for name, (command, fields) in POSTURES.items()
     ]
 
 
-def _pushes_standing(*, every: int) -> list[Job]:
+def _pushes_standing(*, every: int) -> list[Trial]:
     return [
         _job(
             f"push-standing/{impulse}/{_degrees(k):.1f}",
@@ -88,7 +88,7 @@ def _pushes_standing(*, every: int) -> list[Job]:
     ]
 
 
-def _pushes_walking(*, every: int, phases: int) -> list[Job]:
+def _pushes_walking(*, every: int, phases: int) -> list[Trial]:
     return [
         _job(
             f"push-walking/{impulse}/{_degrees(k):.1f}/{phase}",
@@ -104,11 +104,11 @@ def _pushes_walking(*, every: int, phases: int) -> list[Job]:
     ]
 
 
-def _falls(count: int) -> list[Job]:
+def _falls(count: int) -> list[Trial]:
     return [_job(f"fall/{seed}", "get_up", seed=seed) for seed in range(count)]
 
 
-def _reaches(poses: int) -> list[Job]:
+def _reaches(poses: int) -> list[Trial]:
     return [
         _job(
             f"reach/{mass:.1f} kg {'known' if known else 'unknown'}/{side}",
@@ -124,7 +124,7 @@ def _reaches(poses: int) -> list[Job]:
     ]
 
 
-def _costs(duration_s: float) -> list[Job]:
+def _costs(duration_s: float) -> list[Trial]:
     return [
         _job("cost/tick", "tick_time", alone=True, duration_s=duration_s),
         _job("cost/fast", "speed", alone=True, duration_s=duration_s),
@@ -132,7 +132,7 @@ def _costs(duration_s: float) -> list[Job]:
     ]
 
 
-def _starts(times: int) -> list[Job]:
+def _starts(times: int) -> list[Trial]:
     startup = "benchmarks.startup"
     return [
         _job("cost/start fast", f"{startup}:first_tick", alone=True, live=False, times=times),

@@ -29,7 +29,7 @@ CODE = ("robot", "sim", "intents", "executive", "benchmarks")
 Outcome = dict[str, Any]
 
 
-class Job(msgspec.Struct, frozen=True):
+class Trial(msgspec.Struct, frozen=True):
     """One run: `call` is `module:function`; `key` is unique in its campaign.
 
     `alone` keeps every other job away while it runs (for wall-clock measurements).
@@ -41,7 +41,7 @@ class Job(msgspec.Struct, frozen=True):
     alone: bool = False
 
 
-def run(name: str, jobs: list[Job], *, processes: int, fresh: bool = False) -> dict[str, Outcome]:
+def run(name: str, jobs: list[Trial], *, processes: int, fresh: bool = False) -> dict[str, Outcome]:
     """Run what is not done yet; returns all outcomes by key.
 
     A job that raises has the outcome `{"error": traceback}`; it counts as a failure of the robot,
@@ -86,19 +86,19 @@ def _recall(path: Path) -> dict[str, Outcome]:
     return {item["key"]: item["outcome"] for item in found if "error" not in item["outcome"]}
 
 
-def _all(jobs: list[Job], processes: int) -> Iterator[tuple[Job, Outcome]]:
+def _all(jobs: list[Trial], processes: int) -> Iterator[tuple[Trial, Outcome]]:
     """Outcomes as they come: the shared ones first, then those that want the machine alone."""
     shared = [job for job in jobs if not job.alone]
     yield from _pool(shared, processes)
     yield from _pool([job for job in jobs if job.alone], 1)
 
 
-def _pool(jobs: list[Job], processes: int) -> Iterator[tuple[Job, Outcome]]:
+def _pool(jobs: list[Trial], processes: int) -> Iterator[tuple[Trial, Outcome]]:
     if not jobs:
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(processes, len(jobs)), mp_context=context) as pool:
-        waiting: dict[Future[Outcome], Job] = {pool.submit(perform, job): job for job in jobs}
+        waiting: dict[Future[Outcome], Trial] = {pool.submit(perform, job): job for job in jobs}
         try:
             while waiting:
                 over, _ = wait(waiting, return_when=FIRST_COMPLETED)
@@ -109,7 +109,7 @@ def _pool(jobs: list[Job], processes: int) -> Iterator[tuple[Job, Outcome]]:
             raise
 
 
-def perform(job: Job) -> Outcome:
+def perform(job: Trial) -> Outcome:
     """Run one job here; adds how long it took."""
     start_s = time.perf_counter()
     try:
@@ -131,7 +131,7 @@ def _progress() -> Progress:
     )
 
 
-def _short(job: Job, outcome: Outcome) -> str:
+def _short(job: Trial, outcome: Outcome) -> str:
     if "error" in outcome:
         return f"{job.key}: {str(outcome['error']).strip().splitlines()[-1]}"
     return f"{job.key}: {'ok' if outcome.get('ok', True) else 'failed'}"

@@ -24,13 +24,15 @@ import typer
 from benchmarks import machine
 from benchmarks.markdown import table
 from executive.engine.executive import Executive
-from executive.engine.loop import Interrupts
 from executive.engine.recorder import Recorder
 from executive.frontends.dump.writer import Dumper, along
 from executive.frontends.progress import Silent
 from executive.journal.journal import Journal
 from executive.meaning import request
 from executive.runs import runtimes, task_run
+from executive.runs.runtimes import Setup
+from executive.runs.session import Session
+from executive.runs.task_run import Assignment
 from robot.clock import WallClock
 from sim.reality import Simulation
 
@@ -85,24 +87,19 @@ def run(sentence: str, *, folder: Path | None, dump_on: str = "", bare: bool = F
     understood = request.request(sentence, where, ask=None)
     if isinstance(understood, request.Refused):
         raise SystemExit(understood.reason)
-    job = task_run.Job(
-        understood=understood, where=where, seed=0, runtime_name="fast", folder=folder
-    )
+    setup = Setup(where=where, folder=folder)
     show = quiet
     if dump_on and folder is not None:
         formats = "svg,html" if dump_on == "failure" else "text"
         show = along(show, folder / "dump", on=dump_on, formats=formats)
     with ExitStack() as stack:
-        runtime, planner = stack.enter_context(
-            runtimes.opened("fast", where, seed=0, folder=folder)
-        )
+        robot = stack.enter_context(runtimes.opened(setup))
         if bare:
             stack.enter_context(patch("executive.runs.session.Recorder", NoRecorder))
         begin_s = time.process_time()
-        task_run.do(
-            job, runtime, planner, show=show, wall=WallClock(), time_of_day=time.time,
-            interrupts=Interrupts(),
-        )  # fmt: skip
+        session = stack.enter_context(Session(setup, robot, time_of_day=time.time))
+        assignment = Assignment(understood=understood)
+        task_run.do(assignment, session, show=show, wall=WallClock())
         return time.process_time() - begin_s
 
 

@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 import time
 from collections import Counter
-from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
 
-from benchmarks.campaign import UNFINISHED, Job
+from benchmarks.campaign import UNFINISHED, Trial
 from benchmarks.markdown import share, table
 from executive.engine.executive import Executive
-from executive.engine.loop import Interrupts, Runtime
 from executive.frontends.progress import Silent
 from executive.meaning import request
 from executive.runs import runtimes, task_run
-from executive.runs.run_folder import Summary
-from executive.runs.task_run import Progress
+from executive.runs.runtimes import Opened, Setup
+from executive.runs.session import Session
+from executive.runs.summary import Summary
+from executive.runs.task_run import Assignment, Progress
 from robot.clock import WallClock
 from robot.planning.requests import PlacePlan, PlanRequest, PlanResult
 from robot.planning.worker import Planner
@@ -34,14 +34,14 @@ UPRIGHT_RAD = math.radians(15.0)
 STANDING_M = 0.45
 
 
-def jobs(*, quick: bool) -> list[Job]:
+def jobs(*, quick: bool) -> list[Trial]:
     """50 `fast` missions and 5 `live` ones; quick, 4 and none."""
     fast = [
-        Job(f"fast/{seed}", "benchmarks.mission:do", {"seed": seed})
+        Trial(f"fast/{seed}", "benchmarks.mission:do", {"seed": seed})
         for seed in range(4 if quick else 50)
     ]
     live = [
-        Job(f"live/{seed}", "benchmarks.mission:do", {"seed": seed, "live": True}, alone=True)
+        Trial(f"live/{seed}", "benchmarks.mission:do", {"seed": seed, "live": True}, alone=True)
         for seed in range(0 if quick else 5)
     ]
     return fast + live
@@ -87,15 +87,13 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
         return {"ok": False, "code": understood.outcome, "cause": understood.reason}
     folder = UNFINISHED / "missions" / f"{'live' if live else 'fast'}-{seed}"
     kind: runtimes.Kind = "live" if live else "fast"
-    job = task_run.Job(
-        understood=understood, where=where, seed=seed, runtime_name=kind, folder=folder
-    )
+    setup = Setup(where=where, kind=kind, seed=seed, folder=folder)
     begin_s = time.perf_counter()
-    with runtimes.opened(kind, where, seed=seed, folder=folder) as (runtime, planner):
+    with runtimes.opened(setup) as (runtime, planner):
         ready_s = time.perf_counter() - begin_s
         witness = Witness(planner)
         begin_cpu_s = time.process_time()
-        summary = _carry_out(job, runtime, witness)
+        summary = _carry_out(understood, setup, Opened(runtime, witness))
         cpu_s = time.process_time() - begin_cpu_s
         known = {**_report(summary, sentence, ready_s), "cpu_s": round(cpu_s, 2)}
         if live:
@@ -105,16 +103,10 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
         return {**known, **_judge(runtime, summary, witness.X_WO, cup.replace(" ", "_"))}
 
 
-def _carry_out(job: task_run.Job, runtime: Runtime, planner: Planner) -> Summary:
-    return task_run.do(
-        job,
-        runtime,
-        planner,
-        show=_silent,
-        wall=WallClock(),
-        time_of_day=lambda: datetime.now(UTC).timestamp(),
-        interrupts=Interrupts(),
-    )
+def _carry_out(understood: request.Understood, setup: Setup, robot: Opened) -> Summary:
+    with Session(setup, robot, time_of_day=time.time) as session:
+        assignment = Assignment(understood=understood)
+        return task_run.do(assignment, session, show=_silent, wall=WallClock())
 
 
 def _silent(_executive: Executive) -> Progress:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import random
 import tempfile
 import time
-from datetime import datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -19,7 +18,7 @@ import typer
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.meaning import request
-from executive.runs import runtimes
+from executive.runs.runtimes import Setup
 from robot.clock import WallClock
 from robot.messages import BodyCommand, Stand
 from sim.reality import Simulation
@@ -33,13 +32,9 @@ def main(times: Annotated[int, typer.Option(help="how often")] = 20) -> None:
     where = request.setting(Simulation(), "empty", robot="juno")
     with tempfile.TemporaryDirectory() as folder:
         robot = Robot(
-            lambda: runtimes.opened("live", where, seed=0, folder=Path(folder)),
-            where=where,
-            seed=0,
-            folder=Path(folder),
+            Setup(where=where, kind="live", folder=Path(folder)),
             wall=WallClock(),
-            time_of_day=lambda: datetime.now().astimezone().timestamp(),
-            idles=True,
+            time_of_day=time.time,
         )
         with robot:
             spans_ms = [1e3 * _once(robot, rng) for _ in range(times)]

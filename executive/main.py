@@ -12,52 +12,48 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
-from typing import Any
 
 import msgspec
 
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
-from executive.frontends.supervised import FrontEnd
+from executive.frontends.launching import FrontEnd, Overseen
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
-from robot.bringup.processes import CRASHED
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
 from robot.errors import RobotError
+from robot.exit_status import ExitStatus
 
 POLL_S = 0.02
 
-Run = Callable[[Handle, dict[str, Any]], int]
-"""A front end: from its handle on the robot and its options to an exit status."""
 
-
-def front_end(name: str) -> Run:
+def front_end(name: str) -> Overseen:
     """The front end of that name, which is loaded with all that it needs, and nothing else is."""
     match FrontEnd(name):
         case FrontEnd.DO:
-            from executive.frontends.do import do_overseen
+            from executive.frontends import do
 
-            return do_overseen
+            return do.in_executive
         case FrontEnd.LISTEN:
             from executive.frontends.listening import obeying
 
-            return obeying.overseen
+            return obeying.in_executive
         case FrontEnd.MISSION:
             from executive.frontends.missions import run
 
-            return run.overseen
+            return run.in_executive
         case FrontEnd.PROMPT:
             from executive.frontends.prompt import cli
 
-            return cli.overseen
+            return cli.in_executive
         case FrontEnd.RESUME:
             from executive.frontends.past_runs import resume
 
-            return resume.overseen
+            return resume.in_executive
 
 
 def main(
-    private: str, parent_pid: str, number: str, *, load: Callable[[str], Run] = front_end
+    private: str, parent_pid: str, number: str, *, load: Callable[[str], Overseen] = front_end
 ) -> int:
     """Load, build, run, close; returns the exit status. A spare waits for its turn in between.
 
@@ -77,10 +73,10 @@ def main(
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
     except Exception:  # the launcher starts another one, which goes on where this one was
         traceback.print_exc()
-        return CRASHED
+        return ExitStatus.CRASHED
 
 
-def _turn(folder: Path, number: int, load: Callable[[str], Run]) -> tuple[Run, Front]:
+def _turn(folder: Path, number: int, load: Callable[[str], Overseen]) -> tuple[Overseen, Front]:
     """Load everything, then wait until as many executives have died as `number` says.
 
     Ctrl-C is for the executive whose turn it is: that hears it while it loads, a spare does not.

@@ -1,5 +1,6 @@
 """Answers to questions about the robot and what it knows, from its state alone."""
 
+import math
 from collections.abc import Callable
 
 from msgspec.structs import replace
@@ -145,10 +146,12 @@ def _location(state: RobotState) -> str:
         [f"in the {state.room}"] if state.room else []
     )
     view = state.view
-    told = f"x {view.x_m:.1f} m, y {view.y_m:.1f} m" if view else ""
-    if spots:
-        return f"I am {' '.join(spots)}" + (f", at {told}." if told else ".")
-    return f"I am at {told}." if told else "I do not know where I am."
+    if view:
+        heading_deg = math.degrees(view.yaw_rad)
+        spots.append(
+            f"at x {view.x_m:.1f} m, y {view.y_m:.1f} m, heading {heading_deg:.0f} degrees"
+        )
+    return f"I am {' '.join(spots)}." if spots else "I do not know where I am."
 
 
 def _status(state: RobotState) -> str:

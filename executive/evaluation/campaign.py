@@ -11,9 +11,11 @@ from typing import Any
 
 import msgspec
 
-from executive.engine.jobs import UNLIMITED, Limits
 from executive.meaning import request
-from executive.missions import fault_plans
+from executive.missions import check, fault_plans
+from executive.missions.load import find
+from executive.runs import mission_task
+from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
 from robot.errors import CATALOGUE, ConfigError, Problem
 from robot.reality import truth
@@ -111,10 +113,8 @@ def load(path: Path | str, reality: Reality, *, robot: str = "juno") -> tuple[Ca
 class Meant(msgspec.Struct, frozen=True, kw_only=True):
     """What a case's mission is, and where it is done."""
 
-    understood: request.Understood
+    assignment: Assignment
     where: request.Setting
-    faults: tuple[fault_plans.FaultPlan, ...] = ()
-    limits: Limits = UNLIMITED
 
 
 class Settings:
@@ -144,23 +144,15 @@ def meant(case: Case, settings: Settings) -> Meant:
         ConfigError: if it cannot be meant.
     """
     if case.mission.endswith((".yaml", ".yml")):
-        from executive.missions import check, load
-        from executive.runs import mission
-
-        checked = check.check(
-            load.find(case.mission), settings.reality, check.Options(samples=True)
-        )
-        return Meant(
-            understood=mission.understood(checked),
-            where=checked.where,
-            faults=checked.faults,
-            limits=mission.limits(checked),
-        )
+        options = check.Options(samples=True)
+        checked = check.check(find(case.mission), settings.reality, options)
+        made = mission_task.assignment(checked, options, path=case.mission)
+        return Meant(assignment=made, where=checked.where)
     where = settings.of(case.world)
     understood = request.request(case.mission, where)
     if isinstance(understood, request.Refused):
         raise ConfigError(f"{case.mission!r}: {understood.reason}")
-    return Meant(understood=understood, where=where)
+    return Meant(assignment=Assignment(understood=understood), where=where)
 
 
 def problems_of(case: Case, settings: Settings) -> list[str]:

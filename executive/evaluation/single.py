@@ -5,26 +5,20 @@ from __future__ import annotations
 import tempfile
 import time
 import traceback
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from executive.engine import loop
-from executive.engine.executive import Executive
 from executive.evaluation.campaign import Run, Settings, meant
 from executive.evaluation.record import Record
-from executive.journal.journal import Journal
+from executive.journal import journal
 from executive.missions import fault_plans
-from executive.runs import agreement, faults, runtimes
-from executive.runs.session import RATES_HZ
-from executive.skills.context import SkillContext
-from executive.skills.resources import needed_by
-from executive.trees.build import Done, build
-from executive.trees.parts import errands
+from executive.runs import runtimes
+from executive.runs.again import continuation
+from executive.runs.runtimes import Opened, Setup
+from executive.runs.session import Session
 from robot.errors import Failure, failure
-from robot.planning.worker import Planner
 from robot.reality import truth
 from robot.reality.contract import Plant, Reality
 
@@ -65,85 +59,54 @@ class _Trial:
 
     def carry_out(self) -> Record:
         """The run, and what became of it."""
-        run, where = self.run, self.where
-        with ExitStack() as stack:
-            runtime, planner = stack.enter_context(runtimes.fast(where, seed=run.seed))
-            journal = stack.enter_context(Journal(self.folder))
-            journal.listen(lambda event: self._note(event.event, event.data))
-            slow = faults.SlowPlanner(planner)
-            injector = faults.Injector(
-                (*self.given.faults, *(fault_plans.plan(data) for data in run.case.faults)),
-                runtime,
-                journal,
-                begin_s=runtime.clock.now_s(),
-                seed=run.seed,
-                planner=slow,
+        run = self.run
+        setup = Setup(where=self.where, seed=run.seed, folder=self.folder)
+        planned = tuple(fault_plans.plan(data) for data in run.case.faults)
+        with (
+            runtimes.fast(setup) as (runtime, planner),
+            Session(
+                setup,
+                Opened(runtime, planner),
+                faults=(*self.given.assignment.faults, *planned),
                 kill=self._kill,
-            )
-            stack.callback(injector.close)
-            reason = self._work(runtime, slow, journal, injector)
-            took_s = runtime.clock.now_s()
+            ) as session,
+        ):
+            session.journal.listen(lambda event: self._note(event.event, event.data))
+            session.on_tick(lambda: self._help(session))
+            reason = self._work(session)
+            took_s = session.now_s
             runtime.advance(SETTLE_S)
-            return self._record(runtime.plant, reason, took_s=took_s, struck=len(injector.struck))
+            struck = len(session.faults.struck)
+            return self._record(runtime.plant, reason, took_s=took_s, struck=struck)
 
-    def _work(
-        self,
-        runtime: loop.Runtime,
-        planner: Planner,
-        journal: Journal,
-        injector: faults.Injector,
-    ) -> Failure | None:
+    def _work(self, session: Session) -> Failure | None:
         """Executives one after the other until one of them comes to an end."""
-        end_s = runtime.clock.now_s() + self.run.case.limit_s
+        end_s = session.now_s + self.run.case.limit_s
+
+        def over() -> bool:
+            late = session.now_s > end_s
+            return self.killed or late or session.executive.outcome is not None
+
+        session.executive.stage.recovers = self.run.recovery
+        self.given.assignment.submit_to(session)
         while True:
-            executive = self._executive(runtime, planner, journal)
-
-            def over(of: Executive = executive) -> bool:
-                late = runtime.clock.now_s() > end_s
-                return self.killed or late or of.outcome is not None
-
-            def on_tick(of: Executive = executive) -> None:
-                injector.tick(runtime.clock.now_s())
-                if self.run.case.helped and of.question:
-                    of.answer("continue")
-
-            loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=on_tick, until=over)
-            if executive.outcome is not None:
-                return executive.outcome.failure
+            session.run(until=over)
+            outcome = session.executive.outcome
+            if outcome is not None:
+                return outcome.failure
             if not self.killed:
                 return failure("timeout", f"hanging after {self.run.case.limit_s:g} s")
-            self.killed = False
             if not self.run.recovery:
                 return failure("internal", "the executive was killed")
-            runtime.advance(RESTART_S)
+            self.killed = False
+            session.runtime.advance(RESTART_S)
+            session.replace_executive()
+            events = journal.read(self.folder)
+            continuation.go_on(session, self.given.assignment, events, anew=False)
 
-    def _executive(self, runtime: loop.Runtime, planner: Planner, journal: Journal) -> Executive:
-        """An executive with the task; a second one knows only what journal and world tell it."""
-        where, task = self.where, self.given.understood.task
-        context = SkillContext(
-            link=runtime.link, planner=planner, description=where.description, seed=self.run.seed
-        )
-        done: Done = frozenset()
-        if journal.recent:  # somebody was here before
-            found = agreement.look(
-                list(journal.recent),
-                task,
-                link=runtime.link,
-                knowledge=where.knowledge,
-                robot=where.description,
-            )
-            done = found.done
-            for held in found.held:
-                context.holdings.take(held)
-        executive = Executive(context, journal, rates_hz=RATES_HZ)
-        executive.stage.recovers = self.run.recovery
-        executive.submit(
-            lambda stage: build(task, stage, done=done),
-            text=self.given.understood.text,
-            resources=needed_by(errand.params for errand in errands(task)),
-            limits=self.given.limits,
-        )
-        return executive
+    def _help(self, session: Session) -> None:
+        if self.run.case.helped and session.executive.question:
+            session.executive.answer("continue")
 
     def _kill(self) -> None:
         self.killed = True

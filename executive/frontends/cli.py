@@ -1,7 +1,4 @@
-"""The command line: `humanoid`. What the commands do is in `executive.frontends.do`.
-
-Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
-"""
+"""The command line: `humanoid`. What a command does is in the module that is called like it."""
 
 from __future__ import annotations
 
@@ -14,23 +11,24 @@ import typer
 
 from executive.frontends import streams
 from executive.frontends.dump import cli as dumps
-from executive.frontends.evaluation import evaluate
 from executive.frontends.exit import ended_by
+from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
 from executive.frontends.missions import cli as missions
 from executive.frontends.options import (
-    Aloud,
     AsJson,
-    Fast,
+    Do,
+    Eval,
     Model,
+    Prompt,
     Robot,
-    RunDir,
     Seed,
-    Vary,
-    VoiceModel,
+    Walk,
     World,
+    takes,
 )
 from executive.frontends.past_runs import cli as history
+from robot import exit_status
 from robot.errors import ConfigError
 
 app = typer.Typer(
@@ -53,7 +51,11 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(
+    help=f"""Type a sentence, and a humanoid does it in physics. Without a command: the prompt.
+
+    {exit_status.in_short()}"""
+)
 def humanoid(
     context: typer.Context,
     *,
@@ -62,32 +64,14 @@ def humanoid(
         typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
     ] = False,
 ) -> None:
-    """Type a sentence, and a humanoid does it in physics. Without a command: the prompt.
-
-    Exit status: 0 done, 1 failed, 2 not understood or invalid, 3 the system broke.
-    """
+    """What is common to all commands."""
     if context.invoked_subcommand is None:
         repl()
 
 
 @app.command(no_args_is_help=True)
-def do(
-    sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")],
-    *,
-    world: World = "kitchen",
-    robot: Robot = "juno",
-    seed: Seed = 0,
-    fast: Fast = False,
-    as_json: AsJson = False,
-    vary: Vary = False,
-    run_dir: RunDir = None,
-    model: Model = None,
-    dump: dumps.Dump = None,
-    dump_on: dumps.DumpOn = "end",
-    dump_format: dumps.DumpFormat = "html",
-    voice: Aloud = False,
-    voice_model: VoiceModel = None,
-) -> None:
+@takes(Do)
+def do(options: Do) -> None:
     """Do what a sentence says.
 
     [bold]Examples[/bold]
@@ -100,40 +84,16 @@ def do(
 
     Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
     """
-    from executive.frontends import do
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.DO, options, as_json=options.as_json))
+    from executive.frontends.do import in_executive
 
-    options = do.Do(
-        text=" ".join(sentence),
-        world=world,
-        robot=robot,
-        seed=seed,
-        fast=fast,
-        vary=vary,
-        folder=run_dir,
-        model=model,
-        as_json=as_json,
-        dump=dump,
-        dump_on=dump_on,
-        dump_format=dump_format,
-        voice=voice or voice_model is not None,
-        voice_model=voice_model,
-    )
-    raise typer.Exit(do.do(options))
+    raise typer.Exit(here(in_executive, options))
 
 
 @app.command()
-def repl(
-    *,
-    world: World = "kitchen",
-    robot: Robot = "juno",
-    seed: Seed = 0,
-    fast: Fast = False,
-    vary: Vary = False,
-    run_dir: RunDir = None,
-    model: Model = None,
-    voice: Aloud = False,
-    voice_model: VoiceModel = None,
-) -> None:
+@takes(Prompt)
+def repl(options: Prompt) -> None:
     r"""Talk to a robot at a prompt: sentences, commands, and what happens, in one place.
 
     [bold]Examples[/bold]
@@ -146,28 +106,16 @@ def repl(
 
     `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
     """
-    from executive.frontends.prompt import cli
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.PROMPT, options))
+    from executive.frontends.prompt.cli import in_executive
 
-    options = cli.Options(
-        world=world, robot=robot, seed=seed, fast=fast, vary=vary, folder=run_dir, model=model,
-        voice=voice or voice_model is not None, voice_model=voice_model,
-    )  # fmt: skip
-    raise typer.Exit(cli.repl(options))
+    raise typer.Exit(here(in_executive, options))
 
 
 @app.command()
-def walk(
-    *,
-    speed: Annotated[float, typer.Option("--speed", help="Forward [m/s].")] = 0.4,
-    left: Annotated[float, typer.Option("--left", help="Sideways, to the left [m/s].")] = 0.0,
-    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left [rad/s].")] = 0.0,
-    duration: Annotated[float, typer.Option("--for", help="How long [s].")] = 10.0,
-    world: World = "empty",
-    robot: Robot = "juno",
-    seed: Seed = 0,
-    fast: Fast = False,
-    as_json: AsJson = False,
-) -> None:
+@takes(Walk)
+def walk(options: Walk) -> None:
     """Walk at a steady pace, to look at the body alone.
 
     [bold]Examples[/bold]
@@ -176,12 +124,9 @@ def walk(
 
       humanoid walk --speed 0 --turn 0.6 --for 20
     """
-    from executive.frontends import do
-    from executive.runs.steady_walk import Twist
+    from executive.frontends.walk import walk
 
-    twist = Twist(forward_m_s=speed, left_m_s=left, turn_rad_s=turn, duration_s=duration)
-    options = do.Walk(twist=twist, world=world, robot=robot, seed=seed, fast=fast, as_json=as_json)
-    raise typer.Exit(do.walk(options))
+    raise typer.Exit(walk(options))
 
 
 @app.command()
@@ -243,9 +188,9 @@ def view(
 @app.command()
 def doctor(*, as_json: AsJson = False) -> None:
     """Say what is there on this machine and what is missing, each with its cure."""
-    from executive.frontends import do
+    from executive.frontends.doctor import doctor
 
-    raise typer.Exit(do.doctor(as_json=as_json))
+    raise typer.Exit(doctor(as_json=as_json))
 
 
 @app.command()
@@ -288,7 +233,30 @@ def export(
 missions.register(app)
 history.register(app)
 dumps.register(app)
-app.command(name="eval")(evaluate)
+
+
+@app.command(name="eval")
+@takes(Eval)
+def evaluate(options: Eval) -> None:
+    """Run missions with seeds and faults, over and over, and say how often it went right.
+
+    Judged by the simulator's truth. Without missions and faults: the whole campaign of faults.
+
+    [bold]Examples[/bold]
+
+      humanoid eval --seeds 20 --no-recovery
+
+      humanoid eval "put the red cup on the shelf" --seeds 10
+
+      humanoid eval --faults "missed grasp,camera silent" --json
+
+    Exit status 1 where a case is right in fewer runs than --require.
+    """
+    from executive.frontends.evaluation import evaluate
+
+    raise typer.Exit(evaluate(options))
+
+
 app.command()(listen)
 
 

@@ -1,4 +1,4 @@
-"""What is there and what is missing on this machine, each with its cure."""
+"""`humanoid doctor`: what is there and what is missing on this machine, each with its cure."""
 
 from __future__ import annotations
 
@@ -13,8 +13,12 @@ from pathlib import Path
 from typing import Literal
 
 import msgspec
+from rich.console import Console
+from rich.markup import escape
 
+from executive.frontends.exit import echo_json
 from robot.errors import RobotError
+from robot.exit_status import ExitStatus
 
 MIN_FREE_MB = 200
 EGL_PACKAGES = "sudo apt install libegl1 libgl1-mesa-dri libopengl0"
@@ -37,6 +41,25 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True):
     verdict: Verdict
     text: str
     cure: str = ""
+
+
+def doctor(*, as_json: bool) -> int:
+    """Examine the machine; returns the exit status, 2 if something needed is missing."""
+    findings = examine()
+    missing = any(finding.verdict == "missing" for finding in findings)
+    status = ExitStatus.INVALID if missing else ExitStatus.DONE
+    if as_json:
+        echo_json(findings)
+        return status
+    console = Console(highlight=False, soft_wrap=True)
+    marks = {"ok": "[green]ok[/]", "optional": "[yellow]--[/]", "missing": "[red]no[/]"}
+    for finding in findings:
+        console.print(f"{marks[finding.verdict]}  {finding.name:14} {escape(finding.text)}")
+        if finding.cure:
+            console.print(f"    [dim]cure:[/] {escape(finding.cure)}")
+    cure = "Something that is needed is missing; see its cure above."
+    console.print(cure if missing else "All that is needed is there.")
+    return status
 
 
 def examine(run_folder: Path = Path()) -> list[Finding]:

@@ -1,79 +1,133 @@
-"""`humanoid eval` at the command line; what it does is in `executive.evaluation.work`."""
+"""What `humanoid eval` does: choose the cases, run what is left of them, say how it went."""
 
 from __future__ import annotations
 
-import os
+from datetime import datetime
 from pathlib import Path
-from typing import Annotated
 
+import msgspec
 import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+import executive
+from executive.evaluation import campaign, pool, report
+from executive.evaluation.campaign import Case, Run
+from executive.evaluation.record import Record, Results, fingerprint
+from executive.frontends.options import Eval
+from executive.frontends.reality import REALITY
+from robot.config import nearest
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
 
 
-def evaluate(
-    missions: Annotated[
-        list[str] | None,
-        typer.Argument(help="Sentences or mission files; none: those of the cases themselves."),
-    ] = None,
-    *,
-    seeds: Annotated[int, typer.Option("--seeds", "-n", min=1, help="Runs of each case.")] = 3,
-    faults: Annotated[
-        str,
-        typer.Option("--faults", "-f", help="Cases by name, or campaign files; commas between."),
-    ] = "",
-    processes: Annotated[
-        int, typer.Option("--processes", "-j", min=1, help="Runs at the same time.")
-    ] = max(1, os.cpu_count() or 1),
-    no_recovery: Annotated[
-        bool,
-        typer.Option("--no-recovery", help="Run everything a second time without recovery."),
-    ] = False,
-    require: Annotated[
-        float,
-        typer.Option("--require", min=0.0, max=1.0, help="Share of each case that must be right."),
-    ] = 0.95,
-    resume: Annotated[
-        Path | None,
-        typer.Option("--resume", help="Folder of the results; what is in it is not run again."),
-    ] = None,
-    ray: Annotated[
-        bool, typer.Option("--ray", help="On a Ray cluster, or a local Ray (extra: ray).")
-    ] = False,
-    world: Annotated[
-        str, typer.Option("--world", "-w", help="Of the missions given here.")
-    ] = "kitchen",
-    robot: Annotated[str, typer.Option("--robot", "-r", help="By name or file (YAML).")] = "juno",
-    as_json: Annotated[
-        bool, typer.Option("--json", help="One JSON object, and nothing else.")
-    ] = False,
-) -> None:
-    """Run missions with seeds and faults, over and over, and say how often it went right.
+def evaluate(options: Eval) -> int:
+    """Run a campaign, or what is left of one; returns the exit status.
 
-    Judged by the simulator's truth. Without missions and faults: the whole campaign of faults.
-
-    [bold]Examples[/bold]
-
-      humanoid eval --seeds 20 --no-recovery
-
-      humanoid eval "put the red cup on the shelf" --seeds 10
-
-      humanoid eval --faults "missed grasp,camera silent" --json
-
-    Exit status 1 where a case is right in fewer runs than --require.
+    Raises:
+        ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
     """
-    from executive.evaluation import work
-    from executive.frontends.reality import REALITY
-
-    options = work.Options(
-        missions=tuple(missions or ()),
-        faults=tuple(word.strip() for word in faults.split(",") if word.strip()),
-        seeds=seeds,
-        processes=processes,
-        world=world,
-        robot=robot,
-        no_recovery=no_recovery,
-        ray=ray,
-        as_json=as_json,
-        folder=resume,
-        require=require,
+    cases = chosen(options)
+    wanted = campaign.runs(
+        cases, seeds=options.seeds, without_too=options.no_recovery, robot=options.robot
     )
-    raise typer.Exit(work.evaluate(options, REALITY))
+    folder = options.resume or Path("runs") / f"{datetime.now().astimezone():%Y%m%d-%H%M%S}-eval"
+    root = Path(executive.__file__).parent.parent
+    results = Results(folder, fingerprint=fingerprint(root))
+    console = Console(stderr=True, quiet=options.as_json)
+    if results.stale:
+        console.print("[yellow]some results there were made by other code[/]")
+    _go_through(results, results.left(wanted), options, console)
+    found = report.report(cases, results.records.values())
+    save(folder, found)
+    if options.as_json:
+        typer.echo(msgspec.json.encode(found, order="deterministic"))
+    else:
+        Console().print(report.table(found))
+        typer.echo(f"results: {results.path}; go on with: --resume {folder}")
+    well = found.worst >= options.require and not found.without_code
+    return ExitStatus.DONE if well else ExitStatus.FAILED
+
+
+def save(folder: Path, found: report.Report) -> None:
+    """Keep the table beside the results, for machines and for people."""
+    data = msgspec.json.format(msgspec.json.encode(found, order="deterministic"))
+    (folder / "report.json").write_bytes(data + b"\n")
+    (folder / "report.md").write_text(report.markdown(found), encoding="utf-8")
+
+
+def chosen(options: Eval) -> tuple[Case, ...]:
+    """The cases that the options mean.
+
+    Faults name cases of the shipped campaign or are campaign files; missions of one's own are run
+    with the faults of those cases, and without any when no fault is named.
+
+    Raises:
+        ConfigError: if a name or a file is wrong.
+    """
+    cases: list[Case] = []
+    shipped: dict[str, Case] | None = None
+    for word in options.cases:
+        if word.endswith((".yaml", ".yml")):
+            cases += campaign.load(word, REALITY, robot=options.robot)
+            continue
+        if shipped is None:
+            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED, REALITY)}
+        if word not in shipped:
+            hint = nearest(word, list(shipped))
+            raise ConfigError([Problem(f"unknown fault {word!r}", suggestion=hint)])
+        cases.append(shipped[word])
+    if not options.missions:
+        return tuple(cases) or campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)
+    every: list[Case | None] = [*cases] or [None]
+    own = [_own(mission, case, options) for mission in options.missions for case in every]
+    settings = campaign.Settings(REALITY, options.robot)
+    problems = [
+        Problem(f"{case.name}: {text}")
+        for case in own
+        for text in campaign.problems_of(case, settings)
+    ]
+    if problems:
+        raise ConfigError(problems)
+    return tuple(own)
+
+
+def _own(mission: str, fault: Case | None, options: Eval) -> Case:
+    """A mission of one's own, with the fault of a case."""
+    name = Path(mission).stem if mission.endswith((".yaml", ".yml")) else mission
+    if fault is None:
+        return Case(name=name, mission=mission, world=options.world)
+    return Case(
+        name=f"{name}, {fault.name}",
+        mission=mission,
+        world=options.world,
+        faults=fault.faults,
+        expect=fault.expect,
+        damped=fault.damped,
+        limit_s=600.0,
+    )
+
+
+def _go_through(results: Results, runs: list[Run], options: Eval, console: Console) -> None:
+    """Do the runs that are left, keeping each record as it comes."""
+    work = (
+        pool.on_ray(runs, REALITY)
+        if options.ray
+        else pool.in_processes(runs, REALITY, processes=options.processes)
+    )
+    done = len(results.records)
+    columns = (
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+        TextColumn("{task.fields[last]}"),
+    )  # fmt: skip
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("eval", total=done + len(runs), completed=done, last="")
+        for record in work:
+            results.add(record)
+            bar.update(task, advance=1, last=_short(record))
+            if not console.is_terminal:
+                console.print(f"{len(results.records)}/{done + len(runs)} {_short(record)}")
+
+
+def _short(record: Record) -> str:
+    return f"{record.key}: {'ok' if record.ok else 'WRONG'} ({record.code})"

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import traceback
+from typing import TYPE_CHECKING
 
 import msgspec
 import typer
 
 from executive.journal import failures
 from robot.errors import ConfigError, RobotError
+from robot.exit_status import ExitStatus
 
-DONE, FAILED, INVALID, BROKEN = 0, 1, 2, 3
+if TYPE_CHECKING:
+    from executive.meaning.request import Refused
 
 
 def ended_by(error: BaseException, *, as_json: bool) -> int:
@@ -18,23 +21,39 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
     if isinstance(error, ConfigError):
         problems = [str(problem) for problem in error.problems]
         cure = "correct that, then try again"
-        return last_words("Not done:", problems, cure, status=INVALID, as_json=as_json)
+        return last_words("Not done:", problems, cure, status=ExitStatus.INVALID, as_json=as_json)
     if isinstance(error, RobotError):
         cure = "try again; humanoid doctor says whether something is missing"
-        return last_words("Broken:", [str(error)], cure, status=BROKEN, as_json=as_json)
+        return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, KeyboardInterrupt):
-        return last_words("Stopped on request.", [], "", status=FAILED, as_json=as_json)
+        return last_words("Stopped on request.", [], "", status=ExitStatus.FAILED, as_json=as_json)
     lines = "".join(traceback.format_exception(error)).splitlines()
     cure = "that is a mistake in this software: report the lines above, with the run folder"
-    return last_words("Broken:", lines, cure, status=BROKEN, as_json=as_json)
+    return last_words("Broken:", lines, cure, status=ExitStatus.BROKEN, as_json=as_json)
 
 
 def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_json: bool) -> int:
     """Print why nothing comes of it; returns the status."""
     if as_json:
-        outcome = "invalid" if status == INVALID else "failed"
+        outcome = "invalid" if status == ExitStatus.INVALID else "failed"
         record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
         typer.echo(msgspec.json.encode(record))
         return status
     typer.echo("\n".join(["\n  ".join([heading, *lines]), *failures.advice(cure)]), err=True)
     return status
+
+
+def refuse(refused: Refused, *, as_json: bool) -> int:
+    """Say why nothing is done; returns the status."""
+    if as_json:
+        status = int(ExitStatus.INVALID)
+        echo_json({"status": "invalid", "exit_status": status, **msgspec.to_builtins(refused)})
+        return status
+    heading = "Question" if refused.outcome == "question" else "Not done"
+    typer.echo("\n".join([f"{heading}: {refused.reason}", *failures.advice(refused.suggestion)]))
+    return ExitStatus.INVALID
+
+
+def echo_json(value: object) -> None:
+    """Print a value as one line of JSON."""
+    typer.echo(msgspec.json.encode(value, order="deterministic"))

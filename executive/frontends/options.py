@@ -1,11 +1,31 @@
-"""Options that several commands of the command line share."""
+"""Options that commands share, each written once; a command takes some of these groups.
+
+    @dataclass(frozen=True, kw_only=True)
+    class Do(Place, Seeded, Shown):
+        sentence: Annotated[list[str], typer.Argument(help="What to do.")]
+
+    @app.command()
+    @takes(Do)
+    def do(options: Do) -> None: ...
+
+The fields become the command's options, and the same value crosses to the executive's process.
+"""
 
 from __future__ import annotations
 
+import dataclasses
+import inspect
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeVar, get_type_hints
 
 import typer
+
+from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
+
+T = TypeVar("T")
 
 World = Annotated[
     str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
@@ -14,19 +34,6 @@ Robot = Annotated[
     str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
 ]
 Seed = Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")]
-Fast = Annotated[
-    bool,
-    typer.Option(
-        "--fast", help="As fast as the machine goes, and the same every time, in one process."
-    ),
-]
-Vary = Annotated[
-    bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
-]
-RunDir = Annotated[
-    Path | None,
-    typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
-]
 Model = Annotated[
     Path | None,
     typer.Option(
@@ -35,11 +42,192 @@ Model = Annotated[
         help="Language model (an endpoint's TOML file) to ask what the grammar cannot read.",
     ),
 ]
-Aloud = Annotated[
-    bool, typer.Option("--voice", help="Say aloud what is answered and asked, and how it ended.")
-]
-VoiceModel = Annotated[
-    Path | None,
-    typer.Option("--voice-model", help="The same with piper, in this voice (ONNX)."),
-]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """A robot and where it is."""
+
+    world: World = "kitchen"
+    robot: Robot = "juno"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seeded:
+    """How time passes, and what is drawn."""
+
+    seed: Seed = 0
+    fast: Annotated[
+        bool,
+        typer.Option(
+            "--fast", help="As fast as the machine goes, and the same every time, in one process."
+        ),
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shuffled(Seeded):
+    """A world that is not always the same."""
+
+    vary: Annotated[
+        bool, typer.Option("--vary", help="Shuffle the start and the objects by the seed.")
+    ] = False
+
+    @property
+    def vary_seed(self) -> int | None:
+        """What the world is shuffled by, if it is."""
+        return self.seed if self.vary else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kept:
+    """A run that leaves a folder."""
+
+    run_dir: Annotated[
+        Path | None,
+        typer.Option("--run-dir", help="Where the journal goes (default: runs/STAMP-WORDS)."),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """How words are read."""
+
+    model: Model = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """How people, programs and files are told what goes on."""
+
+    as_json: AsJson = False
+    dump: Dump = None
+    dump_on: DumpOn = "end"
+    dump_format: DumpFormat = "html"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Voiced:
+    """Whether the robot speaks."""
+
+    voice: Annotated[
+        bool,
+        typer.Option("--voice", help="Say aloud what is answered and asked, and how it ended."),
+    ] = False
+    voice_model: Annotated[
+        Path | None,
+        typer.Option("--voice-model", help="The same with piper, in this voice (ONNX)."),
+    ] = None
+
+    @property
+    def aloud(self) -> bool:
+        """Whether it is to speak: a voice is named to be heard."""
+        return self.voice or self.voice_model is not None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Do(Place, Shuffled, Shown, Kept, Reading, Voiced):
+    """The options of `humanoid do`."""
+
+    sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")]
+
+    @property
+    def text(self) -> str:
+        """The sentence as one text."""
+        return " ".join(self.sentence)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prompt(Place, Shuffled, Kept, Reading, Voiced):
+    """The options of `humanoid repl`, and of `humanoid` without a command."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Walk(Place, Seeded):
+    """The options of `humanoid walk`: to look at the body alone, where nothing is in its way."""
+
+    speed: Annotated[float, typer.Option("--speed", help="Forward [m/s].")] = 0.4
+    left: Annotated[float, typer.Option("--left", help="Sideways, to the left [m/s].")] = 0.0
+    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left [rad/s].")] = 0.0
+    duration: Annotated[float, typer.Option("--for", help="How long [s].")] = 10.0
+    world: World = "empty"
+    as_json: AsJson = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Eval:
+    """The options of `humanoid eval`."""
+
+    missions: Annotated[
+        list[str] | None,
+        typer.Argument(help="Sentences or mission files; none: those of the cases themselves."),
+    ] = None
+    seeds: Annotated[int, typer.Option("--seeds", "-n", min=1, help="Runs of each case.")] = 3
+    faults: Annotated[
+        str,
+        typer.Option("--faults", "-f", help="Cases by name, or campaign files; commas between."),
+    ] = ""
+    processes: Annotated[
+        int, typer.Option("--processes", "-j", min=1, help="Runs at the same time.")
+    ] = max(1, os.cpu_count() or 1)
+    no_recovery: Annotated[
+        bool,
+        typer.Option("--no-recovery", help="Run everything a second time without recovery."),
+    ] = False
+    require: Annotated[
+        float,
+        typer.Option("--require", min=0.0, max=1.0, help="Share of each case that must be right."),
+    ] = 0.95
+    resume: Annotated[
+        Path | None,
+        typer.Option("--resume", help="Folder of the results; what is in it is not run again."),
+    ] = None
+    ray: Annotated[
+        bool, typer.Option("--ray", help="On a Ray cluster, or a local Ray (extra: ray).")
+    ] = False
+    world: Annotated[str, typer.Option("--world", "-w", help="Of the missions given here.")] = (
+        "kitchen"
+    )
+    robot: Annotated[str, typer.Option("--robot", "-r", help="By name or file (YAML).")] = "juno"
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
+        False
+    )
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        """The cases and campaign files that --faults names."""
+        return tuple(word.strip() for word in self.faults.split(",") if word.strip())
+
+
+def takes(kind: type[T]) -> Callable[[Callable[[T], None]], Callable[..., None]]:
+    """Make a command of a function that takes one value of `kind`: its fields are the options.
+
+    They are shown in the order of writing, the class's own first, then those of its bases.
+    """
+    hints = get_type_hints(kind, include_extras=True)
+    fields = {field.name: field for field in dataclasses.fields(kind)}  # pyright: ignore[reportArgumentType]
+    order = dict.fromkeys(
+        name for base in kind.__mro__ for name in vars(base).get("__annotations__", ())
+    )
+    parameters = [
+        inspect.Parameter(
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            annotation=hints[name],
+            default=inspect.Parameter.empty
+            if fields[name].default is dataclasses.MISSING
+            else fields[name].default,
+        )
+        for name in order
+    ]
+
+    def decorate(function: Callable[[T], None]) -> Callable[..., None]:
+        def command(**given: object) -> None:
+            function(kind(**given))
+
+        command.__name__, command.__doc__ = function.__name__, function.__doc__
+        command.__signature__ = inspect.Signature(parameters)  # pyright: ignore[reportFunctionMemberAccess]
+        return command
+
+    return decorate

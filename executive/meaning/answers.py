@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
-from executive.blackboard import HEALTH, HELD, WORLD, Blackboard
+from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge, stands_on
+from executive.meaning.robot_state import state_of
 from executive.skills.say import SayParams
-from robot.errors import Failure, failure
+from intents import replies
+from intents.goals import ReportTopic
 from robot.messages import Place, Track
 
 
@@ -38,14 +39,11 @@ def count(ids: frozenset[str], places: Iterable[Place], *, noun: str) -> Bound:
     return words
 
 
-def report(topic: str, knowledge: Knowledge) -> Bound:
-    """Says something about the robot itself."""
+def report(topic: ReportTopic, knowledge: Knowledge, *, skills: frozenset[str]) -> Bound:
+    """Says something about the robot itself; `skills` as for `state_of`."""
 
-    def words(board: Blackboard) -> SayParams | Failure:
-        speak = _REPORTS.get(topic)
-        if speak is None:
-            return failure("unsupported", f"this robot cannot report on {topic!r} yet")
-        return SayParams(text=speak(board, knowledge))
+    def words(board: Blackboard) -> SayParams:
+        return SayParams(text=replies.report(topic, state_of(board, knowledge, skills=skills)))
 
     return words
 
@@ -58,56 +56,3 @@ def _seen(board: Blackboard, ids: frozenset[str], places: tuple[Place, ...]) -> 
     if not places:
         return seen
     return [t for t in seen if t.X_WO and any(stands_on(t.X_WO, place) for place in places)]
-
-
-def _names(ids: Iterable[str], knowledge: Knowledge) -> str:
-    infos = [knowledge.object(object_id) for object_id in ids]
-    names = [info.full_name for info in infos if info is not None]
-    return " and ".join(names)
-
-
-def _holding(board: Blackboard, knowledge: Knowledge) -> str:
-    held = board.read(HELD).values()
-    return f"I hold {_names(held, knowledge)}." if held else "My hands are empty."
-
-
-def _seeing(board: Blackboard, knowledge: Knowledge) -> str:
-    ids = frozenset(info.id for info in knowledge.map.objects)
-    seen = [track.id for track in _seen(board, ids, ())]
-    return f"I have seen {_names(seen, knowledge)}." if seen else "I have not seen anything yet."
-
-
-def _location(board: Blackboard, knowledge: Knowledge) -> str:
-    world = board.read(WORLD)
-    if world is None:
-        return "I do not know where I am."
-    x, y, _ = world.X_WB.p
-    heading = math.degrees(world.X_WB.yaw_rad)
-    here = knowledge.room_at(world.X_WB.p)
-    room = f" in the {here}" if here else ""
-    return f"I am{room} at x {x:.1f} m, y {y:.1f} m, heading {heading:.0f} degrees."
-
-
-def _health(board: Blackboard, _knowledge: Knowledge) -> str:
-    findings = board.read(HEALTH).findings
-    if not findings:
-        return "I am well."
-    return "Not well: " + "; ".join(finding.failure.cause for finding in findings) + "."
-
-
-def _status(board: Blackboard, knowledge: Knowledge) -> str:
-    return f"{_location(board, knowledge)} {_holding(board, knowledge)}"
-
-
-def _capabilities(_board: Blackboard, _knowledge: Knowledge) -> str:
-    return "I can walk, look for things, pick them up, put them down, and keep my balance."
-
-
-_REPORTS: dict[str, Callable[[Blackboard, Knowledge], str]] = {
-    "holding": _holding,
-    "seeing": _seeing,
-    "location": _location,
-    "status": _status,
-    "health": _health,
-    "capabilities": _capabilities,
-}

@@ -17,7 +17,7 @@ from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
 from executive.meaning.identify import Scene, cannot
-from executive.trees.parts import Branch, Part, Series, errands
+from executive.trees.parts import Branch, Errand, Part, Series, errands
 from intents import goals
 from robot.messages import ObjectInfo
 
@@ -116,6 +116,12 @@ def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
     return (lambda board: not known(board)) if condition.negated else known
 
 
+def _report(goal: goals.Report, scene: Scene) -> Part:
+    """Say something of the robot itself; `SKILLS` is what it can do."""
+    says = answers.report(goal.topic, scene.knowledge, skills=SKILLS)
+    return Errand(name=f"report {goal.topic}", params=says)
+
+
 Handler = Callable[[Any, Scene], Part]
 
 HANDLERS: dict[type[Any], Handler] = {
@@ -136,12 +142,15 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.Wait: moving.wait,
     goals.Stop: moving.stop,
     goals.Cancel: moving.stop,
-    goals.Report: people.report,
+    goals.Report: _report,
     goals.Repeat: _repeat,
     goals.ForEach: _for_each,
     goals.If: _if,
 }
 """What each kind of goal takes. One that is not here is refused as unsupported."""
+
+SKILLS: frozenset[str] = frozenset(kind.__struct_config__.tag for kind in HANDLERS)
+"""The types of goals that there are handlers for."""
 
 _MISSING: dict[type[Any], str] = {
     goals.Guide: "this robot cannot guide people yet",

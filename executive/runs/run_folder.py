@@ -1,4 +1,4 @@
-"""The folder of a run: what was asked for, the journal, and how it ended."""
+"""The folder of a run, and what it is started with (`run.json`)."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ from pathlib import Path
 
 import msgspec
 
-from executive.engine.executive import Outcome
-from executive.journal.journal import Journal
-from executive.meaning.request import Setting
 from executive.runs import provenance
 from executive.runs.provenance import Origin
+from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
 
 MISSIONS = "missions"
@@ -37,25 +35,19 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     origin: Origin | None = None
 
 
-def header(where: Setting, *, text: str, seed: int, runtime: str, attended: bool = False) -> Header:
+def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
     """The header of a run that starts now."""
+    where = setup.where
     return Header(
         text=text,
         world=where.world.name,
         robot=where.robot_name,
-        seed=seed,
-        runtime=runtime,
+        seed=setup.seed,
+        runtime=setup.kind,
         varied=where.world.vary_seed is not None,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )
-
-
-def begin(journal: Journal, header: Header, *, now_s: float, folder: Path | None) -> None:
-    """Write what a run is started with into its folder, and as the journal's first event."""
-    if folder is not None:
-        save(folder, "run.json", header)
-    journal.write(now_s, "run", **msgspec.to_builtins(header))
 
 
 def carry_missions_over(left_by: Path, folder: Path) -> None:
@@ -64,61 +56,7 @@ def carry_missions_over(left_by: Path, folder: Path) -> None:
         shutil.copytree(left_by / MISSIONS, folder / MISSIONS, dirs_exist_ok=True)
 
 
-class Summary(msgspec.Struct, frozen=True, kw_only=True):
-    """How a run ended (`summary.json`); wall times stand only here and in `wall.jsonl`.
-
-    `placed` says where things are believed to be; nothing here is the simulator's truth.
-    """
-
-    status: str
-    code: str
-    cause: str
-    suggestion: str
-    exit_status: int
-    simulated_s: float
-    wall_s: float
-    recoveries: int
-    clamped: int
-    refused: int
-    placed: tuple[Placed, ...] = ()
-    expected: tuple[Expected, ...] = ()
-    late: tuple[str, ...] = ()
-    folder: str = ""
-
-    @property
-    def real_time_factor(self) -> float:
-        """Simulated seconds a second of wall time."""
-        return self.simulated_s / self.wall_s if self.wall_s > 0.0 else 0.0
-
-
-class Expected(msgspec.Struct, frozen=True, kw_only=True):
-    """Something that a mission expected at its end, whether it was so, and what was found."""
-
-    check: str
-    so: bool
-    found: str = ""
-
-
-class Placed(msgspec.Struct, frozen=True, kw_only=True):
-    """Where an object is believed to be at the end."""
-
-    object: str
-    where: str
-    x_m: float
-    y_m: float
-    z_m: float
-
-
 MOST_AT_ONCE = 100
-BROKEN = frozenset({"plant_lost", "internal"})
-"""Codes that mean that the system broke, not the task."""
-
-
-def exit_status(outcome: Outcome) -> int:
-    """0 done, 1 failed, 3 the system broke."""
-    if outcome.failure is None:
-        return 0
-    return 3 if outcome.failure.code in BROKEN else 1
 
 
 def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:

@@ -1,4 +1,7 @@
-"""Which runtime and planner go together: `fast` in this process, `live` as processes."""
+"""What a run is set up with, and which runtime and planner go together.
+
+`fast` runs in this process, `live` as processes of their own.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,9 @@ import tempfile
 from collections.abc import Generator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import msgspec
 
 from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
@@ -21,13 +26,37 @@ if TYPE_CHECKING:
 Kind = Literal["fast", "live"]
 
 
+class Setup(msgspec.Struct, frozen=True, kw_only=True):
+    """What a run is set up with.
+
+    Attributes:
+        where: robot and world.
+        kind: which runtime.
+        seed: of everything random.
+        folder: of the run, for its journal and the processes' logs (None: nothing is kept).
+    """
+
+    where: Setting
+    kind: Kind = "fast"
+    seed: int = 0
+    folder: Path | None = None
+
+
+class Opened(NamedTuple):
+    """A robot that is up: its runtime, and what answers the skills' requests for plans."""
+
+    runtime: Runtime
+    planner: Planner
+
+
 @contextmanager
-def fast(where: Setting, *, seed: int) -> Generator[tuple[FastRuntime, Planner]]:
+def fast(setup: Setup) -> Generator[tuple[FastRuntime, Planner]]:
     """A `fast` runtime and its planner. Raises RobotError if a part cannot be built."""
     from robot.bringup.fast import FastRuntime
     from robot.planning.inline import InlinePlanner
 
-    with FastRuntime(where.world, where.robot_name, seed=seed) as runtime:
+    where = setup.where
+    with FastRuntime(where.world, where.robot_name, seed=setup.seed) as runtime:
         yield runtime, InlinePlanner(where.description)
 
 
@@ -40,33 +69,27 @@ def live_parts() -> tuple[type[LiveRuntime], type[ProcessPlanner]]:
 
 
 @contextmanager
-def opened(
-    kind: Kind,
-    where: Setting,
-    *,
-    seed: int,
-    folder: Path | None,
-    handle: Handle | None = None,
-) -> Generator[tuple[Runtime, Planner]]:
+def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
     """Start a runtime and a planner, and leave nothing behind.
 
     Args:
-        kind: which runtime.
-        where: robot and world.
-        seed: of everything random.
-        folder: of this run, for the processes' logs (None: a temporary one).
+        setup: of the run.
         handle: of a live run whose processes the process above looks after.
 
     Raises:
         RobotError: if a part cannot be built or a process does not start.
     """
-    if kind == "fast":
-        with fast(where, seed=seed) as parts:
-            yield parts
+    where = setup.where
+    if setup.kind == "fast":
+        with fast(setup) as (runtime, planner):
+            yield Opened(runtime, planner)
         return
     runtime_type, planner_type = live_parts()
     with ExitStack() as stack:
-        logs = folder or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="humanoid-")))
+        temporary = tempfile.TemporaryDirectory(prefix="humanoid-")
+        logs = setup.folder or Path(stack.enter_context(temporary))
         planner = stack.enter_context(planner_type(where.description))
-        runtime = runtime_type(where.world, where.robot_name, folder=logs, seed=seed, handle=handle)
-        yield stack.enter_context(runtime), planner
+        live = runtime_type(
+            where.world, where.robot_name, folder=logs, seed=setup.seed, handle=handle
+        )
+        yield Opened(stack.enter_context(live), planner)

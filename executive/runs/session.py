@@ -1,21 +1,21 @@
 """A robot at work: one runtime, one executive, one journal, and any number of jobs.
 
-    with Session(runtime, planner, ...) as session:
+    with runtimes.opened(setup) as robot, Session(setup, robot) as session:
+        session.begin("what it is about")
         session.submit(understood)
         session.run()                    # until nothing is left to do
         session.submit(another)
         session.run(until=lambda: gone)  # or until somebody has had enough
 
-`humanoid do`, missions and the prompt all work in a session. `run` belongs to one thread; jobs,
-pauses and stops come through `session.executive` from any thread (`executive.engine.executive`).
+Sentences, missions, the prompt, replays and evaluations all work in a session. `run` belongs to one
+thread; jobs, pauses and stops come through `session.executive` from any thread
+(`executive.engine.executive`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack
-from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import msgspec
 
@@ -25,6 +25,10 @@ from executive.engine.jobs import UNLIMITED, Limits
 from executive.engine.recorder import Recorder
 from executive.journal.journal import Journal
 from executive.meaning.request import Understood
+from executive.missions.fault_plans import FaultPlan
+from executive.runs import run_folder
+from executive.runs.faults import Injector, SlowPlanner
+from executive.runs.runtimes import Opened, Setup
 from executive.skills.context import SkillContext
 from executive.skills.resources import needed_by
 from executive.trees.build import build
@@ -32,8 +36,6 @@ from executive.trees.parts import errands
 from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
 from robot.closing import Closing
-from robot.model.description import RobotDescription
-from robot.planning.worker import Planner
 
 RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
 
@@ -41,43 +43,85 @@ OnTick = Callable[[], None]
 
 
 class Session(Closing):
-    """An executive on a runtime; a context manager that closes the journal."""
+    """An executive on a runtime; a context manager that closes the journal.
+
+    Attributes:
+        setup: what the run is set up with.
+        runtime: the robot's.
+        interrupts: looked at every tick.
+        journal: of the run.
+        faults: lets things go wrong on purpose.
+        executive: at work.
+    """
+
+    executive: Executive
 
     def __init__(
         self,
-        runtime: loop.Runtime,
-        planner: Planner,
+        setup: Setup,
+        robot: Opened,
         *,
-        description: RobotDescription,
-        interrupts: loop.Interrupts,
-        seed: int = 0,
-        folder: Path | None = None,
-        time_of_day: Callable[[], float] | None = None,
+        interrupts: loop.Interrupts | None = None,
         journal: Journal | None = None,
+        time_of_day: Callable[[], float] | None = None,
+        first: int = 0,
+        faults: tuple[FaultPlan, ...] = (),
+        kill: Callable[[], None] | None = None,
+        attended: bool = False,
     ) -> None:
         """Build the executive; nothing moves before a job is submitted and `run` called.
 
         Args:
-            runtime: entered.
-            planner: answers the skills' requests.
-            description: of the robot.
-            interrupts: looked at every tick.
-            seed: of every planning request.
-            folder: where the journal goes (None: it is kept in memory).
+            setup: of the run.
+            robot: that is up.
+            interrupts: of somebody who listens to signals; by default nobody does.
+            journal: to use in place of a new one in the run's folder.
             time_of_day: for the journal's sibling file.
-            journal: to use in place of a new one: a run is replayed, or gone on with.
+            first: number of the journal's first event, where it is gone on with.
+            faults: what goes wrong on purpose.
+            kill: what it means to kill the executive, see `Injector`.
+            attended: whether a person is there, to ask for more and to help.
         """
-        self.runtime = runtime
-        self.interrupts = interrupts
-        live = isinstance(runtime, loop.Wakeable)  # no disk may hold it up
-        self.journal = journal or Journal(folder, wall_s=time_of_day, background=live)
+        self.setup = setup
+        self.runtime = robot.runtime
+        self.interrupts = interrupts or loop.Interrupts()
+        live = isinstance(robot.runtime, loop.Wakeable)  # no disk may hold it up
+        self.journal = journal or Journal(
+            setup.folder, wall_s=time_of_day, background=live, first=first
+        )
+        self._planner = SlowPlanner(robot.planner)
+        self.faults = Injector(
+            faults, robot.runtime, self.journal, begin_s=self.now_s, seed=setup.seed,
+            planner=self._planner, kill=kill,
+        )  # fmt: skip
+        self._listeners: list[OnTick] = []
+        self._attended = attended
+        self.replace_executive()
+
+    @property
+    def now_s(self) -> float:
+        """The runtime's time."""
+        return self.runtime.clock.now_s()
+
+    def replace_executive(self) -> None:
+        """Put a new executive in the place of one that is gone; it knows nothing of the past."""
         context = SkillContext(
-            link=runtime.link, planner=planner, description=description, seed=seed
+            link=self.runtime.link,
+            planner=self._planner,
+            description=self.setup.where.description,
+            seed=self.setup.seed,
         )
         self.holdings = context.holdings
         self.executive = Executive(context, self.journal, rates_hz=RATES_HZ)
-        self._listeners: list[OnTick] = [Recorder(self.executive).update]
-        self._open = ExitStack()
+        self.executive.attended = self._attended
+        self._recorder = Recorder(self.executive)
+
+    def begin(self, text: str) -> None:
+        """Write what the run is started with into its folder, and as the journal's first event."""
+        header = run_folder.header(self.setup, text=text, attended=self._attended)
+        if self.setup.folder is not None:
+            run_folder.save(self.setup.folder, "run.json", header)
+        self.journal.write(self.now_s, "run", **msgspec.to_builtins(header))
 
     def on_tick(self, listener: OnTick) -> None:
         """Call `listener` after every tick, in the thread of `run`."""
@@ -127,14 +171,12 @@ class Session(Closing):
         )
 
     def _tell(self) -> None:
+        self._recorder.update()
+        self.faults.tick(self.now_s)
         for listener in self._listeners:
             listener()
 
-    def __enter__(self) -> Self:
-        """Open the journal's files."""
-        self._open.enter_context(self.journal)
-        return self
-
     def close(self) -> None:
-        """Close the journal."""
-        self._open.close()
+        """Undo the faults that last, and close the journal."""
+        self.faults.close()
+        self.journal.close()

@@ -22,13 +22,13 @@ import msgspec
 from robot.bringup import lowering, private_folder
 from robot.bringup.child import POLL_S, Child, describe_exit
 from robot.bringup.mailbox import FRONT_FILE, RUN_FILE, STATE_FILE, Front, State, save
-from robot.bringup.processes import CRASHED, EXECUTIVE, PROCESSES, Process
+from robot.bringup.processes import EXECUTIVE, PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import run
 from robot.clock import Clock, WallClock
 from robot.errors import Failure, RobotError
+from robot.exit_status import ExitStatus
 
-BROKEN, STOPPED = 3, 1
 WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that mean that somebody wants it to end."""
 
@@ -125,12 +125,12 @@ class Launcher:
     def _judge(self, status: int) -> Ended | None:
         """What an executive's end means."""
         if status < 0 and (self._wished or -status in WISHED):
-            return Ended(STOPPED)
-        if status >= 0 and status != CRASHED:
+            return Ended(ExitStatus.FAILED)
+        if status >= 0 and status != ExitStatus.CRASHED:
             return Ended(status)
-        died = "ended by a mistake" if status == CRASHED else describe_exit(status)
+        died = "ended by a mistake" if status == ExitStatus.CRASHED else describe_exit(status)
         if not self._is_up():
-            return Ended(BROKEN, f"the executive {died}")
+            return Ended(ExitStatus.BROKEN, f"the executive {died}")
         if not self._executive.may_start_again:
             often = self._executive.row.restarts + 1
             return self._give_up(f"the executive {died}, {often} times within a minute")
@@ -146,7 +146,7 @@ class Launcher:
             lowered = lowering.lower(run.load(self._private / RUN_FILE), clock=self._clock)
         except RobotError as error:
             lowered = f"the robot could not be lowered: {error}"
-        return Ended(BROKEN, f"{why}; {lowered}")
+        return Ended(ExitStatus.BROKEN, f"{why}; {lowered}")
 
     # --- the robot ---
 

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 RESTART_WINDOW_S = 60.0
-CRASHED = 70
-"""Exit status of an executive that ends by an exception nobody expected (EX_SOFTWARE)."""
 
 
 @dataclass(frozen=True)

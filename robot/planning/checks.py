@@ -8,7 +8,7 @@ from robot.messages import Side
 from robot.planning import reach
 from robot.planning.body import UPRIGHT, Body
 from robot.planning.grasps import HandOption
-from robot.planning.jobs import Job
+from robot.planning.handling_problem import HandlingProblem
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.scene import Scene
@@ -34,22 +34,22 @@ class Checker:
     Answers are the name of what is touched first, None if nothing is.
     """
 
-    def __init__(self, body: Body, job: Job) -> None:
-        """For one job."""
+    def __init__(self, body: Body, problem: HandlingProblem) -> None:
+        """For one problem."""
         self.body = body
-        self.job = job
+        self.problem = problem
 
     def prepare(self, candidate: Candidates, side: Side, main: Targets) -> None:
         """Set up its scenes: the object in its place, or held."""
-        job, scenes = self.job, self.body.scenes
+        problem, scenes = self.problem, self.body.scenes
         self.side: Side = side
         self.arm = self.body.arms[side]
         self.candidate = candidate
         self.lean = LEANS[int(candidate.lean[0])]
-        option: HandOption = job.options[int(candidate.option[0])]
+        option: HandOption = problem.options[int(candidate.option[0])]
         self.option = option
-        at = main.pose(0) @ option.X_GO @ job.shape.X_BodyShape
-        self.free = scenes.get(job.others, thing=solid(job.object_id, SE3(), job.shape))
+        at = main.pose(0) @ option.X_GO @ problem.shape.X_BodyShape
+        self.free = scenes.get(problem.others, thing=solid(problem.object_id, SE3(), problem.shape))
         self.free.move_thing(at)
         hand = self.body.description.hands[side]
         self.opened = hand.max_opening_m / hand.opening_per_motor
@@ -62,7 +62,7 @@ class Checker:
             q_main,
             self.opened,
             clearance_m=TOUCH_CLEARANCE_M,
-            allowed=self.job.object_id,
+            allowed=self.problem.object_id,
             rest=True,
         )
 
@@ -73,14 +73,14 @@ class Checker:
             q_middle,
             self.opened,
             clearance_m=TOUCH_CLEARANCE_M,
-            allowed=self.job.object_id,
+            allowed=self.problem.object_id,
         )
 
     @property
     def held(self) -> Scene:
         """The scene with the object in the hand."""
-        held = Held(id=self.job.object_id, shape=self.job.shape, X_GO=self.option.X_GO)
-        return self.body.scenes.get(self.job.others, (self.side, held))
+        held = Held(id=self.problem.object_id, shape=self.problem.shape, X_GO=self.option.X_GO)
+        return self.body.scenes.get(self.problem.others, (self.side, held))
 
     def lifted(self, q_up: Array) -> str | None:
         """What is touched with the object raised."""
@@ -127,11 +127,11 @@ class Checker:
 
     def _before(self) -> tuple[Scene, float]:
         """Scene and fingers on the way to the object, or with it to its place."""
-        return (self.free, self.opened) if self.job.kind == "pick" else (self.held, self.closed)
+        return (self.free, self.opened) if self.problem.kind == "pick" else (self.held, self.closed)
 
     def _after(self) -> tuple[Scene, float]:
         """Scene and fingers on the way back."""
-        return (self.held, self.closed) if self.job.kind == "pick" else (self.free, self.opened)
+        return (self.held, self.closed) if self.problem.kind == "pick" else (self.free, self.opened)
 
     def _touch(
         self,

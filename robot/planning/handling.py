@@ -19,7 +19,7 @@ from robot.errors import Failure, failure
 from robot.messages import Side
 from robot.planning.body import Body
 from robot.planning.floor import Floor
-from robot.planning.jobs import Choice, Job, Tally
+from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
 from robot.planning.stances import propose
 from robot.planning.trials import passing
@@ -32,25 +32,31 @@ PATIENCE = 4
 
 
 def search(
-    body: Body, job: Job, floor: Floor, *, sides: tuple[Side, ...], start: Stance, seed: int
+    body: Body,
+    problem: HandlingProblem,
+    floor: Floor,
+    *,
+    sides: tuple[Side, ...],
+    start: Stance,
+    seed: int,
 ) -> Choice | Failure:
     """The best of the first good candidates, or why there is none."""
     candidates, total = propose(
-        job.options,
-        job.references,
+        problem.options,
+        problem.references,
         floor,
         sides=sides,
         start=start,
         radius_m=body.description.body_radius_m + 0.02,
-        reference_cost=job.reference_cost,
-        walk_cost_per_m=job.walk_cost_per_m,
+        reference_cost=problem.reference_cost,
+        walk_cost_per_m=problem.walk_cost_per_m,
         seed=seed,
     )
     tally = Tally()
     for first in range(0, len(candidates), BATCH):
         rows = np.arange(first, min(first + BATCH, len(candidates)))
         patience = PATIENCE
-        for choice in passing(body, job, candidates.take(rows), tally):
+        for choice in passing(body, problem, candidates.take(rows), tally):
             if choice is not None and choice.score > tally.score:
                 tally.best = choice
             best = tally.best
@@ -60,17 +66,19 @@ def search(
                     return best
         if tally.best is not None and tally.best.steadiness == 1.0:
             return tally.best
-    return tally.best or _explain(job, floor, len(candidates), total, tally)
+    return tally.best or _explain(problem, floor, len(candidates), total, tally)
 
 
-def _explain(job: Job, floor: Floor, candidates: int, total: int, tally: Tally) -> Failure:
+def _explain(
+    problem: HandlingProblem, floor: Floor, candidates: int, total: int, tally: Tally
+) -> Failure:
     """Which stage nothing passed."""
-    x, y, z = (float(value) for value in job.references[0])
+    x, y, z = (float(value) for value in problem.references[0])
     if candidates == 0:
         name, distance = floor.nearest(x, y)
         return failure(
             "no_stance",
-            f"none of {total} places to stand for {job.what} is free and can be walked to",
+            f"none of {total} places to stand for {problem.what} is free and can be walked to",
             x_m=x,
             y_m=y,
             nearest=name,
@@ -80,7 +88,7 @@ def _explain(job: Job, floor: Floor, candidates: int, total: int, tally: Tally) 
         return failure(
             "out_of_reach",
             f"from every place to stand, the hand stays at least {100 * tally.short_m:.0f} cm "
-            f"short of {job.what}",
+            f"short of {problem.what}",
             short_m=tally.short_m,
             x_m=x,
             y_m=y,
@@ -90,7 +98,7 @@ def _explain(job: Job, floor: Floor, candidates: int, total: int, tally: Tally) 
     blockers = [name for name, _ in common]
     return failure(
         "goal_in_collision",
-        f"every way for the hand to {job.what} found touches {' or '.join(blockers)}",
+        f"every way for the hand to {problem.what} found touches {' or '.join(blockers)}",
         blocked_by=", ".join(blockers),
         tried=float(tally.reached),
         blocked=float(sum(count for _, count in common)),

@@ -11,7 +11,7 @@ from robot.planning.body import UPRIGHT, Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import pick_options
 from robot.planning.handling import search
-from robot.planning.jobs import Choice, Job
+from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
 from robot.planning.solids import Solid, solids_of
@@ -41,7 +41,7 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
     if isinstance(options, Failure):
         return options
     names = {info.id: info.name for info in around.map.objects}
-    job = Job(
+    problem = HandlingProblem(
         kind="pick",
         object_id=thing.id,
         shape=thing.shape,
@@ -53,14 +53,14 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
         walk_cost_per_m=request.walk_cost_per_m,
         what="the " + names.get(thing.id, thing.id),
     )
-    choice = search(body, job, floor, sides=sides, start=request.start, seed=request.seed)
+    choice = search(body, problem, floor, sides=sides, start=request.start, seed=request.seed)
     if isinstance(choice, Failure):
         return choice
     carry = carry_posture(body, choice, thing, others)
     if carry is None:
         return failure(
             "goal_in_collision",
-            f"{job.what} cannot be held upright near the body with this grasp",
+            f"{problem.what} cannot be held upright near the body with this grasp",
             blocked_by="the body",
         )
     return _plan(choice, thing, carry)

@@ -12,7 +12,7 @@ from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import held_option
 from robot.planning.handling import search
-from robot.planning.jobs import Choice, Job
+from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.solids import solids_of
 from robot.planning.stances import LEANS
@@ -64,7 +64,7 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
                 objects=float(len(objects)),
             )
     names = {info.id: info.name for info in around.map.objects}
-    job = Job(
+    problem = HandlingProblem(
         kind="place",
         object_id=request.held.id,
         shape=shape,
@@ -76,7 +76,9 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         walk_cost_per_m=request.walk_cost_per_m,
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
-    choice = search(body, job, floor, sides=(request.side,), start=request.start, seed=request.seed)
+    choice = search(
+        body, problem, floor, sides=(request.side,), start=request.start, seed=request.seed
+    )
     return choice if isinstance(choice, Failure) else _plan(choice, request)
 
 

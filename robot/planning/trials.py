@@ -12,7 +12,7 @@ from robot.model.body import SIDES
 from robot.planning import reach
 from robot.planning.body import Body
 from robot.planning.checks import END, Checker
-from robot.planning.jobs import Choice, Job, Tally
+from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.numerics import Mask
 from robot.planning.reach import Targets
 from robot.planning.stances import Candidates
@@ -31,7 +31,9 @@ LIFT_GAIN = 0.05
 """A lower lift must score better by this."""
 
 
-def passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[Choice | None]:
+def passing(
+    body: Body, problem: HandlingProblem, batch: Candidates, tally: Tally
+) -> Iterator[Choice | None]:
     """Those of a batch that pass everything and are better than the best so far, likeliest first.
 
     Lazily; None for each group of candidates in which there is none.
@@ -40,16 +42,16 @@ def passing(body: Body, job: Job, batch: Candidates, tally: Tally) -> Iterator[C
     for side in SIDES:
         some = batch.take(np.flatnonzero(batch.left == (side == "left")))
         if len(some):
-            ranked += _reachable(body, job, side, some, tally)
-    checker = Checker(body, job)
-    blocked = yield from _tested(body, job, checker, ranked, tally=tally)
+            ranked += _reachable(body, problem, side, some, tally)
+    checker = Checker(body, problem)
+    blocked = yield from _tested(body, problem, checker, ranked, tally=tally)
     for steps in SWINGS:
         raised = _swung(body, blocked, steps)
-        blocked = yield from _tested(body, job, checker, raised, tally=tally)
+        blocked = yield from _tested(body, problem, checker, raised, tally=tally)
 
 
 def _tested(
-    body: Body, job: Job, checker: Checker, entries: list[_Entry], *, tally: Tally
+    body: Body, problem: HandlingProblem, checker: Checker, entries: list[_Entry], *, tally: Tally
 ) -> Generator[Choice | None, None, list[_Entry]]:
     """Yields what `passing` does; returns the entries that touch something at their main pose."""
     ranked = sorted(entries, key=lambda entry: -entry.score)
@@ -67,7 +69,7 @@ def _tested(
             for side in SIDES:
                 group = [entry for entry in waiting if entry.side == side]
                 if group:
-                    yield _closely(body, job, checker, group, tally=tally)
+                    yield _closely(body, problem, checker, group, tally=tally)
             waiting = []
     return blocked
 
@@ -83,17 +85,19 @@ class _Entry:
     q_main: Array
 
 
-def _reachable(body: Body, job: Job, side: Side, some: Candidates, tally: Tally) -> list[_Entry]:
+def _reachable(
+    body: Body, problem: HandlingProblem, side: Side, some: Candidates, tally: Tally
+) -> list[_Entry]:
     """Those of one hand whose main pose and back are reached."""
     arm = body.arms[side]
-    main = reach.targets_of(some, job.options, job.references)
+    main = reach.targets_of(some, problem.options, problem.references)
     trunks = reach.trunks_of(body, side, some)
     reached = reach.first_reach(body, arm, trunks, main)
     tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
     ok = np.flatnonzero(reached.ok)
     tally.reached += len(ok)
     q = arm.chain.relax(reached.q[ok])
-    back = _backs(job, some, main).take(ok)
+    back = _backs(problem, some, main).take(ok)
     there = reach.reach(arm, trunks.take(ok), back, q, iterations=12).ok
     tally.touched[END] += int(np.sum(~there))
     ok, q = ok[there], q[there]
@@ -123,17 +127,17 @@ def _swung(body: Body, entries: list[_Entry], steps: int) -> list[_Entry]:
     return result
 
 
-def _backs(job: Job, candidates: Candidates, main: Targets) -> Targets:
+def _backs(problem: HandlingProblem, candidates: Candidates, main: Targets) -> Targets:
     """Where the hand comes from, or goes to, without the object."""
     chosen: list[int] = candidates.option.tolist()
-    return main.moved(along_m=np.array([-job.options[option].back_m for option in chosen]))
+    return main.moved(along_m=np.array([-problem.options[option].back_m for option in chosen]))
 
 
 def _closely(
-    body: Body, job: Job, checker: Checker, group: list[_Entry], *, tally: Tally
+    body: Body, problem: HandlingProblem, checker: Checker, group: list[_Entry], *, tally: Tally
 ) -> Choice | None:
     """The best of a group (of one hand) that passes at all poses and beats the best so far."""
-    poses = _all_poses(body, job, group)
+    poses = _all_poses(body, problem, group)
     best: Choice | None = None
     for i, entry in enumerate(group):
         q_main, q_middle, q_back = (poses.q[k, i] for k in range(3))
@@ -146,13 +150,13 @@ def _closely(
         for k in range(3, len(poses.targets)) if touch is None else ():
             if not poses.met[k, i]:
                 continue
-            draft = _draft(body, job, entry, poses, (i, k))
+            draft = _draft(body, problem, entry, poses, (i, k))
             worst = max(tally.score, best.score if best else -np.inf)
             if draft.score <= worst + (
                 LIFT_GAIN if best and best.candidate is draft.candidate else 0
             ):
                 continue
-            touch, q_ready = _there_and_away(checker, draft, picking=job.kind == "pick")
+            touch, q_ready = _there_and_away(checker, draft, picking=problem.kind == "pick")
             if q_ready is not None:
                 best = replace(draft, q_ready=q_ready)
         if touch is not None:
@@ -160,7 +164,9 @@ def _closely(
     return best
 
 
-def _draft(body: Body, job: Job, entry: _Entry, poses: _Poses, at: tuple[int, int]) -> Choice:
+def _draft(
+    body: Body, problem: HandlingProblem, entry: _Entry, poses: _Poses, at: tuple[int, int]
+) -> Choice:
     """The choice of a candidate (its index in the group, the lift's in the poses) if it passes."""
     i, k = at
     steady = float(poses.steady[k, i])
@@ -168,7 +174,7 @@ def _draft(body: Body, job: Job, entry: _Entry, poses: _Poses, at: tuple[int, in
     return Choice(
         side=entry.side,
         candidate=entry.candidate,
-        option=job.options[int(entry.candidate.option[0])],
+        option=problem.options[int(entry.candidate.option[0])],
         main=entry.main,
         back=_row(poses.targets[2], i),
         up=_row(poses.targets[k], i),
@@ -214,15 +220,15 @@ class _Poses:
     steady: Array
 
 
-def _all_poses(body: Body, job: Job, group: list[_Entry]) -> _Poses:
+def _all_poses(body: Body, problem: HandlingProblem, group: list[_Entry]) -> _Poses:
     """Joints for every pose of a group (of one hand), in one batch."""
     side = group[0].side
     candidates = _join([entry.candidate for entry in group])
     trunks = reach.trunks_of(body, side, candidates)
-    main = reach.targets_of(candidates, job.options, job.references)
-    back = _backs(job, candidates, main)
+    main = reach.targets_of(candidates, problem.options, problem.references)
+    back = _backs(problem, candidates, main)
     targets = [main, Targets(main.R, 0.5 * (main.p + back.p)), back]
-    targets += [main.moved(up_m=lift) for lift in job.lifts_m]
+    targets += [main.moved(up_m=lift) for lift in problem.lifts_m]
     probed = [0, 2, *range(3, len(targets))]
     off = [trunks.wobbled(error) for error in reach.WOBBLE]
     everything = targets + [targets[k] for k in probed] * len(off)

@@ -11,11 +11,12 @@ import pytest
 
 from benchmarks.intents.endpoint import Reply, serving
 from executive.engine.loop import Interrupts
-from executive.frontends import do
+from executive.frontends import carrying_out, do
 from executive.meaning import request
 from executive.runs import runtimes
 from intents.outcomes import Question
 from robot.errors import failure
+from robot.exit_status import ExitStatus
 from robot.messages import Damp, Stand
 from robot.model import description
 from robot.planning.requests import BasePathRequest, PickRequest
@@ -31,9 +32,9 @@ def runtime(monkeypatch):
     made = PuppetRuntime(puppet())
 
     @contextmanager
-    def opened(kind, where, **_):
-        made.opened = kind
-        yield made, made.planner
+    def opened(setup, **_):
+        made.opened = setup.kind
+        yield runtimes.Opened(made, made.planner)
 
     monkeypatch.setattr(runtimes, "opened", opened)
     monkeypatch.setattr(request, "setting", mapped)
@@ -88,7 +89,7 @@ def test_bad_words_end_with_2_a_cure_and_nothing_started(runtime, humanoid, tmp_
 
 
 def test_an_open_question_is_the_last_word(runtime, humanoid):
-    status, text = humanoid("do", "put the cup on the table")
+    status, text = humanoid("do", "put the cup on the table", "--fast")
     assert status == 2
     assert "Which cup, the red one or the blue one?" in text
 
@@ -166,7 +167,7 @@ def press(monkeypatch, runtime, *times_s):
             runtime.at = [(t, self.press) for t in times_s]
             pressed.append(self)
 
-    monkeypatch.setattr(do, "Interrupts", Pressed)
+    monkeypatch.setattr(carrying_out, "Interrupts", Pressed)
 
 
 def test_ctrl_c_stands_then_leaves_with_1(runtime, humanoid, monkeypatch):
@@ -206,8 +207,8 @@ def test_the_same_run_twice_writes_the_same_journal(runtime, monkeypatch, humano
         made = PuppetRuntime(puppet())
 
         @contextmanager
-        def opened(kind, where, made=made, **_):
-            yield made, made.planner
+        def opened(setup, made=made, **_):
+            yield runtimes.Opened(made, made.planner)
 
         monkeypatch.setattr(runtimes, "opened", opened)
         status, _ = humanoid(
@@ -277,9 +278,9 @@ def test_a_typo_in_a_world_file_is_named_by_line(humanoid, tmp_path):
 
 
 def test_an_unknown_world_or_robot_names_the_nearest(humanoid):
-    status, text = humanoid("do", "squat", "--world", "kitchn")
+    status, text = humanoid("do", "squat", "--world", "kitchn", "--fast")
     assert (status, "did you mean 'kitchen'?" in text) == (2, True)
-    status, text = humanoid("do", "squat", "--robot", "jun")
+    status, text = humanoid("do", "squat", "--robot", "jun", "--fast")
     assert (status, "did you mean 'juno'?" in text) == (2, True)
 
 
@@ -362,5 +363,5 @@ def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
         file = tmp_path / "model.toml"
         file.write_text(f'base_url = "{server.url}"\nmodel = "local"\n')
         status, text = humanoid("do", "brighten up the evening", "--fast", "--model", str(file))
-    assert status == do.INVALID, text
+    assert status == ExitStatus.INVALID, text
     assert "The language model was of no help: " in text

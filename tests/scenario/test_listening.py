@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from executive.frontends.listening import hearing, obeying
+from executive.frontends.listening.options import Listen
 from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear
 from intents.speech.recogniser import Heard
@@ -205,8 +206,8 @@ def test_stop_silences_it_and_is_never_said_aloud(humanoid, told, loudspeaker):
 
 
 def test_a_recording_that_is_gone_ends_a_live_run_and_is_no_crash(tmp_path):
-    """The launcher starts an executive again after a crash; after this it must not."""
-    options = hearing.Options(file=tmp_path / "gone.wav", folder=tmp_path / "run", fast=True)
+    """The overseer starts an executive again after a crash; after this it must not."""
+    options = Listen(file=tmp_path / "gone.wav", run_dir=tmp_path / "run", fast=True)
     plain = msgspec.to_builtins(options, enc_hook=str)
     with pytest.raises(ConfigError, match="gone"):
-        obeying.overseen(None, plain)
+        obeying.in_executive(None, plain)

@@ -6,13 +6,12 @@ import sys
 import threading
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Literal
 
 import msgspec
 import typer
 
 from executive.frontends.language_model import language_model
+from executive.frontends.listening.options import Listen, RecogniserName
 from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
@@ -22,36 +21,11 @@ from intents.speech import microphone, wav
 from intents.speech.audio import AudioError, Samples
 from intents.speech.ear import Ear, Spoken
 from intents.speech.recogniser import Recogniser
-from intents.speech.voice import Program
 from intents.state import RobotState
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
-
-DONE, INVALID = 0, 2
-RecogniserName = Literal["pocketsphinx", "whisper"]
-
-
-class Options(msgspec.Struct, frozen=True, kw_only=True):
-    """The options of `humanoid listen`; `folder` is set once it begins to do something."""
-
-    world: str = "kitchen"
-    robot: str = "juno"
-    seed: int = 0
-    fast: bool = False
-    file: Path | None = None
-    push_to_talk: bool = False
-    wake_word: str = ""
-    recogniser: RecogniserName = "pocketsphinx"
-    whisper: Path | None = None
-    voice: Program = "auto"
-    voice_model: Path | None = None
-    device: str | None = None
-    parse_only: bool = False
-    yes: bool = False
-    as_json: bool = False
-    folder: Path | None = None
-    model: Path | None = None
+from robot.exit_status import ExitStatus
 
 
 class Block(msgspec.Struct, frozen=True, kw_only=True):
@@ -77,7 +51,7 @@ def audio_errors() -> Generator[None]:
         raise ConfigError([Problem(str(error), suggestion=error.cure)]) from None
 
 
-def ear(options: Options, vocabulary: Vocabulary) -> Ear:
+def ear(options: Listen, vocabulary: Vocabulary) -> Ear:
     """What listens for the names of a vocabulary.
 
     Raises:
@@ -86,8 +60,8 @@ def ear(options: Options, vocabulary: Vocabulary) -> Ear:
     return Ear(_recogniser(options, vocabulary), wake_word=options.wake_word)
 
 
-def _recogniser(options: Options, vocabulary: Vocabulary) -> Recogniser:
-    if options.recogniser == "whisper":
+def _recogniser(options: Listen, vocabulary: Vocabulary) -> Recogniser:
+    if options.recogniser is RecogniserName.WHISPER:
         from intents.speech.whisper import Whisper
 
         return Whisper(options.whisper)
@@ -97,7 +71,7 @@ def _recogniser(options: Options, vocabulary: Vocabulary) -> Recogniser:
 
 
 @contextmanager
-def sound(options: Options) -> Generator[Iterator[Block]]:
+def sound(options: Listen) -> Generator[Iterator[Block]]:
     """The stream of sound that the options ask for.
 
     Raises:
@@ -152,7 +126,7 @@ def heard(listener: Ear, blocks: Iterator[Block]) -> Iterator[Spoken]:
     yield from listener.finish()
 
 
-def parse_only(options: Options) -> int:
+def parse_only(options: Listen) -> int:
     """Say what is heard and what it means, without moving; returns the exit status.
 
     Raises:
@@ -172,7 +146,7 @@ def parse_only(options: Options) -> int:
             typer.echo(_record(one, turn) if options.as_json else _words(one, turn))
     if not understood and not options.as_json:
         typer.echo("Nothing was understood as a command.")
-    return DONE if understood else INVALID
+    return ExitStatus.DONE if understood else ExitStatus.INVALID
 
 
 def _record(one: Spoken, turn: Turn | None) -> str:

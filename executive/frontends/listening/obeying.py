@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import re
-from datetime import datetime
-from typing import Any
-
-import msgspec
-from msgspec.structs import replace
 
 from executive.behaviours.ask import ANSWERS
-from executive.frontends.listening.hearing import INVALID, Options, audio_errors, ear, sound
+from executive.frontends.launching import overseen
+from executive.frontends.listening.hearing import audio_errors, ear, sound
+from executive.frontends.listening.options import Listen
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech, able
-from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal.journal import Event
-from executive.runs import run_folder
 from intents import goals as g
 from intents.goals import Goal, each
 from intents.risks import risk
@@ -24,53 +19,44 @@ from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import voice
 from intents.stopping import is_stop
 from robot.bringup.mailbox import Handle
+from robot.exit_status import ExitStatus
 
 _SENTENCE = re.compile(r"(?<=[.!?;])\s+")
 HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)
 """Goals that move nothing, and those that only end or hold what is under way."""
 
 
-def obey(options: Options) -> int:
+def obey(options: Listen, handle: Handle | None = None) -> int:
     """Listen until the recording ends or the person leaves; returns the exit status.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    stamp = f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
-    folder = options.folder or run_folder.folder_for("listen", stamp=stamp)
-    run_folder.check_free(folder)
-    options = replace(options, folder=folder)
-    with sound(options):
-        pass  # what is missing is said before a robot is started
-    if options.voice == "auto" and not able(wanted=True, model=options.voice_model):
-        options = replace(options, voice="none")
-    voice(options.voice, model=options.voice_model).close()
-    if options.fast:
-        return converse(options)
-    plain = msgspec.to_builtins(options, enc_hook=str)
-    return oversee(FrontEnd.LISTEN, plain, as_json=False)
-
-
-def overseen(handle: Handle, plain: dict[str, Any]) -> int:
-    """Listen in an executive of its own, or go on after one that died."""
-    options = msgspec.convert(plain, Options, dec_hook=lambda kind, value: kind(value))
     with audio_errors():  # they are no mistakes of this software, to be started again after
-        return converse(options, handle=handle)
+        with sound(options):
+            pass  # what is missing is said before a robot is started
+        program = options.voice.value
+        if program == "auto" and not able(wanted=True, model=options.voice_model):
+            program = "none"
+        with Speech(voice(program, model=options.voice_model)) as speech:
+            return _converse(options, handle, speech)
 
 
-def converse(options: Options, *, handle: Handle | None = None) -> int:
-    """Listen, and do what is said; `handle` is that of a live robot."""
-    prompt = cli.Options(
+in_executive = overseen(Listen, obey)
+
+
+def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
+    """Listen, and do what is said."""
+    prompt = cli.Begun(
         world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
-        vary=False, folder=options.folder, model=options.model,
+        run_dir=options.run_dir, model=options.model,
     )  # fmt: skip
-    with Speech(voice(options.voice, model=options.voice_model)) as speech:
-        with cli.conversation(prompt, handle=handle, speech=speech) as shell:
-            listener = ear(options, shell.robot.where.knowledge.vocabulary())
-            shell.dialogue.risk = risk if options.yes else heard_risk
-            recorded = options.file is not None
-            status = Conversation(shell, listener, recorded=recorded).run(options)
-        speech.finish()
+    with cli.conversation(prompt, "listen", handle=handle, speech=speech) as shell:
+        listener = ear(options, shell.robot.where.knowledge.vocabulary())
+        shell.dialogue.risk = risk if options.yes else heard_risk
+        recorded = options.file is not None
+        status = Conversation(shell, listener, recorded=recorded).run(options)
+    speech.finish()
     return status
 
 
@@ -99,7 +85,7 @@ class Conversation:
         shell.speech.screen = self._said
         shell.robot.session.journal.listen(self._note)
 
-    def run(self, options: Options) -> int:
+    def run(self, options: Listen) -> int:
         """Listen to the end; returns the exit status."""
         shell = self._shell
         with sound(options) as blocks:
@@ -150,5 +136,5 @@ class Conversation:
     def _status(self) -> int:
         if self._shell.dialogue.question is not None:
             cli.say("Nobody answered; that is not done.")
-            return INVALID
+            return ExitStatus.INVALID
         return cli.status_of(self._shell)

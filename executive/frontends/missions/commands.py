@@ -8,9 +8,8 @@ from typing import Any
 import msgspec
 import typer
 
-from executive.frontends import do as common
-from executive.frontends.missions.run import Run
-from executive.frontends.missions.run import run as run_mission
+from executive.frontends.exit import echo_json
+from executive.frontends.missions.options import Beside
 from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
@@ -20,40 +19,32 @@ from executive.missions.schema import json_schema
 from executive.missions.template import template
 from executive.trees.parts import errands
 from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
 
-DONE, INVALID = 0, 2
 SCHEMA = load.FOLDER / "mission.schema.json"
 
 
-def said(
-    params: list[str] | None,
-    *,
-    first: str,
-    world: str,
-    robot: str,
-    vary_seed: int | None = None,
-    samples: bool = False,
-) -> Options:
+def said(options: Beside, *, vary_seed: int | None = None, samples: bool = False) -> Options:
     """What was said beside a file.
 
     Raises:
         ConfigError: a parameter is no NAME=VALUE.
     """
     values: dict[str, str] = {}
-    for text in params or ():
+    for text in options.params or ():
         name, equals, value = text.partition("=")
         if not equals or not name:
             cure = "for example: --param thing='red cup'"
             raise ConfigError([Problem(f"--param {text!r} is no NAME=VALUE", suggestion=cure)])
         values[name] = value
     return Options(
-        params=values, world=world, robot=robot, vary_seed=vary_seed, first=first, samples=samples
+        params=values,
+        world=options.world,
+        robot=options.robot,
+        vary_seed=vary_seed,
+        first=options.first,
+        samples=samples,
     )
-
-
-def how(**options: Any) -> common.Do:
-    """How a mission is run; world and robot are its own."""
-    return common.Do(text="", world="", robot="", **options)
 
 
 def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
@@ -73,10 +64,10 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
     wrong = any(record["problems"] for record in found)
     if as_json:
         status = "invalid" if wrong else "done"
-        common.echo_json({"status": status, "missions": found})
+        echo_json({"status": status, "missions": found})
     elif wrong:
         typer.echo("\n".join(failures.advice("correct that, then check again")), err=True)
-    return INVALID if wrong else DONE
+    return ExitStatus.INVALID if wrong else ExitStatus.DONE
 
 
 def _say_checked(record: dict[str, Any]) -> None:
@@ -92,16 +83,11 @@ def plan(name: str, options: Options, *, as_json: bool) -> int:
     checked = check(load.find(name), REALITY, options)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
-        common.echo_json(made)
+        echo_json(made)
     else:
         typer.echo(checked.mission.record.name)
         typer.echo("\n".join(lines(made)))
-    return DONE
-
-
-def run(name: str, options: Options, how: common.Do) -> int:
-    """Check a mission and run it. Raises RobotError as `executive.runs.mission.run` does."""
-    return run_mission(Run(path=str(load.find(name)), said=options, how=how))
+    return ExitStatus.DONE
 
 
 def list_shipped() -> int:
@@ -115,7 +101,7 @@ def list_shipped() -> int:
     typer.echo(
         "Run one: humanoid mission run NAME --fast. Write your own: humanoid mission new NAME"
     )
-    return DONE
+    return ExitStatus.DONE
 
 
 def schema_text() -> str:
@@ -157,10 +143,10 @@ def export_file(name: str, output: Path | None, *, xml: bool) -> int:
 def _write(text: str, output: Path | None) -> int:
     if output is None:
         typer.echo(text, nl=False)
-        return DONE
+        return ExitStatus.DONE
     try:
         output.write_text(text, encoding="utf-8")
     except OSError as error:
         raise ConfigError(f"{output} cannot be written: {error.strerror}") from None
     typer.echo(f"Done: {output}")
-    return DONE
+    return ExitStatus.DONE

@@ -18,8 +18,9 @@ from executive.journal import failures, journal, past_runs, reader
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
 from executive.journal.why import why as explain
-from executive.runs import replay as again
-from executive.runs.comparison import Difference
+from executive.runs.again import replay as again
+from executive.runs.again.comparison import Difference
+from robot.exit_status import ExitStatus
 
 PIPE_WIDTH = 160
 _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
@@ -35,7 +36,7 @@ def why(run: str | None, *, as_json: bool) -> int:
     else:
         typer.echo(told.text)
         typer.echo(f"({folder})")
-    return 0
+    return ExitStatus.DONE
 
 
 def history(*, count: int, as_json: bool) -> int:
@@ -44,19 +45,19 @@ def history(*, count: int, as_json: bool) -> int:
     shown = [past_runs.look(folder) for folder in known[-count:]]
     if as_json:
         typer.echo(msgspec.json.encode(shown))
-        return 0
+        return ExitStatus.DONE
     if not shown:
         typer.echo(
             f'There is no run in {past_runs.BASE}/ yet. Begin with: humanoid do "squat" --fast'
         )
-        return 0
+        return ExitStatus.DONE
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = PIPE_WIDTH
     console.print(_table(shown))
     if len(known) > len(shown):
         typer.echo(f"{len(known) - len(shown)} older ones: humanoid history --all")
-    return 0
+    return ExitStatus.DONE
 
 
 def replay(run: str | None, *, as_json: bool) -> int:
@@ -64,9 +65,9 @@ def replay(run: str | None, *, as_json: bool) -> int:
     folder = past_runs.find(run)
     with following(f"replaying {folder.name}", quiet=as_json) as follow:
         result = again.replay(folder, REALITY, follow=follow)
-    status = 1 if result.difference else 0
+    status = ExitStatus.FAILED if result.difference else ExitStatus.DONE
     if as_json:
-        typer.echo(msgspec.json.encode({"exit_status": status, **msgspec.to_builtins(result)}))
+        typer.echo(msgspec.json.encode({"exit_status": int(status), **msgspec.to_builtins(result)}))
         return status
     if result.difference is None:
         what = "what there is of it (it was cut off)" if result.cut else "it"

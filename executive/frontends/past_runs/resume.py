@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+import time
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import typer
 
-from executive.frontends import do
+from executive.frontends import carrying_out
+from executive.frontends.carrying_out import Prepared
+from executive.frontends.launching import FrontEnd, launch, now_stamp, overseen, under_way
+from executive.frontends.options import Shown
 from executive.frontends.past_runs import printing
-from executive.frontends.prompt import cli as prompt
 from executive.frontends.reality import REALITY
-from executive.frontends.supervised import FrontEnd, oversee
 from executive.journal import past_runs
-from executive.runs import recording, resumption, task_run
-from executive.runs.recording import Recording
-from executive.runs.resumption import CannotGoOn, Screen
-from executive.runs.run_folder import Summary
+from executive.runs import run_folder
+from executive.runs.again import catching_up, recording
+from executive.runs.again.catching_up import CannotGoOn, Screen
+from executive.runs.again.continuation import left_in
+from executive.runs.again.recording import Recording
+from executive.runs.runtimes import Setup
 from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
+from robot.exit_status import ExitStatus
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoOn(Shown):
+    """A live run that is gone on with: its folder."""
+
+    left_by: Path
 
 
 def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
@@ -28,52 +39,66 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     Raises:
         RobotError: it cannot be gone on with (ConfigError), or a part does not start.
     """
-    folder = past_runs.find(run)
-    recorded = resumption.check(folder)
+    recorded = catching_up.check(past_runs.find(run))
     if recorded.header.attended:
-        return prompt.again(recorded, model)
+        from executive.frontends.prompt.cli import go_on_with
+
+        return go_on_with(recorded, model)
+    if recorded.header.runtime == "fast":
+        return _go_on_fast(recorded, as_json=as_json)
+    wanted = GoOn(left_by=recorded.folder, as_json=as_json)
+    return launch(FrontEnd.RESUME, wanted, as_json=as_json)
+
+
+def _go_on_fast(recorded: Recording, *, as_json: bool) -> int:
     where, changed = recording.setting(recorded, REALITY)
-    for change in changed:
-        typer.echo(f"note: {change}, since it was recorded", err=True)
-    if recorded.header.runtime != "fast":
-        fresh = resumption.fresh_folder(
-            recorded, stamp=f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
-        )
-        return _go_on_live(recorded, folder=fresh, as_json=as_json)
+    _note(changed)
+    words = f"catching up with {recorded.folder.name}"
+    screen = Screen(
+        following=lambda: printing.following(words, quiet=as_json),
+        show=carrying_out.show_for(Shown(as_json=as_json)),
+        wall=WallClock(),
+        time_of_day=time.time,
+    )
     try:
-        summary = resumption.go_on_fast(recorded, where, _screen(folder.name, as_json=as_json))
+        summary = catching_up.go_on(recorded, where, screen)
     except CannotGoOn as end:
         typer.echo("It cannot be gone on with: it does not repeat.", err=True)
         typer.echo("\n".join(printing.differs(end.difference)), err=True)
-        return do.FAILED
-    return _ended(summary, as_json=as_json)
-
-
-def _go_on_live(recorded: Recording, *, folder: Path, as_json: bool) -> int:
-    """Go on with a live run with a new robot, as a run in `folder`; returns the exit status."""
-    task = {"as_json": as_json, "left_by": str(recorded.folder), "folder": str(folder)}
-    return oversee(FrontEnd.RESUME, task, as_json=as_json)
-
-
-def overseen(handle: Handle, task: dict[str, Any]) -> int:
-    """The executive's side of a live run that is gone on with; returns the exit status."""
-    as_json = bool(task["as_json"])
-    screen = _screen("", as_json=as_json)
-    return _ended(resumption.live(task, handle, screen, reality=REALITY), as_json=as_json)
-
-
-def _screen(name: str, *, as_json: bool) -> Screen:
-    return Screen(
-        following=lambda: printing.following(f"catching up with {name}", quiet=as_json),
-        show=do.silent if as_json else do.on_screen,
-        wall=WallClock(),
-        time_of_day=lambda: datetime.now().astimezone().timestamp(),
-    )
-
-
-def _ended(summary: Summary, *, as_json: bool) -> int:
-    if as_json:
-        do.echo_json(summary)
-    else:
-        typer.echo("\n".join(task_run.closing(summary)))
+        return ExitStatus.FAILED
+    carrying_out.say_how_it_ended(summary, as_json=as_json)
     return summary.exit_status
+
+
+def go_on_live(wanted: GoOn, handle: Handle | None = None) -> int:
+    """Go on with a live run with a new robot, as a run of its own; returns the exit status.
+
+    Raises:
+        RobotError: as `resume` does.
+    """
+
+    def prepare() -> Prepared:
+        recorded = catching_up.check(wanted.left_by)
+        where, changed = recording.setting(recorded, REALITY)
+        _note(changed)
+        left = left_in(recorded.folder)
+        assignment = left.newest(where)
+        assert assignment is not None, "the recording holds a submission"
+        there, beside = under_way(handle), recorded.folder.parent
+        folder = (
+            Path(there.folder)
+            if there
+            else run_folder.folder_for(recorded.header.text, stamp=now_stamp(), base=beside)
+        )
+        setup = Setup(where=where, kind="live", seed=recorded.header.seed, folder=folder)
+        return Prepared(assignment=assignment, setup=setup, left=left)
+
+    return carrying_out.carry_out(prepare, wanted, handle)
+
+
+in_executive = overseen(GoOn, go_on_live)
+
+
+def _note(changed: list[str]) -> None:
+    for change in changed:
+        typer.echo(f"note: {change}, since it was recorded", err=True)

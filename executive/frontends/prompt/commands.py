@@ -275,8 +275,7 @@ class _Steering:
     def run(self, rest: str) -> None:
         from executive.missions import load
         from executive.missions.check import Options, check
-        from executive.runs import mission as missions
-        from executive.runs import mission_files
+        from executive.runs import mission_task
 
         name, *given = rest.split()
         pairs = [word.partition("=") for word in given]
@@ -289,12 +288,9 @@ class _Steering:
             raise ConfigError(f"{text}: start the prompt with --world {there.world.name}")
         if checked.faults:
             self._shell.out("Its faults are left out here; `humanoid mission run` injects them.")
-        mission_files.keep(checked, self._shell.folder)
-        self._shell.submit(
-            missions.understood(checked),
-            limits=missions.limits(checked),
-            origin=missions.origin(checked, said, path=str(checked.mission.path)),
-        )
+        mission_task.keep(checked, self._shell.folder)
+        made = mission_task.assignment(checked, said, path=str(checked.mission.path))
+        self._shell.submit(made.understood, limits=made.limits, origin=made.origin)
 
     def pause(self, _rest: str) -> None:
         self._shell.robot.executive.pause()

@@ -5,26 +5,22 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager
-from pathlib import Path
 from typing import Any
 
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNLIMITED, Limits
-from executive.engine.loop import Interrupts, Runtime
-from executive.frontends.prompt.continuation import return_to
+from executive.engine.loop import Interrupts
 from executive.frontends.prompt.view import Observer, View, view_of_lost
-from executive.journal.journal import Event, Journal, read
-from executive.meaning.request import Setting, Understood
-from executive.runs import run_folder
-from executive.runs.faults import Injector, SlowPlanner
+from executive.meaning.request import Understood
+from executive.runs import runtimes
+from executive.runs.again.continuation import Left, return_to
+from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
+from robot.bringup.mailbox import Handle
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.errors import Failure, ProcessError
-from robot.planning.worker import Planner
 
-Opened = Callable[[], AbstractContextManager[tuple[Runtime, Planner]]]
 LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
 
@@ -47,42 +43,32 @@ class Robot(Closing):
 
     def __init__(
         self,
-        opened: Opened,
+        setup: Setup,
         *,
-        where: Setting,
-        seed: int,
-        folder: Path,
         wall: Clock,
         time_of_day: Callable[[], float],
-        idles: bool,
-        returning: bool = False,
-        left_by: Path | None = None,
+        handle: Handle | None = None,
+        left: Left | None = None,
     ) -> None:
         """Start nothing yet.
 
         Args:
-            opened: opens the runtime and its planner.
-            where: robot and world.
-            seed: of every planning request.
-            folder: of the run, for the journal.
+            setup: of the run; in `live`, time passes while there is nothing to do.
             wall: for the pace shown.
             time_of_day: for the journal's sibling file.
-            idles: whether time passes while there is nothing to do (`live`).
-            returning: whether an executive before this one died in this run: its jobs go on.
-            left_by: folder of a run that was cut off with its robot: its jobs go on here.
+            handle: of a live run whose processes the process above looks after.
+            left: by a run that was cut off, or by an executive before this one: its jobs go on.
         """
-        self.where = where
+        self.where = setup.where
         self.view = View()
         self.observer = Observer()
         self.interrupts = Interrupts()
-        self._opened = opened
-        self._seed = seed
-        self._folder = folder
+        self._setup = setup
         self._wall = wall
         self._time_of_day = time_of_day
-        self._idles = idles
-        self._returning = returning
-        self._left_by = left_by
+        self._idles = setup.kind == "live"
+        self._handle = handle
+        self._left = left
         self._up = threading.Event()
         self._wake = threading.Event()
         self._leaving = threading.Event()
@@ -131,35 +117,30 @@ class Robot(Closing):
 
     def _live(self) -> None:
         try:
-            with self._opened() as (runtime, planner):
-                self._work(runtime, planner)
+            with runtimes.opened(self._setup, handle=self._handle) as robot:
+                self._work(robot)
         except BaseException as error:  # told to whoever entered, or leaves
             self._error = error
         finally:
             self._up.set()
 
-    def _work(self, runtime: Runtime, planner: Planner) -> None:
-        slow = SlowPlanner(planner)
-        before = read(self._folder) if self._returning else []
-        first = before[-1].n + 1 if before else 0
-        session = Session(
-            runtime,
-            slow,
-            description=self.where.description,
+    def _work(self, robot: Opened) -> None:
+        left = self._left if self._left is not None and self._left.events else None
+        returns = left is not None and left.folder == self._setup.folder
+        with Session(
+            self._setup,
+            robot,
             interrupts=self.interrupts,
-            seed=self._seed,
-            journal=Journal(
-                self._folder, wall_s=self._time_of_day, background=self._idles, first=first
-            ),
-        )
-        session.executive.attended = True
-        self._injector = Injector(
-            (), runtime, session.journal, begin_s=runtime.clock.now_s(), planner=slow
-        )
-        session.on_tick(self._look)
-        with session:
+            time_of_day=self._time_of_day,
+            first=left.next_number if left is not None and returns else 0,
+            attended=True,
+        ) as session:
             self.session = session
-            self._begin(before)
+            session.on_tick(self._look)
+            if not returns:
+                session.begin("prompt")
+            if left is not None:
+                return_to(session, left)
             self._up.set()
             while not self._over():
                 if self._idles:
@@ -169,35 +150,17 @@ class Robot(Closing):
                 else:
                     self._wake.wait(0.1)
                     self._wake.clear()
-            lost = runtime.failure()
+            lost = robot.runtime.failure()
             self.view = self.view if lost is None else view_of_lost(self.view, lost)
-
-    def _begin(self, before: list[Event]) -> None:
-        """Open the journal of a new run; in one that is returned to, go on with its jobs."""
-        now_s = self.session.runtime.clock.now_s()
-        if before:
-            return_to(self.session, before, where=self.where, folder=self._folder)
-            return
-        runtime = "live" if self._idles else "fast"
-        header = run_folder.header(
-            self.where, text="prompt", seed=self._seed, runtime=runtime, attended=True
-        )
-        run_folder.begin(self.session.journal, header, now_s=now_s, folder=self._folder)
-        if self._left_by is not None:
-            run_folder.carry_missions_over(self._left_by, self._folder)
-            return_to(
-                self.session, read(self._left_by), where=self.where, folder=self._left_by, anew=True
-            )
 
     def _over(self) -> bool:
         gone = self.session.runtime.failure() is not None
         return gone or (self._leaving.is_set() and not self.busy)
 
     def _look(self) -> None:
-        now_s = self.session.runtime.clock.now_s()
+        now_s = self.session.now_s
         while self._faults:
-            self._injector.strike(self._faults.popleft(), now_s)
-        self._injector.tick(now_s)
+            self.session.faults.strike(self._faults.popleft(), now_s)
         self.view = self.observer.look(self.executive, now_s=now_s, wall_s=self._wall.now_s())
 
     # --- entering and leaving ---

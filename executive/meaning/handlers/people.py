@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import get_args
 
-from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.identify import Scene, cannot
 from executive.skills.gesture import GestureKind, GestureParams
@@ -61,8 +60,3 @@ def meet(goal: goals.Meet, scene: Scene) -> Part:
     approach = go_to_person(goal.person, scene)
     hello = greet(goals.Greet(person=goal.person), scene)
     return Series(name="meet somebody", parts=(approach, hello))
-
-
-def report(goal: goals.Report, scene: Scene) -> Part:
-    """Say something of the robot itself."""
-    return Errand(name=f"report {goal.topic}", params=answers.report(goal.topic, scene.knowledge))

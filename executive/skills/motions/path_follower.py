@@ -34,7 +34,7 @@ SLOW_DOWN_1_S = 0.8
 METRES_PER_RADIAN = 0.3
 
 
-class Twist(NamedTuple):
+class Velocity(NamedTuple):
     """Velocity in the heading frame of the base."""
 
     forward_m_s: float
@@ -96,7 +96,7 @@ class Turn(NamedTuple):
 
 
 class Follower:
-    """Twists that lead the body along a path; remembers how far along it is."""
+    """Velocities that lead the body along a path; remembers how far along it is."""
 
     def __init__(
         self, start: Stance, waypoints: Sequence[Stance], *, walking: Walking, speed_m_s: float
@@ -133,12 +133,12 @@ class Follower:
             along_m = 0.0
         return points
 
-    def twist(self, X_WS: SE3) -> Twist:
+    def twist(self, X_WS: SE3) -> Velocity:
         """The twist for where the body is now; moves on along the path."""
         x_m, y_m, _ = X_WS.p
         self._advance(x_m, y_m, X_WS.yaw_rad)
         if not self._legs:
-            return Twist(0.0, 0.0, 0.0)
+            return Velocity(0.0, 0.0, 0.0)
         leg = self._legs[0]
         if isinstance(leg, Turn):
             return turn_towards(wrap_angle(leg.to_rad - X_WS.yaw_rad), self.walking)
@@ -185,19 +185,19 @@ class Follower:
             self._legs.pop(0)
             self._along_m = self._turned_rad = 0.0
 
-    def _within_limits(self, forward_m_s: float, left_m_s: float, off_rad: float) -> Twist:
+    def _within_limits(self, forward_m_s: float, left_m_s: float, off_rad: float) -> Velocity:
         """Scale a velocity, keeping its direction, until the gait can do it."""
         gait = self.walking
         most_m_s = gait.max_forward_m_s if forward_m_s > 0.0 else gait.max_backward_m_s
         aside_m_s = SIDEWAYS * gait.max_sideways_m_s
         scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / aside_m_s)
         turn_rad_s = _clamp(TURN_GAIN_1_S * off_rad, gait.max_turn_rad_s)
-        return Twist(forward_m_s / scale, left_m_s / scale, turn_rad_s)
+        return Velocity(forward_m_s / scale, left_m_s / scale, turn_rad_s)
 
 
-def turn_towards(yaw_error_rad: float, walking: Walking) -> Twist:
+def turn_towards(yaw_error_rad: float, walking: Walking) -> Velocity:
     """The twist that turns on the spot by an angle."""
-    return Twist(0.0, 0.0, _clamp(TURN_GAIN_1_S * yaw_error_rad, walking.max_turn_rad_s))
+    return Velocity(0.0, 0.0, _clamp(TURN_GAIN_1_S * yaw_error_rad, walking.max_turn_rad_s))
 
 
 def _legs(start: Stance, waypoints: Sequence[Stance]) -> list[Run | Turn]:

@@ -14,7 +14,7 @@ from executive.skills.motions.final_steps import is_at_stance, miss, step_to
 from executive.skills.motions.fingers import check_grips
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.obstructions import in_the_way
-from executive.skills.motions.path_follower import Follower, Twist, turn_towards
+from executive.skills.motions.path_follower import Follower, Velocity, turn_towards
 from executive.skills.motions.personal_space import in_the_path
 from executive.skills.motions.planning import ask, pose_of, stance_of
 from executive.skills.motions.script import Script, give_up
@@ -138,7 +138,7 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     return None
 
 
-def _person_ahead(body: Body, twist: Twist) -> Obstacle | None:
+def _person_ahead(body: Body, twist: Velocity) -> Obstacle | None:
     """Somebody so near that the next steps would be towards them."""
     if math.hypot(twist.forward_m_s, twist.left_m_s) < MOVING_M_S:
         return None
@@ -249,7 +249,7 @@ def is_there(X_WS: SE3, follower: Follower, goal: Stance) -> bool:
     return follower.done or (follower.remaining_m < HAND_OVER_M and aside_m < HAND_OVER_ASIDE_M)
 
 
-def _walk(body: Body, twist: Twist) -> None:
+def _walk(body: Body, twist: Velocity) -> None:
     """Walk at a twist, slowed down to what is allowed now."""
     speed_m_s = math.hypot(twist.forward_m_s, twist.left_m_s)
     slower = min(1.0, body.context.speed_limit() / max(speed_m_s, 1e-9))

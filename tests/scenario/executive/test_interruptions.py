@@ -6,12 +6,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from executive.engine.jobs import OVER
-from executive.engine.loop import Interrupts
 from executive.meaning.request import Understood, request
+from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from executive.trees.parts import errands
 from tests.fakes.puppet_runtime import PuppetRuntime
-from tests.fakes.worlds import JUNO, WHERE, puppet
+from tests.fakes.worlds import WHERE, puppet
 
 JOB = (
     "walk half a metre forward, then say hello, then pick up the red cup and put it on the table, "
@@ -36,9 +36,7 @@ class Run:
     def __init__(self, events):
         self.runtime = PuppetRuntime(puppet())
         self.body = self.runtime.puppet
-        self.session = Session(
-            self.runtime, self.runtime.planner, description=JUNO, interrupts=Interrupts()
-        )
+        self.session = Session(Setup(where=WHERE), Opened(self.runtime, self.runtime.planner))
         self.executive = self.session.executive
         self.ticks = 0
         self.events = sorted(events)

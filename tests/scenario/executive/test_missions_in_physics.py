@@ -6,17 +6,16 @@ import json
 
 import pytest
 
-from executive.frontends.missions import commands
-from executive.missions.check import Options
+from executive.frontends.missions import run as mission_run
+from executive.frontends.missions.options import Run
 from executive.missions.load import FOLDER, shipped
 from tests.fakes.missions import check
 
 LONG = ("bring", "tidy", "greet", "patrol")
 
 
-def run(name: str, folder, said: Options | None = None) -> int:
-    how = commands.how(seed=0, fast=True, vary=False, folder=folder, as_json=True)
-    return commands.run(name, said or Options(), how)
+def run(name: str, folder, first: str = "") -> int:
+    return mission_run.run(Run(file=name, first=first, fast=True, run_dir=folder, as_json=True))
 
 
 def events(folder) -> list[dict]:
@@ -48,7 +47,7 @@ def test_a_mission_begins_at_a_step_and_fails_where_the_world_is_not_as_expected
         "  - holding: red cup\n  - holding: false\n"
     )
     folder = tmp_path / "run"
-    assert run(str(path), folder, Options(first="3")) == 1
+    assert run(str(path), folder, first="3") == 1
     said = [event["text"] for event in events(folder) if event["event"] == "said"]
     assert said == ["two"]
     summary = json.loads((folder / "summary.json").read_text())

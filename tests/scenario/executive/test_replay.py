@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from executive.engine.loop import Interrupts
 from executive.meaning import request
-from executive.runs import run_folder
+from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from robot.errors import failure
 from robot.planning.requests import PickRequest
@@ -157,15 +156,8 @@ def test_what_a_person_asked_for_in_between_is_asked_for_again(runtime, humanoid
         (31.0, lambda s: s.executive.stop("enough")),
     ]
     runtime = anew()
-    with Session(
-        runtime,
-        runtime.planner,
-        description=where.description,
-        interrupts=Interrupts(),
-        folder=Path("a"),
-    ) as session:
-        header = run_folder.header(where, text="a morning", seed=0, runtime="fast")
-        run_folder.begin(session.journal, header, now_s=0.0, folder=Path("a"))
+    with Session(Setup(where=where, folder=Path("a")), Opened(runtime, runtime.planner)) as session:
+        session.begin("a morning")
         session.submit(understood("walk two metres forward"))
         operate(session, where, script)
     kinds = [json.loads(line) for line in Path("a/journal.jsonl").read_text().splitlines()]

@@ -10,7 +10,7 @@ from executive.journal import journal
 from executive.journal.journal import Event
 from executive.meaning import request
 from executive.meaning.knowledge import Knowledge
-from executive.runs import agreement, continuation
+from executive.runs.again import agreement, continuation
 from robot import messages as m
 from robot.errors import failure
 from robot.model import description

@@ -22,7 +22,7 @@ from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request
-from executive.runs import runtimes
+from executive.runs.runtimes import Setup
 from executive.skills.catalogue import SKILLS
 from intents.language_model import Endpoint, LanguageModel
 from robot.clock import WallClock
@@ -35,15 +35,7 @@ def shell_in(
     folder: Path, world: str = "kitchen", model: LanguageModel | None = None
 ) -> Iterator[Shell]:
     where = request.setting(REALITY, world, robot="juno")
-    robot = Robot(
-        lambda: runtimes.opened("fast", where, seed=0, folder=folder),
-        where=where,
-        seed=0,
-        folder=folder,
-        wall=WallClock(),
-        time_of_day=lambda: 0.0,
-        idles=False,
-    )
+    robot = Robot(Setup(where=where, folder=folder), wall=WallClock(), time_of_day=lambda: 0.0)
     with robot:
         yield Shell(robot, Said(), table=commands.table, folder=folder, model=model)
 

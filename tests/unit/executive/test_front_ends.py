@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from executive.frontends.supervised import FrontEnd
+from executive.frontends.launching import FrontEnd
 from executive.main import front_end
 
 

@@ -1,10 +1,10 @@
-"""The pages on health and recovery say what the tables say."""
+"""The pages of the documentation say what the tables say."""
 
 from pathlib import Path
 
 import pytest
 
-from executive.frontends.reference.tables import PAGES, TABLES, filled
+from executive.frontends.reference import PAGES, TABLES, filled
 
 DOCS = Path(__file__).parents[4] / "docs"
 
@@ -12,7 +12,7 @@ DOCS = Path(__file__).parents[4] / "docs"
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_up_to_date(name):
     text = (DOCS / name).read_text(encoding="utf-8")
-    assert filled(text) == text, "python -m executive.frontends.reference.tables docs"
+    assert filled(text) == text, "python -m executive.frontends.reference docs"
 
 
 def test_every_table_has_its_place():

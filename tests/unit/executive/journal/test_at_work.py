@@ -2,7 +2,9 @@
 
 from executive.journal.dumps.text import picture
 from executive.journal.snapshot import at_work, in_order, snapshot
-from executive.skills.parameters import NavigateParams, PickParams, WaitParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.wait import WaitParams
 from executive.trees.build import build
 from executive.trees.parts import OnFail, Series
 from tests.fakes.recorded import Recorded

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from executive.journal.journal import Event
 from executive.meaning import request
 from executive.meaning.knowledge import Knowledge
-from executive.runs import recording
+from executive.runs.again import recording
 from executive.runs.session import Session
 from executive.trees.parts import errands
 from intents.goals import from_builtins

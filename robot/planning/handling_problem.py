@@ -17,7 +17,7 @@ from robot.se3 import Array
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class HandlingProblem:
     """What is wanted.
 
     Attributes:

@@ -7,19 +7,18 @@ from pathlib import Path
 
 import msgspec
 
-from executive.engine.loop import Interrupts, Runtime
+from executive.engine.loop import Interrupts
 from executive.journal import journal
 from executive.journal.files import Nowhere
 from executive.journal.journal import Journal
-from executive.meaning.request import Setting
-from executive.runs import recording, runtimes
-from executive.runs.comparison import Checked, Difference
-from executive.runs.faults import Injector, SlowPlanner
-from executive.runs.recording import Recording
-from executive.runs.reenactment import Feeder
+from executive.runs import runtimes
+from executive.runs.again import recording
+from executive.runs.again.comparison import Checked, Difference
+from executive.runs.again.recording import Recording
+from executive.runs.again.requests import Feeder
+from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from robot.errors import ConfigError, Problem
-from robot.planning.worker import Planner
 from robot.reality.contract import Reality
 
 GRACE_S = 1.0
@@ -55,9 +54,9 @@ def replay(folder: Path, reality: Reality, *, follow: Follow) -> Replayed:
     check(recorded)
     where, changed = recording.setting(recorded, reality)
     checked = Checked(recorded.lines, onward=None if recorded.ended else Nowhere())
-    header = recorded.header
-    with runtimes.opened("fast", where, seed=header.seed, folder=None) as (runtime, planner):
-        run(recorded, where, runtime, planner, checked=checked, follow=follow)
+    setup = Setup(where=where, seed=recorded.header.seed)
+    with runtimes.opened(setup) as robot:
+        run(recorded, setup, robot, checked=checked, follow=follow)
     return Replayed(
         folder=str(folder),
         events=checked.count,
@@ -84,32 +83,30 @@ def check(recorded: Recording) -> None:
 
 
 def run(
-    recorded: Recording,
-    where: Setting,
-    runtime: Runtime,
-    planner: Planner,
-    *,
-    checked: Checked,
-    follow: Follow,
+    recorded: Recording, setup: Setup, robot: Opened, *, checked: Checked, follow: Follow
 ) -> None:
-    """Do it again on an opened runtime, up to the last recorded event or the first difference."""
-    with opened(recorded, where, runtime, planner, checked=checked) as session:
-
-        def over() -> bool:
-            now_s = runtime.clock.now_s()
-            late = now_s > recorded.last_s + GRACE_S
-            return checked.complete or checked.difference is not None or late
-
-        session.on_tick(lambda: follow(runtime.clock.now_s(), recorded.last_s))
-        session.run(until=over)
-        checked.end()
+    """Do it again on a robot that is up, to the last recorded event or the first difference."""
+    with reenacted(recorded, setup, robot, checked=checked) as session:
+        catch_up(session, recorded, checked=checked, follow=follow)
 
 
-def opened(
+def catch_up(session: Session, recorded: Recording, *, checked: Checked, follow: Follow) -> None:
+    """Let a session do again what is recorded, as far as it is the same."""
+    last_s = recorded.last_s
+
+    def over() -> bool:
+        late = session.now_s > last_s + GRACE_S
+        return checked.complete or checked.difference is not None or late
+
+    session.on_tick(lambda: None if checked.complete else follow(session.now_s, last_s))
+    session.run(until=over)
+    checked.end()
+
+
+def reenacted(
     recorded: Recording,
-    where: Setting,
-    runtime: Runtime,
-    planner: Planner,
+    setup: Setup,
+    robot: Opened,
     *,
     checked: Checked,
     interrupts: Interrupts | None = None,
@@ -119,39 +116,26 @@ def opened(
 
     Args:
         recorded: the run.
-        where: its setting, as it is now.
-        runtime: entered, at its beginning.
-        planner: answers the skills' requests.
+        setup: that of the run, as it is now.
+        robot: that is up, at its beginning.
         checked: compares the lines of the journal.
         interrupts: of somebody who is there now.
         journal: that writes to `checked`, a new one by default.
     """
-    slow = SlowPlanner(planner)
+    plans = recording.planned_faults(recorded, setup.where)
     session = Session(
-        runtime,
-        slow,
-        description=where.description,
-        interrupts=interrupts or Interrupts(),
-        seed=recorded.header.seed,
+        setup,
+        robot,
+        interrupts=interrupts,
         journal=journal or Journal(lines=checked),
-    )
-    session.executive.attended = recorded.header.attended
-    plans = recording.planned_faults(recorded, where)
-    injector = Injector(
-        plans,
-        runtime,
-        session.journal,
-        begin_s=runtime.clock.now_s(),
-        seed=recorded.header.seed,
-        planner=slow,
+        faults=plans,
         kill=_survive,
+        attended=recorded.header.attended,
     )
-    inputs = [event for event in recorded.inputs if event.event == "request" or not plans]
     feeder = Feeder(
         session,
-        inputs,
-        restore=lambda event: recording.restore(event, recorded.folder, where),
-        injector=injector,
+        [event for event in recorded.inputs if event.event == "request" or not plans],
+        restore=lambda event: recording.assigned(event, recorded.folder, setup.where),
     )
     session.journal.write(recorded.events[0].t_s, "run", **recorded.events[0].data)
     feeder.feed()

@@ -7,14 +7,16 @@ from typing import Any
 
 import msgspec
 
+from executive.engine.jobs import Limits
 from executive.journal import journal
 from executive.journal.journal import FILE, Event
 from executive.meaning import request
 from executive.meaning.request import Refused, Setting, Understood
 from executive.meaning.whereabouts import Whereabouts, recalled
 from executive.missions.fault_plans import FaultPlan
-from executive.runs import mission_jobs, provenance
+from executive.runs import mission_task, provenance
 from executive.runs.run_folder import Header
+from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
 from robot.reality.contract import Reality
@@ -103,6 +105,21 @@ def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]
     )
 
 
+def assigned(submitted: Event, folder: Path, where: Setting) -> Assignment:
+    """What a recorded submission asked for, made again.
+
+    Raises:
+        ConfigError: if it cannot be made here and now.
+    """
+    made_from: dict[str, Any] = dict(submitted.data["origin"])
+    return Assignment(
+        understood=restore(submitted, folder, where),
+        limits=Limits(**submitted.data["limits"]),
+        done=frozenset(made_from.pop("done", ())),
+        origin=made_from,
+    )
+
+
 def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
     """The task of a job that was submitted, made again from what it was made from.
 
@@ -112,7 +129,7 @@ def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
     made_from: dict[str, Any] = submitted.data.get("origin", {})
     text = str(submitted.data.get("text", ""))
     if "goals" not in made_from:
-        return mission_jobs.restore(made_from, folder, where)
+        return mission_task.restore(made_from, folder, where)
     try:
         asked = goals.from_builtins(made_from["goals"])
         then = msgspec.convert(made_from.get("whereabouts"), Whereabouts | None)
@@ -136,4 +153,4 @@ def planned_faults(recording: Recording, where: Setting) -> tuple[FaultPlan, ...
     made_from: dict[str, Any] = submitted.data.get("origin", {}) if submitted is not None else {}
     if "mission" not in made_from:
         return ()
-    return mission_jobs.faults(made_from, recording.folder, where)
+    return mission_task.faults(made_from, recording.folder, where)

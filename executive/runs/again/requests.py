@@ -6,16 +6,14 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from executive.engine.jobs import Limits
 from executive.engine.loop import PERIOD_S
 from executive.journal.journal import Event
-from executive.meaning.request import Understood
-from executive.runs.faults import Injector
 from executive.runs.session import Session
+from executive.runs.task_run import Assignment
 
 EPSILON_S = 1e-3
 
-Restore = Callable[[Event], Understood]
+Restore = Callable[[Event], Assignment]
 
 
 class Feeder:
@@ -27,20 +25,17 @@ class Feeder:
         inputs: Iterable[Event],
         *,
         restore: Restore,
-        injector: Injector,
     ) -> None:
         """Feed nothing yet.
 
         Args:
             session: that begins anew.
             inputs: events of what came from outside, in order.
-            restore: makes the task of a submission again.
-            injector: of the faults.
+            restore: makes what was submitted again.
         """
         self._session = session
         self._left = deque(inputs)
         self._restore = restore
-        self._injector = injector
 
     @property
     def done(self) -> bool:
@@ -49,8 +44,7 @@ class Feeder:
 
     def feed(self) -> None:
         """Ask for what the next tick carries out; inject what came after this one."""
-        now_s = self._session.runtime.clock.now_s()
-        self._injector.tick(now_s)
+        now_s = self._session.now_s
         while self._left:
             event = self._left[0]
             ahead_s = 0.0 if event.event == "fault" else PERIOD_S
@@ -58,7 +52,7 @@ class Feeder:
                 return
             self._left.popleft()
             if event.event == "fault":
-                self._injector.strike(dict(event.data), now_s)
+                self._session.faults.strike(dict(event.data), now_s)
             else:
                 self._ask(dict(event.data), event)
 
@@ -67,13 +61,13 @@ class Feeder:
         name = asked.pop("request")
         match name:
             case "submit":
-                made_from = asked["origin"]
+                assigned = self._restore(event)
                 self._session.submit(
-                    self._restore(event),
+                    assigned.understood,
                     urgent=bool(asked["urgent"]),
-                    limits=Limits(**asked["limits"]),
-                    origin={key: made_from[key] for key in made_from if key != "done"},
-                    done=frozenset(made_from.get("done", ())),
+                    limits=assigned.limits,
+                    origin=assigned.origin,
+                    done=assigned.done,
                 )
             case "abandon":
                 self._session.interrupts.count = 2

@@ -1,6 +1,6 @@
-"""The tables of health, recovery and evaluation as pages of the documentation.
+"""Pages of the documentation that show the code's own tables.
 
-`python -m executive.frontends.reference.tables docs` writes them.
+`python -m executive.frontends.reference docs` brings them up to date.
 Each page keeps what people wrote; what stands between its markers is made of the code's tables.
 """
 
@@ -17,13 +17,14 @@ from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot import config
 from robot.bus.topics import BY_NAME
 from robot.errors import CATALOGUE
+from robot.exit_status import BROKEN_CODES, MEANINGS
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
 
 SLOWER = frozenset({"DERATE", "RETURN"})
 """Levels at which the robot walks, and slower."""
 
-PAGES = ("health.md", "recovery.md", "evaluation.md")
+PAGES = ("executive.md", "failures.md", "health.md", "recovery.md", "evaluation.md")
 
 WHAT = {
     "retry": "nothing first; it is planned anew, with another seed",
@@ -99,6 +100,37 @@ def budgets() -> str:
     )
 
 
+def failures() -> str:
+    """The catalogue: what each code means, and what is done about it."""
+    rows = [
+        [f"`{code}`", kind.meaning, kind.suggestion or "-", _tries(code)]
+        for code, kind in CATALOGUE.items()
+    ]
+    head = ["code", "meaning", "what a person can do", "what the robot does by itself"]
+    return _table(head, rows)
+
+
+def _tries(code: str) -> str:
+    tries = [
+        f"{REMEDIES[remedy][0]}: {'once' if times == 1 else f'{times} times'}"
+        for remedy, times in RULES[code].tries
+    ]
+    return "; ".join(tries) or "-"
+
+
+def broken() -> str:
+    """Codes that mean that the system broke."""
+    codes = ", ".join(f"`{code}`" for code in sorted(BROKEN_CODES))
+    return f"{codes} mean that the system broke, not the task.\n"
+
+
+def exit_statuses() -> str:
+    """How a command ends."""
+    return _table(
+        ["status", "meaning"], [[str(int(status)), text] for status, text in MEANINGS.items()]
+    )
+
+
 def campaign() -> str:
     """What is expected of the robot under every fault."""
     cases = config.load(SHIPPED, Campaign).cases
@@ -116,6 +148,9 @@ def campaign() -> str:
 
 
 TABLES = {
+    "exit statuses": exit_statuses,
+    "failures": failures,
+    "broken": broken,
     "campaign": campaign,
     "silences": silences,
     "grades": grades,

@@ -52,18 +52,20 @@ def look(
     link: BodyLink,
     knowledge: Knowledge,
     robot: RobotDescription,
+    done: frozenset[str] = frozenset(),
 ) -> Agreement:
     """Compare a journal with the world.
 
     Args:
         events: of the job that is gone on with.
         task: of that job.
+        done: what was done before those events.
         link: to a body that is up, with a world model.
         knowledge: of the world.
         robot: its description.
     """
     events = list(events)
-    done = finished({"event": e.event, **e.data} for e in events)
+    done |= finished({"event": e.event, **e.data} for e in events)
     body, world = link.body(), link.world()
     if body is None or world is None:
         return Agreement(done=done, held=(), again=())

@@ -1,5 +1,7 @@
-from executive.frontends.prompt.continuation import unfinished
+"""Which jobs of a prompt that was cut off are gone on with, from its journal."""
+
 from executive.journal.journal import Event
+from executive.runs.again.continuation import unfinished
 
 
 def journal(*kinds: object) -> list[Event]:

@@ -1,4 +1,4 @@
-"""Walk at a steady twist for a while: the body alone, without tree and skills."""
+"""Walk at a steady velocity for a while: the body alone, without tree and skills."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STAND_LIMIT_S = 6.0
 MAX_DURATION_S = 3600.0
 
 
-class Twist(msgspec.Struct, frozen=True, kw_only=True):
+class VelocityCommand(msgspec.Struct, frozen=True, kw_only=True):
     """How to walk, in the heading frame [m/s, rad/s], and for how long."""
 
     forward_m_s: float
@@ -37,14 +37,14 @@ class Walked(msgspec.Struct, frozen=True, kw_only=True):
     clamped: int
 
 
-def check(twist: Twist, description: RobotDescription) -> Failure | None:
+def check(command: VelocityCommand, description: RobotDescription) -> Failure | None:
     """Refuse what this robot cannot walk."""
     gait = description.walking
     bounds = (
-        ("speed", twist.forward_m_s, -gait.max_backward_m_s, gait.max_forward_m_s, "m/s"),
-        ("left", twist.left_m_s, -gait.max_sideways_m_s, gait.max_sideways_m_s, "m/s"),
-        ("turn", twist.turn_rad_s, -gait.max_turn_rad_s, gait.max_turn_rad_s, "rad/s"),
-        ("for", twist.duration_s, 0.0, MAX_DURATION_S, "s"),
+        ("speed", command.forward_m_s, -gait.max_backward_m_s, gait.max_forward_m_s, "m/s"),
+        ("left", command.left_m_s, -gait.max_sideways_m_s, gait.max_sideways_m_s, "m/s"),
+        ("turn", command.turn_rad_s, -gait.max_turn_rad_s, gait.max_turn_rad_s, "rad/s"),
+        ("for", command.duration_s, 0.0, MAX_DURATION_S, "s"),
     )
     for name, value, low, high, unit in bounds:
         if not (math.isfinite(value) and low <= value <= high):
@@ -55,7 +55,7 @@ def check(twist: Twist, description: RobotDescription) -> Failure | None:
 
 def walk(
     runtime: Runtime,
-    twist: Twist,
+    command: VelocityCommand,
     *,
     interrupts: Interrupts,
     on_tick: Callable[[BodyState], None] = lambda _: None,
@@ -64,12 +64,12 @@ def walk(
     path = _Path()
     reason = _wait_for_body(runtime)
     start_s = runtime.clock.now_s()
-    while reason is None and runtime.clock.now_s() - start_s < twist.duration_s:
+    while reason is None and runtime.clock.now_s() - start_s < command.duration_s:
         link, now_s = runtime.link, runtime.clock.now_s()
         link.send(
             Walk(
-                id=link.next_id(), stamp_s=now_s, forward_m_s=twist.forward_m_s,
-                left_m_s=twist.left_m_s, turn_rad_s=twist.turn_rad_s, hold_s=0.5,
+                id=link.next_id(), stamp_s=now_s, forward_m_s=command.forward_m_s,
+                left_m_s=command.left_m_s, turn_rad_s=command.turn_rad_s, hold_s=0.5,
             )
         )  # fmt: skip
         runtime.advance(PERIOD_S)

@@ -1,0 +1,158 @@
+"""Opens a robot for an assignment and does it, shown and kept as the options say."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+
+import msgspec
+import typer
+from rich.console import Console
+
+from executive.engine.executive import Executive
+from executive.engine.loop import Interrupts
+from executive.frontends import speaking
+from executive.frontends.dump.writer import along
+from executive.frontends.exit import echo_json
+from executive.frontends.launching import under_way
+from executive.frontends.options import Seeded, Shown, Voiced
+from executive.frontends.progress import Lines, LiveTree, Silent
+from executive.frontends.reality import REALITY
+from executive.meaning import request
+from executive.meaning.request import Setting
+from executive.runs import runtimes, task_run
+from executive.runs.again import continuation
+from executive.runs.again.continuation import Left, left_in
+from executive.runs.runtimes import Setup
+from executive.runs.session import Session
+from executive.runs.summary import Summary, last_lines
+from executive.runs.task_run import Assignment, Progress, Show
+from robot.bringup.mailbox import Handle
+from robot.clock import WallClock
+
+MUTE = Voiced()
+
+
+class Prepared(msgspec.Struct, frozen=True, kw_only=True):
+    """What is to be done, with what robot, and (`left`) what was done of it before."""
+
+    assignment: Assignment
+    setup: Setup
+    left: Left | None = None
+
+
+Prepare = Callable[[], Prepared | int]
+"""Understands what was asked for; an exit status where that is refused, which has been said."""
+
+
+def carry_out(
+    prepare: Prepare, options: Shown, handle: Handle | None = None, *, voiced: Voiced = MUTE
+) -> int:
+    """Do what was asked for, or go on with it, and say how it ended; returns the exit status.
+
+    Args:
+        prepare: is called unless the journal of a run that is under way says what to do.
+        options: how it is shown.
+        handle: of a live robot.
+        voiced: whether the robot speaks; what cannot be heard has been told.
+
+    Raises:
+        RobotError: a file is wrong (ConfigError), or a part does not start.
+    """
+    prepared = _begun(handle) or prepare()
+    if isinstance(prepared, int):
+        return prepared
+    with speaking.opened(wanted=voiced.aloud, model=voiced.voice_model) as speech:
+        show = show_for(options)
+
+        def shown(executive: Executive) -> Progress:
+            executive.journal.listen(speech.note)
+            return show(executive)
+
+        summary = _work_off(prepared, shown, handle)
+        say_how_it_ended(summary, as_json=options.as_json)
+        speech.finish()
+    return summary.exit_status
+
+
+def setup(where: Setting, options: Seeded, folder: Path) -> Setup:
+    """What a run is set up with."""
+    kind: runtimes.Kind = "fast" if options.fast else "live"
+    return Setup(where=where, kind=kind, seed=options.seed, folder=folder)
+
+
+def _begun(handle: Handle | None) -> Prepared | None:
+    """What an executive before this one had begun; None if it had not come so far."""
+    there = under_way(handle)
+    if there is None:
+        return None
+    where = request.setting(REALITY, there.world, robot=there.robot, vary_seed=there.variation_seed)
+    left = left_in(Path(there.folder))
+    assignment = left.newest(where)
+    if assignment is None:
+        return None
+    again = Setup(where=where, kind="live", seed=there.seed, folder=left.folder)
+    return Prepared(assignment=assignment, setup=again, left=left)
+
+
+def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
+    """Open the robot, and do what was prepared."""
+    assignment, left = prepared.assignment, prepared.left
+    interrupts = Interrupts()
+    with ExitStack() as stack:
+        stack.enter_context(interrupts.listen())
+        robot = stack.enter_context(runtimes.opened(prepared.setup, handle=handle))
+        session = stack.enter_context(
+            Session(
+                prepared.setup,
+                robot,
+                interrupts=interrupts,
+                time_of_day=time.time,
+                first=_next_number(prepared.setup, handle),
+                faults=assignment.faults,
+            )
+        )
+        wall = WallClock()
+        if left is None:
+            return task_run.do(assignment, session, show=show, wall=wall)
+        return continuation.do(assignment, session, left, show=show, wall=wall)
+
+
+def _next_number(setup: Setup, handle: Handle | None) -> int:
+    """Of the journal's next event: an executive before this one may have written some."""
+    begun = under_way(handle) is not None and setup.folder is not None
+    return left_in(setup.folder).next_number if begun and setup.folder else 0
+
+
+# --- on the screen -----------------------------------------------------------------------------
+
+
+def show_for(options: Shown) -> Show:
+    """How people see it: a live tree on a terminal, plain lines elsewhere; and dumps beside it.
+
+    Raises:
+        ConfigError: an option cannot be meant.
+    """
+    shown = _silent if options.as_json else _on_screen
+    return along(shown, options.dump, on=options.dump_on, formats=options.dump_format)
+
+
+def _silent(_executive: Executive) -> Progress:
+    return Silent()
+
+
+def _on_screen(executive: Executive) -> Progress:
+    console = Console()
+    if console.is_terminal:
+        return LiveTree(executive, console, wall_s=WallClock().now_s)
+    return Lines(executive, console)
+
+
+def say_how_it_ended(summary: Summary, *, as_json: bool) -> None:
+    """The last words."""
+    if as_json:
+        echo_json(summary)
+    else:
+        typer.echo("\n".join(last_lines(summary)))

@@ -1,0 +1,106 @@
+"""Front ends on their way: `fast` in this process, live in an executive below a launcher.
+
+A front end is a function of its options and a handle on its robot's processes (None in `fast`). It
+is the executive's process that understands what was asked for, and refuses it before it starts the
+robot; one that was started again (`handle.deaths`) goes on with the run that is under way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, TypeVar
+
+import msgspec
+import typer
+
+from executive.frontends.exit import last_words
+from robot.bringup import launcher
+from robot.bringup.mailbox import Handle
+from robot.bus.run import Run
+
+T = TypeVar("T")
+
+Overseen = Callable[[Handle | None, dict[str, Any]], int]
+"""A front end as a process calls it: with a handle on the robot's, if any, and plain options."""
+
+
+class FrontEnd(StrEnum):
+    """What an executive can be there for; `executive.main` has the function of each."""
+
+    DO = "do"
+    LISTEN = "listen"
+    MISSION = "mission"
+    PROMPT = "prompt"
+    RESUME = "resume"
+
+
+def here(front: Overseen, options: object) -> int:
+    """Run a front end in this process, in `fast`; returns the exit status.
+
+    Args:
+        front: what `overseen` made.
+        options: of the front end, a struct or a dataclass.
+
+    Raises:
+        RobotError: as the front end does.
+    """
+    return front(None, msgspec.to_builtins(options, enc_hook=str))
+
+
+def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
+    """Run a front end in an executive of its own; returns the exit status.
+
+    Args:
+        front: which one.
+        options: of the front end, a struct or a dataclass.
+        as_json: nothing but JSON goes to standard output.
+    """
+    plain = msgspec.to_builtins(options, enc_hook=str)
+    ended = launcher.launch(front, plain, tell=lambda line: typer.echo(line, err=True))
+    if ended.reason:
+        cure = "see `humanoid why`; `humanoid resume` goes on where it was"
+        return last_words("Broken:", [ended.reason], cure, status=ended.status, as_json=as_json)
+    return ended.status
+
+
+def overseen(kind: type[T], front: Callable[[T, Handle | None], int]) -> Overseen:
+    """A front end as the executive's process calls it: with plain data for options."""
+
+    def run(handle: Handle | None, plain: dict[str, Any]) -> int:
+        return front(msgspec.convert(plain, kind, dec_hook=_path), handle)
+
+    return run
+
+
+def _path(kind: type[Any], value: object) -> object:
+    """A path, from plain data."""
+    return kind(value)
+
+
+def under_way(handle: Handle | None) -> Run | None:
+    """The run that an executive before this one has begun; None where there was none."""
+    return handle.under_way if handle is not None and handle.deaths else None
+
+
+def now_stamp() -> str:
+    """The time of day, as folders of runs are called by it."""
+    return f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
+
+
+def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> Path:
+    """The folder of a run: of the one that is under way, the one wanted, or a new one.
+
+    Raises:
+        ConfigError: if the one wanted holds a run already.
+    """
+    from executive.runs import run_folder
+
+    there = under_way(handle)
+    if there is not None:
+        return Path(there.folder)
+    folder = wanted or run_folder.folder_for(text, stamp=now_stamp())
+    run_folder.check_free(folder)
+    return folder

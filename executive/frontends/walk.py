@@ -1,0 +1,71 @@
+"""`humanoid walk`: the body alone, at a steady velocity."""
+
+from __future__ import annotations
+
+import typer
+from rich.console import Console
+
+from executive.engine.loop import Interrupts
+from executive.frontends.exit import echo_json, refuse
+from executive.frontends.options import Walk
+from executive.frontends.reality import REALITY
+from executive.journal import failures
+from executive.meaning import request
+from executive.runs import runtimes, velocity_walk
+from executive.runs.runtimes import Setup
+from executive.runs.summary import late_periods
+from executive.runs.velocity_walk import VelocityCommand, Walked
+from robot.clock import WallClock
+from robot.exit_status import exit_status
+from robot.messages import BodyState
+
+
+def walk(options: Walk) -> int:
+    """Walk, then stand; returns the exit status.
+
+    Raises:
+        RobotError: a file is wrong (ConfigError), or a part does not start.
+    """
+    where = request.setting(REALITY, options.world, robot=options.robot)
+    command = VelocityCommand(
+        forward_m_s=options.speed,
+        left_m_s=options.left,
+        turn_rad_s=options.turn,
+        duration_s=options.duration,
+    )
+    refusal = velocity_walk.check(command, where.description)
+    if refusal is not None:
+        return refuse(request.refused(refusal), as_json=options.as_json)
+    interrupts, wall = Interrupts(), WallClock()
+    begun_s = wall.now_s()
+    kind: runtimes.Kind = "fast" if options.fast else "live"
+    setup = Setup(where=where, kind=kind, seed=options.seed)
+    with interrupts.listen(), runtimes.opened(setup) as (runtime, _):
+        with Console(quiet=options.as_json).status("walking") as status:
+
+            def show(body: BodyState) -> None:
+                status.update(f"walking: {body.stamp_s:.0f} of {command.duration_s:.0f} s")
+
+            walked = velocity_walk.walk(runtime, command, interrupts=interrupts, on_tick=show)
+        past_s = runtime.clock.now_s()
+        late = late_periods(runtime)
+    if options.as_json:
+        echo_json(walked)
+    else:
+        lines = _words(walked, past_s, wall.now_s() - begun_s)
+        typer.echo("\n".join([*lines, *(f"  {line}" for line in late)]))
+    return exit_status(walked.failure)
+
+
+def _words(walked: Walked, past_s: float, wall_s: float) -> list[str]:
+    reason = walked.failure
+    lines = [
+        failures.verdict(reason),
+        f"  walked {walked.walked_s:.1f} s: {walked.forward_m:.2f} m forward, "
+        f"{walked.left_m:.2f} m to the left, {walked.turned_rad:.2f} rad turned (estimated)",
+        f"  {past_s:.1f} s of robot time in {wall_s:.1f} s ({past_s / wall_s:.1f} x), "
+        f"{walked.clamped} commands clamped",
+    ]
+    if reason is not None:
+        lines += failures.advice(failures.suggestion(reason.code, reason.suggestion))
+    return lines

@@ -1,0 +1,73 @@
+"""What the robot knows of itself and its world, read off the blackboard in this one place.
+
+What it holds, what it sees, where it is: conversations, reports inside a task and missions all ask
+here, and `intents.replies` puts it into words.
+"""
+
+from __future__ import annotations
+
+from msgspec.structs import replace
+
+from executive.blackboard import GOAL, HEALTH, HELD, PHASE, WORLD, Blackboard
+from executive.meaning.knowledge import Knowledge
+from intents.grounding import Entity
+from intents.relations import Viewpoint
+from intents.state import RobotState
+from robot.messages import Place, WorldState
+from robot.se3 import Vector3
+
+IN_VIEW_S = 0.5
+"""What was seen that recently is in view: a few frames of the camera."""
+
+
+def state_of(
+    board: Blackboard, knowledge: Knowledge, *, skills: frozenset[str] = frozenset()
+) -> RobotState:
+    """A snapshot.
+
+    Args:
+        board: of the executive.
+        knowledge: of the world.
+        skills: the types of goals that there are handlers for; empty means all.
+    """
+    world = board.read(WORLD)
+    held = frozenset(board.read(HELD).values())
+    state = RobotState(
+        entities=tuple(_entities(knowledge, world, held)),
+        doing=board.read(GOAL),
+        step=board.read(PHASE),
+        problems=tuple(finding.failure.cause for finding in board.read(HEALTH).findings),
+        skills=skills,
+    )
+    return _placed(state, world, knowledge) if world is not None else state
+
+
+def _placed(state: RobotState, world: WorldState, knowledge: Knowledge) -> RobotState:
+    """The state with where the robot is and what it sees."""
+    x, y, _ = world.X_WB.p
+    seen = (track for track in world.tracks if world.stamp_s - track.seen_s <= IN_VIEW_S)
+    return replace(
+        state,
+        view=Viewpoint(x_m=x, y_m=y, yaw_rad=world.X_WB.yaw_rad),
+        room=knowledge.room_at(world.X_WB.p),
+        seen=tuple(track.id for track in seen if not track.missing),
+    )
+
+
+def _entities(knowledge: Knowledge, world: WorldState | None, held: frozenset[str]) -> list[Entity]:
+    """Every object of the map, with where it is believed to be."""
+    tracks = {track.id: track for track in world.tracks} if world else {}
+    found: list[Entity] = []
+    for info in knowledge.map.objects:
+        entity, track = knowledge.entity(info), tracks.get(info.id)
+        if info.id in held:
+            entity = replace(entity, held=True)
+        elif track is not None and track.X_WO is not None and not track.missing:
+            at = knowledge.surface_under(track.X_WO)
+            entity = _standing(entity, at, track.X_WO.p, knowledge)
+        found.append(entity)
+    return found
+
+
+def _standing(entity: Entity, at: Place | None, p_WO: Vector3, knowledge: Knowledge) -> Entity:
+    return replace(entity, at=at.name if at else "", room=knowledge.room_at(p_WO), p_WO=p_WO)
