@@ -34,6 +34,7 @@ from executive.runs.runtimes import Setup
 from executive.runs.session import Session
 from executive.runs.task_run import Assignment
 from robot.clock import WallClock
+from sim.reality import Simulation
 
 SENTENCE = "pick up the red cup and put it on the shelf"
 DUMPS = ("failure", "change")
@@ -82,7 +83,7 @@ def quiet(_executive: Executive) -> Silent:
 
 def run(sentence: str, *, folder: Path | None, dump_on: str = "", bare: bool = False) -> float:
     """Do a job in `fast`; returns the CPU time [s] from its first tick to its end."""
-    where = request.setting("kitchen", "juno")
+    where = request.setting(Simulation(), "kitchen", robot="juno")
     understood = request.request(sentence, where, ask=None)
     if isinstance(understood, request.Refused):
         raise SystemExit(understood.reason)

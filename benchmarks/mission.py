@@ -23,6 +23,7 @@ from robot.clock import WallClock
 from robot.planning.requests import PlacePlan, PlanRequest, PlanResult
 from robot.planning.worker import Planner
 from robot.se3 import SE3
+from sim.reality import Simulation
 
 Outcomes = dict[str, dict[str, Any]]
 WORLD, ROBOT = "kitchen", "juno"
@@ -80,7 +81,7 @@ def words(seed: int) -> tuple[str, str]:
 def do(*, seed: int, live: bool = False) -> dict[str, Any]:
     """One mission; `fast` is judged by the simulator's truth, `live` by the robot's own report."""
     sentence, cup = words(seed)
-    where = request.setting(WORLD, ROBOT, vary_seed=seed)
+    where = request.setting(Simulation(), WORLD, robot=ROBOT, vary_seed=seed)
     understood = request.request(sentence, where)
     if isinstance(understood, request.Refused):
         return {"ok": False, "code": understood.outcome, "cause": understood.reason}

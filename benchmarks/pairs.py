@@ -15,12 +15,12 @@ import typer
 
 from benchmarks import planning
 from benchmarks.planning import Robot, Study
-from robot.bringup import entry
 from robot.messages import ObjectInfo, Place
 from robot.model import description
 from robot.planning.requests import Held, ObjectPose, PickPlan
 from robot.planning.solve import Solver
 from robot.se3 import SE3
+from sim.reality import Simulation
 
 DEEP_M = 0.28
 HEAD_ROOM_M = 0.03
@@ -75,7 +75,7 @@ def main(
 ) -> None:
     """Study every object, from every surface to every other that it fits under."""
     solver = Solver(description.load())
-    study = Study(solver, entry.world_map(world), np.random.default_rng(seed))
+    study = Study(solver, Simulation().world(world).map, np.random.default_rng(seed))
     surfaces = [place for place in study.map.places if not place.floor]
     surfaces = list({place.X_WP.p: place for place in surfaces}.values())
     for info in study.map.objects:

@@ -20,7 +20,6 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model import description
@@ -44,6 +43,7 @@ from robot.planning.requests import (
 )
 from robot.planning.solve import Solver
 from robot.se3 import SE3
+from sim.reality import Simulation
 
 STANCE_ERROR_M, STANCE_ERROR_RAD = 0.015, 0.026
 OBJECT_ERROR_M = 0.005
@@ -282,7 +282,7 @@ def main(
 ) -> None:
     """Study how many picks and places have a whole chain of plans."""
     solver = Solver(description.load())
-    study = Study(solver, entry.world_map(world), np.random.default_rng(seed))
+    study = Study(solver, Simulation().world(world).map, np.random.default_rng(seed))
     surfaces = [place for place in study.map.places if not place.floor]
     source = next(place for place in surfaces if place.id == on)
     for info in study.map.objects:

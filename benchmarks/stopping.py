@@ -21,6 +21,7 @@ from executive.meaning import request
 from executive.runs.runtimes import Setup
 from robot.clock import WallClock
 from robot.messages import BodyCommand, Stand
+from sim.reality import Simulation
 
 GIVE_UP_S = 5.0
 
@@ -28,7 +29,7 @@ GIVE_UP_S = 5.0
 def main(times: Annotated[int, typer.Option(help="how often")] = 20) -> None:
     """Measure, and print one line."""
     rng = random.Random(0)
-    where = request.setting("empty", "juno")
+    where = request.setting(Simulation(), "empty", robot="juno")
     with tempfile.TemporaryDirectory() as folder:
         robot = Robot(
             Setup(where=where, kind="live", folder=Path(folder)),

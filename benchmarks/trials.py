@@ -18,6 +18,7 @@ from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
 from robot.messages import BodyCommand, GetUp, Stand, Walk, WalkTo
 from robot.se3 import SE3, wrap_angle
+from sim.reality import SimulatedWorld, Simulation
 from sim.world import empty
 
 Outcome = dict[str, Any]
@@ -123,7 +124,7 @@ def goal(*, seed: int) -> Outcome:
 
 def goal_localised(*, seed: int) -> Outcome:
     """Step to a stance of the world, aiming anew whenever localisation moves it by over 8 mm."""
-    with FastRuntime(empty(), seed=seed) as runtime:
+    with FastRuntime(SimulatedWorld(empty()), seed=seed) as runtime:
         runtime.advance(REST_S)
         link, oracle = runtime.link, runtime.plant.oracle
         stance = _true_stance(runtime)
@@ -273,7 +274,7 @@ def tick_time(*, duration_s: float, seed: int = 0) -> Outcome:
 
 def speed(*, duration_s: float, seed: int = 0) -> Outcome:
     """Simulated seconds a wall second in the kitchen, sensing included, turning on the spot."""
-    with FastRuntime("kitchen", seed=seed) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=seed) as runtime:
         runtime.advance(1.0)
         link = runtime.link
         begin_s, begin_cpu_s = time.perf_counter(), time.thread_time()

@@ -1,6 +1,6 @@
 """The executive as a process of its own, under a launcher that starts it again when it dies.
 
-It runs whatever front end it is told to (`robot.bringup.mailbox.Front`): a task, a mission, the
+It runs the front end that it is told to (`robot.bringup.mailbox.Front`): a task, a mission, the
 prompt. It has the terminal of the process above it; both are in one group, so Ctrl-C comes here.
 """
 
@@ -12,13 +12,12 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
-from typing import Any
 
 import msgspec
 
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
-from robot.bringup import entry
+from executive.frontends.launching import FrontEnd, Overseen
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
@@ -26,19 +25,49 @@ from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
 POLL_S = 0.02
-LIVE = ("robot.bringup.live:LiveRuntime", "robot.planning.process:ProcessPlanner")
-"""What every live run opens, loaded lazily elsewhere: a spare has it before its turn comes."""
-
-Run = Callable[[Handle, dict[str, Any]], int]
 
 
-def main(private: str, parent_pid: str, number: str) -> int:
-    """Load, build, run, close; returns the exit status. A spare waits for its turn in between."""
+def front_end(name: str) -> Overseen:
+    """The front end of that name, which is loaded with all that it needs, and nothing else is."""
+    match FrontEnd(name):
+        case FrontEnd.DO:
+            from executive.frontends import do
+
+            return do.in_executive
+        case FrontEnd.LISTEN:
+            from executive.frontends.listening import obeying
+
+            return obeying.in_executive
+        case FrontEnd.MISSION:
+            from executive.frontends.missions import run
+
+            return run.in_executive
+        case FrontEnd.PROMPT:
+            from executive.frontends.prompt import cli
+
+            return cli.in_executive
+        case FrontEnd.RESUME:
+            from executive.frontends.past_runs import resume
+
+            return resume.in_executive
+
+
+def main(
+    private: str, parent_pid: str, number: str, *, load: Callable[[str], Overseen] = front_end
+) -> int:
+    """Load, build, run, close; returns the exit status. A spare waits for its turn in between.
+
+    Args:
+        private: the folder shared with the process above.
+        parent_pid: of that process.
+        number: how many executives have died before it is this one's turn.
+        load: gives the front end of a name; another one in tests.
+    """
     streams.steady()
     tie_to_parent(int(parent_pid))
     folder = Path(private)
     try:
-        run, front = _turn(folder, int(number))
+        run, front = _turn(folder, int(number), load)
         return run(Handle(folder, deaths=front.deaths), front.options)
     except (RobotError, KeyboardInterrupt) as error:
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
@@ -47,7 +76,7 @@ def main(private: str, parent_pid: str, number: str) -> int:
         return ExitStatus.CRASHED
 
 
-def _turn(folder: Path, number: int) -> tuple[Run, Front]:
+def _turn(folder: Path, number: int, load: Callable[[str], Overseen]) -> tuple[Overseen, Front]:
     """Load everything, then wait until as many executives have died as `number` says.
 
     Ctrl-C is for the executive whose turn it is: that hears it while it loads, a spare does not.
@@ -57,9 +86,10 @@ def _turn(folder: Path, number: int) -> tuple[Run, Front]:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the launcher held it back
     clock = WallClock()
-    run: Run = entry.attribute(_read(folder).entry)
-    for needed in LIVE:
-        entry.attribute(needed)
+    from executive.runs import runtimes  # now that Ctrl-C is heard: it takes a second
+
+    run = load(_read(folder).entry)
+    runtimes.live_parts()
     while (front := _read(folder)).deaths < number:
         clock.sleep_until(clock.now_s() + POLL_S)
     signal.signal(signal.SIGINT, stop)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
-
-import msgspec
+from collections.abc import Iterable
 
 from robot import config
 from robot.errors import ConfigError, Problem
+from robot.model.description import Hand
+from robot.reality.truth import Check, Verdict
 from robot.se3 import SE3
 from sim.plant import Plant
 
@@ -20,58 +19,9 @@ IN_HAND_M = 0.06
 ON_M = 0.03
 
 
-class Check(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One thing that should be so: about an object (`held`, `on` a place), or about the robot.
-
-    `at` is a point of the floor [m] that the robot stands at, within `within_m`.
-    """
-
-    object: str = ""
-    held: bool = False
-    on: str = ""
-    at: tuple[float, float] | None = None
-    within_m: float = 0.15
-
-    def __post_init__(self) -> None:
-        """Check that it says something."""
-        if bool(self.object) == (self.at is not None) or bool(self.object) != (
-            self.held or bool(self.on)
-        ):
-            raise ValueError("a check is {object, held: true}, {object, on} or {at}")
-
-
-class Verdict(msgspec.Struct, frozen=True, kw_only=True):
-    """How a run truly ended.
-
-    Attributes:
-        wrong: each check that does not hold, in words; none: all is as it should be.
-        upright: whether the robot truly stands on its feet.
-        damped: whether the motors are left to damp by themselves.
-    """
-
-    wrong: tuple[str, ...]
-    upright: bool
-    damped: bool
-    source: str = "oracle"
-
-
-def read(data: Sequence[Mapping[str, Any]], plant_world: Any) -> tuple[Check, ...]:
-    """Checks out of plain data. Raises ConfigError with the nearest valid name."""
-    try:
-        checks = msgspec.convert(list(data), tuple[Check, ...])
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"a check of the truth: {error}") from None
-    objects = [item.id for item in plant_world.objects]
-    for check in checks:
-        if check.object and check.object not in objects:
-            hint = config.nearest(check.object, objects)
-            raise ConfigError([Problem(f"unknown object {check.object!r}", suggestion=hint)])
-    return checks
-
-
-def judge(plant: Plant, data: Sequence[Mapping[str, Any]]) -> Verdict:
-    """Compare the world as it is with what should be. Raises ConfigError as `read` does."""
-    wrong = [_wrong(plant, check) for check in read(data, plant.world)]
+def judge(plant: Plant, checks: Iterable[Check]) -> Verdict:
+    """Compare the world as it is with what should be. Raises ConfigError for an unknown place."""
+    wrong = [_wrong(plant, check) for check in checks]
     X_WB = plant.oracle.X_WB()
     tilt_rad = math.acos(max(-1.0, min(1.0, float(X_WB.rotation()[2, 2]))))
     low_m = STANDING_SHARE * plant.robot.walking.base_height_m
@@ -110,7 +60,7 @@ def _not_on(plant: Plant, name: str, place_id: str, X_WO: SE3) -> str:
     return f"the {name} lies on its side" if tilt_rad > OBJECT_TILT_RAD else ""
 
 
-def _hands(plant: Plant) -> list[Any]:
+def _hands(plant: Plant) -> list[Hand]:
     return list(plant.robot.hands.values())
 
 

@@ -10,6 +10,7 @@ from robot.bus.timing import Lateness
 from robot.clock import Clock
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.errors import ConfigError
+from robot.reality.faults import FAULT
 from sim import faults
 from sim.plant import Plant
 from sim.sensors import developed
@@ -20,7 +21,6 @@ PATIENCE_S = 0.010  # wall time that one period waits for the controller
 CATCH_UP_S = 0.050  # further behind the wall clock than this, simulated time just runs late
 POLL_S = 0.0001
 TIMING_S = 1.0
-FAULT: topics.Topic[faults.Fault] = topics.Topic("sim/fault", faults.Fault, None, "executive")
 
 
 class LivePlant:

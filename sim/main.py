@@ -10,20 +10,17 @@ from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
-from sim import world
 from sim.live import LivePlant
-from sim.plant import Plant
+from sim.reality import Simulation
 
 
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     config, stop = run.load(run_file), Stop()
-    loaded = world.load(config.world)
-    if config.variation_seed is not None:
-        loaded = world.variation(loaded, config.variation_seed)
+    world = Simulation().world(config.world, vary_seed=config.variation_seed)
     robot = description.load(config.robot)
-    plant = Plant(loaded, robot, seed=config.seed)
+    plant = world.plant(robot, seed=config.seed)
     with ZenohBus("plant", config.sockets) as bus, PlantServer(robot, config.memory) as body:
         ask_for_real_time()
         LivePlant(plant, body, bus, clock=WallClock()).run(lambda: bool(stop))

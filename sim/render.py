@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import struct
 import zlib
 from pathlib import Path
@@ -120,6 +119,19 @@ def snapshot(
         save_png(path, renderer.image(plant.data, view or overview(plant.world)))
 
 
+def show(plant: Plant) -> None:
+    """Open MuJoCo's own viewer, until it is closed.
+
+    Raises:
+        ConfigError: if a library that it needs is not installed.
+    """
+    try:
+        from mujoco.viewer import launch  # pyright: ignore[reportMissingTypeStubs]
+    except ImportError as error:
+        raise ConfigError(f"there is no viewer: {error}") from error
+    launch(plant.model, plant.data)
+
+
 def save_png(path: Path | str, image: Image) -> None:
     """Write an image, shape (height, width, 3), as PNG (ISO/IEC 15948)."""
     height, width, _ = image.shape
@@ -143,7 +155,9 @@ def save_png(path: Path | str, image: Image) -> None:
 def _context(width: int, height: int) -> Any:
     """An EGL context of MuJoCo's own wrapper, or an error that says what to install."""
     try:
-        return importlib.import_module("mujoco.egl").GLContext(width, height)
+        from mujoco.egl import GLContext  # pyright: ignore[reportMissingTypeStubs]
+
+        return GLContext(width, height)
     except Exception as error:  # PyOpenGL fails in many ways where EGL is missing
         cure = f"apt install {PACKAGES}"
         problem = Problem(f"rendering needs EGL, which is not here: {error}", suggestion=cure)

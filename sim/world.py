@@ -7,13 +7,8 @@ from pathlib import Path
 
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
-from sim import atlas, checks
-from sim.placing import nudged, variation
+from sim import checks
 from sim.schema import Room, World
-
-__all__ = ["World", "available", "empty", "load", "nudged", "variation", "world_map"]
-
-world_map = atlas.world_map
 
 
 def available() -> list[str]:

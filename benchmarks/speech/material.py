@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from executive.meaning.knowledge import Knowledge
 from intents.speech.audio import RATE_HZ, Resampler, Samples
 from intents.vocabulary import Vocabulary
-from robot.bringup import entry
+from sim.reality import Simulation
 
 HERE = Path(__file__).resolve().parent
 HOME = HERE.parent / "intents" / "own.vocab.json"
@@ -76,7 +76,9 @@ def takes(name: str, voice: str, share: int) -> list[Take]:
 
 def vocabularies() -> dict[str, Vocabulary]:
     """The worlds that the sentences speak of: two that are shipped, and a made-up home."""
-    shipped = {name: Knowledge(entry.world_map(name)).vocabulary() for name in ("kitchen", "bench")}
+    shipped = {
+        name: Knowledge(Simulation().world(name).map).vocabulary() for name in ("kitchen", "bench")
+    }
     return {**shipped, "home": Vocabulary.from_json(HOME.read_bytes())}
 
 

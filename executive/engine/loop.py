@@ -6,13 +6,14 @@ import signal
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 from executive.engine.executive import RATE_HZ, Executive
 from robot.clock import Clock, Waker
 from robot.errors import Failure
 from robot.link import BodyLink
 from robot.messages import Damp, LoopTiming
+from robot.reality.faults import Fault
 
 PERIOD_S = 1.0 / RATE_HZ
 STANDING_S = 0.1
@@ -40,7 +41,7 @@ class Runtime(Protocol):
         """Why the run cannot go on, None while it can."""
         ...
 
-    def inject(self, fault: Mapping[str, Any]) -> None:
+    def inject(self, fault: Fault) -> None:
         """Let a fault happen (`executive.runs.faults`); raises ConfigError where that cannot be."""
         ...
 

@@ -5,9 +5,7 @@ A case is a short mission, the faults that strike in it, and the outcome that is
 
 from __future__ import annotations
 
-import functools
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +17,10 @@ from executive.missions.load import find
 from executive.runs import mission_task
 from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
-from robot.bringup import entry
 from robot.errors import CATALOGUE, ConfigError, Problem
+from robot.reality import truth
+from robot.reality.contract import Reality
 
-READ_CHECKS = "sim.judge:read"
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
 
@@ -88,7 +86,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
         return f"{self.case.name}/{self.seed}" + ("" if self.recovery else "/no-recovery")
 
 
-def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
+def load(path: Path | str, reality: Reality, *, robot: str = "juno") -> tuple[Case, ...]:
     """Read a campaign, and check every word of it before anything is run.
 
     Raises:
@@ -96,11 +94,11 @@ def load(path: Path | str, *, robot: str = "juno") -> tuple[Case, ...]:
     """
     node = yaml_nodes.read(path)
     cases = config.convert(node, Campaign).cases
-    setting = settings(robot)
+    settings = Settings(reality, robot)
     problems = [
         config.place(node, f"$.cases[{index}]").problem(f"{case.name}: {text}")
         for index, case in enumerate(cases)
-        for text in problems_of(case, setting)
+        for text in problems_of(case, settings)
     ]
     names = [case.name for case in cases]
     problems += [
@@ -119,17 +117,27 @@ class Meant(msgspec.Struct, frozen=True, kw_only=True):
     where: request.Setting
 
 
-def settings(robot: str) -> Callable[[str], request.Setting]:
-    """Worlds by name, each read once, with a robot in them."""
+class Settings:
+    """Worlds by name, each read once, with a robot in them.
 
-    @functools.cache
-    def setting(world: str) -> request.Setting:
-        return request.setting(world, robot)
+    Attributes:
+        reality: that the worlds are of.
+    """
 
-    return setting
+    def __init__(self, reality: Reality, robot: str) -> None:
+        """Read nothing yet."""
+        self.reality = reality
+        self._robot = robot
+        self._known: dict[str, request.Setting] = {}
+
+    def of(self, world: str) -> request.Setting:
+        """The robot in a world, by name or path. Raises ConfigError as `request.setting` does."""
+        if world not in self._known:
+            self._known[world] = request.setting(self.reality, world, robot=self._robot)
+        return self._known[world]
 
 
-def meant(case: Case, setting: Callable[[str], request.Setting]) -> Meant:
+def meant(case: Case, settings: Settings) -> Meant:
     """Understand a case's mission: a sentence, or a mission file, which brings its own world.
 
     Raises:
@@ -137,17 +145,17 @@ def meant(case: Case, setting: Callable[[str], request.Setting]) -> Meant:
     """
     if case.mission.endswith((".yaml", ".yml")):
         options = check.Options(samples=True)
-        checked = check.check(find(case.mission), options)
+        checked = check.check(find(case.mission), settings.reality, options)
         made = mission_task.assignment(checked, options, path=case.mission)
         return Meant(assignment=made, where=checked.where)
-    where = setting(case.world)
+    where = settings.of(case.world)
     understood = request.request(case.mission, where)
     if isinstance(understood, request.Refused):
         raise ConfigError(f"{case.mission!r}: {understood.reason}")
     return Meant(assignment=Assignment(understood=understood), where=where)
 
 
-def problems_of(case: Case, setting: Callable[[str], request.Setting]) -> list[str]:
+def problems_of(case: Case, settings: Settings) -> list[str]:
     """Everything wrong with a case that can be found without running it."""
     found = [
         f"unknown failure code {code!r}; {config.nearest(code, list(CATALOGUE))}"
@@ -159,8 +167,8 @@ def problems_of(case: Case, setting: Callable[[str], request.Setting]) -> list[s
     if not 0.0 < case.limit_s < math.inf:
         found.append("limit_s is a time above 0")
     try:
-        given = meant(case, setting)
-        entry.attribute(READ_CHECKS)(case.truth, given.where.world)
+        given = meant(case, settings)
+        truth.read(case.truth, given.where.world_map)
         for data in case.faults:
             fault_plans.verify(
                 fault_plans.plan(data).fault, given.where.world, given.where.description

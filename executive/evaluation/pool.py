@@ -14,9 +14,10 @@ from executive.evaluation.record import Record
 from executive.evaluation.single import perform
 from robot.bus.lifeline import tie_to_parent
 from robot.errors import ConfigError
+from robot.reality.contract import Reality
 
 
-def in_processes(runs: Sequence[Run], *, processes: int) -> Iterator[Record]:
+def in_processes(runs: Sequence[Run], reality: Reality, *, processes: int) -> Iterator[Record]:
     """Records as they come, from worker processes of this machine.
 
     A worker that dies (out of memory, for example) costs the runs that were under way; they have
@@ -31,7 +32,7 @@ def in_processes(runs: Sequence[Run], *, processes: int) -> Iterator[Record]:
         initializer=tie_to_parent,
         initargs=(os.getpid(),),
     ) as pool:
-        waiting: set[Future[Record]] = {pool.submit(perform, run) for run in runs}
+        waiting: set[Future[Record]] = {pool.submit(perform, run, reality) for run in runs}
         try:
             while waiting:
                 over, waiting = wait(waiting, return_when=FIRST_COMPLETED)
@@ -42,11 +43,14 @@ def in_processes(runs: Sequence[Run], *, processes: int) -> Iterator[Record]:
             raise
 
 
-def on_ray(runs: Sequence[Run], *, address: str | None = None) -> Iterator[Record]:
+def on_ray(
+    runs: Sequence[Run], reality: Reality, *, address: str | None = None
+) -> Iterator[Record]:
     """Records as they come, from a Ray cluster, one run a CPU.
 
     Args:
         runs: what to do; every machine has this package installed.
+        reality: to do it in.
         address: of the cluster; None starts or finds a local one.
 
     Raises:
@@ -62,7 +66,7 @@ def on_ray(runs: Sequence[Run], *, address: str | None = None) -> Iterator[Recor
         ray.init(address=address, include_dashboard=False, log_to_driver=False)
     try:
         remote = ray.remote(num_cpus=1, max_retries=2)(perform)
-        waiting = [remote.remote(run) for run in runs]
+        waiting = [remote.remote(run, reality) for run in runs]
         while waiting:
             over, waiting = ray.wait(waiting, num_returns=1)
             yield from ray.get(over)

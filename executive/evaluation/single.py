@@ -5,36 +5,35 @@ from __future__ import annotations
 import tempfile
 import time
 import traceback
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from executive.evaluation.campaign import Run, meant, settings
+from executive.evaluation.campaign import Run, Settings, meant
 from executive.evaluation.record import Record
 from executive.journal import journal
 from executive.missions import fault_plans
 from executive.runs import runtimes
 from executive.runs.again import continuation
-from executive.runs.runtimes import Setup
+from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
-from robot.bringup import entry
 from robot.errors import Failure, failure
+from robot.reality import truth
+from robot.reality.contract import Plant, Reality
 
-NUDGED, JUDGE = "sim.world:nudged", "sim.judge:judge"
 SETTLE_S = 2.0
 """Let pass before the judge looks: a robot that falls has to hit the floor."""
 RESTART_S = 3.0
 """How long an executive that was killed is away before the next one goes on."""
 
 
-def perform(run: Run) -> Record:
+def perform(run: Run, reality: Reality) -> Record:
     """Do a run to its end, whatever that is; never raises."""
     begin_s = time.perf_counter()
     try:
         with tempfile.TemporaryDirectory(prefix="humanoid-eval-") as folder:
-            record = _Trial(run, Path(folder)).carry_out()
+            record = _Trial(run, reality, Path(folder)).carry_out()
     except Exception as error:  # a run that breaks is a result as well
         text = traceback.format_exception_only(error)[-1].strip()
         record = Record(
@@ -47,11 +46,11 @@ def perform(run: Run) -> Record:
 class _Trial:
     """A robot in its world, an executive that may die, and a judge."""
 
-    def __init__(self, run: Run, folder: Path) -> None:
+    def __init__(self, run: Run, reality: Reality, folder: Path) -> None:
         self.run, self.folder = run, folder
         case, seed = run.case, run.seed
-        given = meant(case, settings(run.robot))
-        world = entry.attribute(NUDGED)(given.where.world, seed, start=case.start)
+        given = meant(case, Settings(reality, run.robot))
+        world = given.where.world.nudged(seed, start=case.start)
         self.given = given
         self.where = msgspec.structs.replace(given.where, world=world)
         self.codes: list[str] = []
@@ -64,18 +63,21 @@ class _Trial:
         setup = Setup(where=self.where, seed=run.seed, folder=self.folder)
         planned = tuple(fault_plans.plan(data) for data in run.case.faults)
         with (
-            runtimes.opened(setup) as robot,
+            runtimes.fast(setup) as (runtime, planner),
             Session(
-                setup, robot, faults=(*self.given.assignment.faults, *planned), kill=self._kill
+                setup,
+                Opened(runtime, planner),
+                faults=(*self.given.assignment.faults, *planned),
+                kill=self._kill,
             ) as session,
         ):
             session.journal.listen(lambda event: self._note(event.event, event.data))
             session.on_tick(lambda: self._help(session))
             reason = self._work(session)
             took_s = session.now_s
-            robot.runtime.advance(SETTLE_S)
+            runtime.advance(SETTLE_S)
             struck = len(session.faults.struck)
-            return self._record(robot.runtime, reason, took_s=took_s, struck=struck)
+            return self._record(runtime.plant, reason, took_s=took_s, struck=struck)
 
     def _work(self, session: Session) -> Failure | None:
         """Executives one after the other until one of them comes to an end."""
@@ -115,11 +117,11 @@ class _Trial:
         self.recoveries += event in ("recovery", "hold")
 
     def _record(
-        self, runtime: Any, reason: Failure | None, *, took_s: float, struck: int
+        self, plant: Plant, reason: Failure | None, *, took_s: float, struck: int
     ) -> Record:
         """Judge by the simulator's truth."""
         run, case = self.run, self.run.case
-        verdict = entry.attribute(JUDGE)(runtime.plant, case.truth)
+        verdict = plant.judge(truth.read(case.truth, self.where.world_map))
         safe = verdict.upright or (case.damped and verdict.damped)
         code, cause = (reason.code, reason.cause) if reason else ("done", "")
         wrong = verdict.wrong if code == "done" else ()
@@ -140,6 +142,3 @@ class _Trial:
             struck=struck,
             source=verdict.source,
         )
-
-
-Perform = Callable[[Run], Record]

@@ -19,6 +19,7 @@ from executive.frontends.exit import echo_json
 from executive.frontends.launching import under_way
 from executive.frontends.options import Seeded, Shown, Voiced
 from executive.frontends.progress import Lines, LiveTree, Silent
+from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.meaning.request import Setting
 from executive.runs import runtimes, task_run
@@ -87,7 +88,7 @@ def _begun(handle: Handle | None) -> Prepared | None:
     there = under_way(handle)
     if there is None:
         return None
-    where = request.setting(there.world, there.robot, vary_seed=there.variation_seed)
+    where = request.setting(REALITY, there.world, robot=there.robot, vary_seed=there.variation_seed)
     left = left_in(Path(there.folder))
     assignment = left.newest(where)
     if assignment is None:

@@ -12,7 +12,7 @@ import typer
 from executive.frontends import streams
 from executive.frontends.dump import cli as dumps
 from executive.frontends.exit import ended_by
-from executive.frontends.launching import launch
+from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
 from executive.frontends.missions import cli as missions
 from executive.frontends.options import (
@@ -84,8 +84,11 @@ def do(options: Do) -> None:
 
     Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
     """
-    front = "executive.frontends.do:in_executive"
-    raise typer.Exit(launch(front, options, fast=options.fast, as_json=options.as_json))
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.DO, options, as_json=options.as_json))
+    from executive.frontends.do import in_executive
+
+    raise typer.Exit(here(in_executive, options))
 
 
 @app.command()
@@ -103,8 +106,11 @@ def repl(options: Prompt) -> None:
 
     `help` at the prompt shows the commands. Ctrl-C stops the robot, Ctrl-D leaves.
     """
-    front = "executive.frontends.prompt.cli:in_executive"
-    raise typer.Exit(launch(front, options, fast=options.fast))
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.PROMPT, options))
+    from executive.frontends.prompt.cli import in_executive
+
+    raise typer.Exit(here(in_executive, options))
 
 
 @app.command()
@@ -193,10 +199,10 @@ def doctor(*, robot: Robot = "juno", as_json: AsJson = False) -> None:
 @app.command()
 def worlds() -> None:
     """List the shipped worlds with what is in them."""
-    from robot.bringup import entry
+    from executive.frontends.reality import REALITY
 
-    for name in entry.attribute("sim.world:available")():
-        world_map = entry.world_map(name)
+    for name in REALITY.names():
+        world_map = REALITY.world(name).map
         objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
         places = ", ".join(place.name for place in world_map.places)
         typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")

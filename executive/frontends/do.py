@@ -13,6 +13,7 @@ from executive.frontends.exit import refuse
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import folder_for, overseen
 from executive.frontends.options import Do
+from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs.task_run import Assignment
 from intents.outcomes import Question
@@ -29,7 +30,9 @@ def do(options: Do, handle: Handle | None = None) -> int:
     options = replace(options, voice=aloud)
 
     def prepare() -> Prepared | int:
-        where = request.setting(options.world, options.robot, vary_seed=options.vary_seed)
+        where = request.setting(
+            REALITY, options.world, robot=options.robot, vary_seed=options.vary_seed
+        )
         understood = _understood(options, where)
         if isinstance(understood, request.Refused):
             return refuse(understood, as_json=options.as_json)

@@ -119,12 +119,12 @@ def _robot(name: str) -> Finding:
 
 
 def _worlds() -> Finding:
-    from robot.bringup import entry
+    from executive.frontends.reality import REALITY
 
     try:
-        names = entry.attribute("sim.world:available")()
+        names = REALITY.names()
         for name in names:
-            entry.world(name)
+            REALITY.world(name)
     except RobotError as error:
         return Finding(
             name="worlds", verdict="missing", text=str(error), cure="install the package again"

@@ -15,6 +15,7 @@ from executive.evaluation import campaign, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import Record, Results, fingerprint
 from executive.frontends.options import Eval
+from executive.frontends.reality import REALITY
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -68,23 +69,23 @@ def chosen(options: Eval) -> tuple[Case, ...]:
     shipped: dict[str, Case] | None = None
     for word in options.cases:
         if word.endswith((".yaml", ".yml")):
-            cases += campaign.load(word, robot=options.robot)
+            cases += campaign.load(word, REALITY, robot=options.robot)
             continue
         if shipped is None:
-            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED)}
+            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED, REALITY)}
         if word not in shipped:
             hint = nearest(word, list(shipped))
             raise ConfigError([Problem(f"unknown fault {word!r}", suggestion=hint)])
         cases.append(shipped[word])
     if not options.missions:
-        return tuple(cases) or campaign.load(campaign.SHIPPED, robot=options.robot)
+        return tuple(cases) or campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)
     every: list[Case | None] = [*cases] or [None]
     own = [_own(mission, case, options) for mission in options.missions for case in every]
-    setting = campaign.settings(options.robot)
+    settings = campaign.Settings(REALITY, options.robot)
     problems = [
         Problem(f"{case.name}: {text}")
         for case in own
-        for text in campaign.problems_of(case, setting)
+        for text in campaign.problems_of(case, settings)
     ]
     if problems:
         raise ConfigError(problems)
@@ -110,7 +111,9 @@ def _own(mission: str, fault: Case | None, options: Eval) -> Case:
 def _go_through(results: Results, runs: list[Run], options: Eval, console: Console) -> None:
     """Do the runs that are left, keeping each record as it comes."""
     work = (
-        pool.on_ray(runs) if options.ray else pool.in_processes(runs, processes=options.processes)
+        pool.on_ray(runs, REALITY)
+        if options.ray
+        else pool.in_processes(runs, REALITY, processes=options.processes)
     )
     done = len(results.records)
     columns = (

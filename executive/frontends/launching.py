@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import datetime
+from enum import StrEnum
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -16,31 +17,48 @@ import msgspec
 import typer
 
 from executive.frontends.exit import last_words
-from robot.bringup import entry, launcher
+from robot.bringup import launcher
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
 
 T = TypeVar("T")
 
-Overseen = Callable[[Handle, dict[str, Any]], int]
+Overseen = Callable[[Handle | None, dict[str, Any]], int]
+"""A front end as a process calls it: with a handle on the robot's, if any, and plain options."""
 
 
-def launch(front: str, options: object, *, fast: bool = False, as_json: bool = False) -> int:
-    """Run a front end; returns the exit status.
+class FrontEnd(StrEnum):
+    """What an executive can be there for; `executive.main` has the function of each."""
+
+    DO = "do"
+    LISTEN = "listen"
+    MISSION = "mission"
+    PROMPT = "prompt"
+    RESUME = "resume"
+
+
+def here(front: Overseen, options: object) -> int:
+    """Run a front end in this process, in `fast`; returns the exit status.
 
     Args:
-        front: `module:name` of what `overseen` made.
+        front: what `overseen` made.
         options: of the front end, a struct or a dataclass.
-        fast: without an executive's process.
-        as_json: nothing but JSON goes to standard output.
 
     Raises:
-        RobotError: as the front end does, in `fast`.
+        RobotError: as the front end does.
+    """
+    return front(None, msgspec.to_builtins(options, enc_hook=str))
+
+
+def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
+    """Run a front end in an executive of its own; returns the exit status.
+
+    Args:
+        front: which one.
+        options: of the front end, a struct or a dataclass.
+        as_json: nothing but JSON goes to standard output.
     """
     plain = msgspec.to_builtins(options, enc_hook=str)
-    if fast:
-        run: Callable[[Handle | None, dict[str, Any]], int] = entry.attribute(front)
-        return run(None, plain)
     ended = launcher.launch(front, plain, tell=lambda line: typer.echo(line, err=True))
     if ended.reason:
         cure = "see `humanoid why`; `humanoid resume` goes on where it was"
@@ -48,9 +66,7 @@ def launch(front: str, options: object, *, fast: bool = False, as_json: bool = F
     return ended.status
 
 
-def overseen(
-    kind: type[T], front: Callable[[T, Handle | None], int]
-) -> Callable[[Handle | None, dict[str, Any]], int]:
+def overseen(kind: type[T], front: Callable[[T, Handle | None], int]) -> Overseen:
     """A front end as the executive's process calls it: with plain data for options."""
 
     def run(handle: Handle | None, plain: dict[str, Any]) -> int:

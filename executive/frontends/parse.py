@@ -10,6 +10,7 @@ import msgspec
 import typer
 
 from executive.frontends.language_model import language_model
+from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Context
 from intents.goals import to_builtins
@@ -17,7 +18,6 @@ from intents.outcomes import Goals, Outcome, Question, to_record
 from intents.parser import hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
-from robot.bringup import entry
 from robot.errors import ConfigError, Problem
 
 
@@ -57,7 +57,7 @@ def parse_all(
 def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
     """The names of a world, and what is there; a file of names does not say what is there."""
     if file is None:
-        knowledge = Knowledge(entry.world_map(world))
+        knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
     try:
         return Vocabulary.from_json(file.read_bytes()), Context()

@@ -7,13 +7,9 @@ from pathlib import Path
 
 import typer
 
+from executive.frontends.reality import REALITY
 from executive.meaning.request import setting
-from robot.bringup import entry
 from robot.errors import ConfigError, Problem
-
-PLANT = "sim.plant:Plant"
-SNAPSHOT = "sim.render:snapshot"
-VIEWER = "mujoco.viewer:launch"
 
 
 def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
@@ -25,13 +21,13 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     if snapshot is None and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         cure = "make a picture instead: humanoid view --snapshot out.png"
         raise ConfigError([Problem("there is no display", suggestion=cure)])
-    where = setting(world, robot)
-    plant = entry.attribute(PLANT)(where.world, where.description, seed=seed)
+    where = setting(REALITY, world, robot=robot)
+    plant = where.world.plant(where.description, seed=seed)
     if snapshot is None:
-        entry.attribute(VIEWER)(plant.model, plant.data)
+        plant.show()
         return 0
     try:
-        entry.attribute(SNAPSHOT)(plant, snapshot)
+        plant.save_picture(snapshot)
     except OSError as error:
         cure = "choose another file"
         raise ConfigError([Problem(str(error), suggestion=cure)]) from None

@@ -8,6 +8,7 @@ from rich.console import Console
 from executive.engine.loop import Interrupts
 from executive.frontends.exit import echo_json, refuse
 from executive.frontends.options import Walk
+from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.meaning import request
 from executive.runs import runtimes, velocity_walk
@@ -25,7 +26,7 @@ def walk(options: Walk) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    where = request.setting(options.world, options.robot)
+    where = request.setting(REALITY, options.world, robot=options.robot)
     command = VelocityCommand(
         forward_m_s=options.speed,
         left_m_s=options.left,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import msgspec
 
@@ -20,12 +19,12 @@ from intents.outcomes import YES_OR_NO, Goals, Question, Refusal
 from intents.parser import Fallback
 from intents.state import RobotState
 from intents.wording import in_words
-from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import WorldMap
 from robot.model import description
 from robot.model.body import BodyModel
 from robot.model.description import RobotDescription
+from robot.reality.contract import Reality, World
 
 MAX_QUESTIONS = 3
 EXAMPLE = 'for example: humanoid do "pick up the red cup and put it on the shelf"'
@@ -37,14 +36,17 @@ Ask = Callable[[Question], str | None]
 
 
 class Setting(msgspec.Struct, frozen=True, kw_only=True):
-    """A robot and its world, read and checked. `world` is opaque: the simulation's own."""
+    """A robot and its world, read and checked, and the reality that the world is of."""
 
-    world: Any
-    world_map: WorldMap
+    reality: Reality
+    world: World
     description: RobotDescription
-    world_name: str
     robot_name: str
-    vary_seed: int | None = None
+
+    @property
+    def world_map(self) -> WorldMap:
+        """The prior map."""
+        return self.world.map
 
     @property
     def knowledge(self) -> Knowledge:
@@ -75,7 +77,7 @@ class Understood(msgspec.Struct, frozen=True, kw_only=True):
     whereabouts: Whereabouts | None = None
 
 
-def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
+def setting(reality: Reality, world: str, *, robot: str, vary_seed: int | None = None) -> Setting:
     """Read a world and a robot, by name or path; with a seed, shuffle the world.
 
     Raises:
@@ -83,14 +85,11 @@ def setting(world: str, robot: str, *, vary_seed: int | None = None) -> Setting:
     """
     body = description.load(robot)
     BodyModel(body)  # the MJCF has what the description names, or this says what not
-    loaded = entry.world(world, variation_seed=vary_seed)
     return Setting(
-        world=loaded,
-        world_map=entry.attribute(entry.WORLD_MAP)(loaded),
+        reality=reality,
+        world=reality.world(world, vary_seed=vary_seed),
         description=body,
-        world_name=world,
         robot_name=robot,
-        vary_seed=vary_seed,
     )
 
 

@@ -21,6 +21,7 @@ from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.reality.contract import Reality
 from robot.yaml_nodes import Node, parse, text_node
 
 
@@ -66,8 +67,13 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     files: tuple[Path, ...]
 
 
-def check(path: Path, options: Options | None = None) -> Checked:
+def check(path: Path, reality: Reality, options: Options | None = None) -> Checked:
     """Check a mission file whole.
+
+    Args:
+        path: of the file.
+        reality: that its world is of.
+        options: what is said beside the file.
 
     Raises:
         ConfigError: with every mistake, each with file, line, column and cure.
@@ -76,7 +82,7 @@ def check(path: Path, options: Options | None = None) -> Checked:
     checked = None
     try:
         with _collector_at_rest():
-            checked = _check(path, options or Options(), problems)
+            checked = _check(path, reality, options or Options(), problems=problems)
     except Enough:
         pass
     except ConfigError as error:
@@ -105,11 +111,11 @@ def _merged(problems: Problems, error: ConfigError) -> list[Problem]:
     return [*problems.all, *(p for p in error.problems if str(p) not in found)]
 
 
-def _check(path: Path, options: Options, problems: Problems) -> Checked | None:
+def _check(path: Path, reality: Reality, options: Options, *, problems: Problems) -> Checked | None:
     mission = load(path, problems)
     if mission is None:
         return None
-    where = _setting(mission, options, problems)
+    where = _setting(mission, reality, options, problems=problems)
     if where is None:
         return None
     names = Names(where.knowledge)
@@ -132,12 +138,14 @@ def _check(path: Path, options: Options, problems: Problems) -> Checked | None:
     )
 
 
-def _setting(mission: Mission, options: Options, problems: Problems) -> Setting | None:
+def _setting(
+    mission: Mission, reality: Reality, options: Options, *, problems: Problems
+) -> Setting | None:
     world = options.world or mission.beside(mission.record.world)
     robot = options.robot or mission.beside(mission.record.robot)
     node = mission.node
     try:
-        return setting(world, robot, vary_seed=options.vary_seed)
+        return setting(reality, world, robot=robot, vary_seed=options.vary_seed)
     except ConfigError as error:
         at = node.get("world") or node.get("robot") or node
         for problem in error.problems:

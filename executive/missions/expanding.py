@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from executive.missions.check import Options, check
+from executive.missions.check import check
 from executive.missions.compiling import Compiler
 from executive.missions.load import Mission
 from executive.missions.names import Names
@@ -13,16 +13,17 @@ from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import ForEachStep
 from executive.missions.values import Bound, Scope
+from robot.reality.contract import Reality
 from robot.yaml_nodes import Node, text_node
 
 
-def expanded(path: Path, options: Options) -> dict[str, Any]:
+def expanded(path: Path, reality: Reality) -> dict[str, Any]:
     """A mission file's name, steps, always, expect and limits, all filled in and written out.
 
     Raises:
         ConfigError: with everything that is wrong in the file.
     """
-    checked = check(path, options)
+    checked = check(path, reality)
     compiler = Compiler(Names(checked.where.knowledge), checked.where.description, Problems())
     return _Expander(compiler).mission(checked.mission, dict(checked.values))
 

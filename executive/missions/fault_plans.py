@@ -6,7 +6,7 @@ A plan is one flat entry of a list: the keys of its trigger and the fault with i
     -{step: "go to*", after_s: 1.5, fault: stand_in_way, target: anna, duration_s: 6}
     -{at_s: 5, times: 2, fault: silence, topic: lidar, duration_s: 3}
 
-Most faults happen to the simulated world (`sim.faults`), some to this software (`OWN`). In an
+Most faults happen to the world (`robot.reality.faults`), some to this software (`OWN`). In an
 evaluation a number may be drawn for each seed: ``towards_deg: {uniform: [-180, 180]}``.
 """
 
@@ -18,11 +18,11 @@ from typing import Any, cast
 import msgspec
 import numpy as np
 
-from robot.bringup import entry
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
-
-PARSE, VERIFY, KINDS = "sim.faults:parse", "sim.faults:verify", "sim.faults:KINDS"
+from robot.model.description import RobotDescription
+from robot.reality import faults
+from robot.reality.contract import World
 
 OWN: dict[str, dict[str, type]] = {
     "fill_disk": {"duration_s": float},
@@ -57,7 +57,7 @@ class FaultPlan(msgspec.Struct, frozen=True, kw_only=True):
 
 def names() -> list[str]:
     """Every fault there is."""
-    return sorted([*entry.attribute(KINDS), *OWN])
+    return sorted([*faults.KINDS, *OWN])
 
 
 def plan(data: Mapping[str, Any]) -> FaultPlan:
@@ -80,10 +80,10 @@ def plan(data: Mapping[str, Any]) -> FaultPlan:
     return made
 
 
-def verify(fault: Mapping[str, Any], world: Any, robot: Any) -> None:
+def verify(fault: Mapping[str, Any], world: World, robot: RobotDescription) -> None:
     """Check that what a fault names is there. Raises ConfigError with the nearest name."""
     if fault.get("fault") not in OWN:
-        entry.attribute(VERIFY)(drawn(dict(fault), np.random.default_rng(0)), world, robot)
+        world.verify(faults.parse(drawn(dict(fault), np.random.default_rng(0))), robot)
 
 
 def in_words(text: str) -> dict[str, Any]:
@@ -112,10 +112,10 @@ def _parse(fault: dict[str, Any]) -> None:
     """Check a fault. Raises ConfigError."""
     name = str(fault.get("fault", ""))
     if name not in OWN:
-        if name not in entry.attribute(KINDS):
+        if name not in faults.KINDS:
             hint = nearest(name, names())
             raise ConfigError([Problem(f"unknown fault {name!r}", suggestion=hint)])
-        entry.attribute(PARSE)(fault)
+        faults.parse(fault)
         return
     for key, value in fault.items():
         kind = OWN[name].get(key)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 
 from executive.meaning.request import Setting
-from robot.bringup import entry
 from robot.errors import Failure
 from robot.messages import Place, Side
 from robot.planning.requests import (
@@ -21,7 +20,6 @@ from robot.planning.requests import (
 from robot.planning.solve import Solver
 from robot.se3 import SE3
 
-POSES = "sim.placing:object_poses"
 MAX_PLANS = 20
 """Picks and places that are planned, about a second each; later ones are taken to work."""
 
@@ -32,7 +30,8 @@ class Hands:
     def __init__(self, where: Setting) -> None:
         """Begin with empty hands, and the things where the world file puts them."""
         self._where = where
-        self._poses: dict[str, SE3] = dict(entry.attribute(POSES)(where.world))
+        begins = where.world.objects()
+        self._poses: dict[str, SE3] = {name: at.X_WO for name, at in begins.items()}
         self._shapes = {info.id: info.shape for info in where.world_map.objects}
         self._held: dict[str, tuple[Side, Held]] = {}
         self._plans = 0

@@ -33,7 +33,8 @@ class Rehearsal:
         """Begin as the world file has it."""
         self._where = where
         self._ways: dict[tuple[Stance, Stance, bool], float | Failure] = {}
-        self._on: dict[str, str] = {item.id: item.on for item in where.world.objects}
+        begins = where.world.objects()
+        self._on: dict[str, str] = {name: at.place_id for name, at in begins.items()}
         self._hands = Hands(where)
         self._stance = where.world_map.start_X_WS
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import os
 import signal
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -18,17 +18,17 @@ from executive.missions.fault_plans import FaultPlan, drawn
 from robot.errors import ConfigError, Failure, failure
 from robot.planning.requests import PlanRequest, PlanResult
 from robot.planning.worker import Planner
+from robot.reality.faults import Fault, parse
 
 PLANNER_BUDGET_S = 2.0
 
 FULL = "/dev/full"
 
 
-@runtime_checkable
 class Injects(Protocol):
     """A runtime that can suffer faults."""
 
-    def inject(self, fault: Mapping[str, Any]) -> None:
+    def inject(self, fault: Fault) -> None:
         """Make a fault happen now."""
         ...
 
@@ -100,7 +100,7 @@ class Injector:
             case "kill_executive":
                 self._kill()
             case _:
-                self._runtime.inject(fault)
+                self._runtime.inject(parse(fault))
 
     def close(self) -> None:
         """Undo what lasts; safe to call twice."""

@@ -132,11 +132,11 @@ def _checked(made_from: dict[str, Any], folder: Path, where: Setting) -> Checked
         path = Path(str(made_from["mission"]))
     options = Options(
         params=made_from.get("params", {}),
-        world=where.world_name,
+        world=where.world.name,
         robot=where.robot_name,
-        vary_seed=where.vary_seed,
+        vary_seed=where.world.vary_seed,
     )
-    checked = check(path, options)
+    checked = check(path, where.reality, options)
     if digest(checked) != made_from.get("digest"):
         cure = "put the file back as it was, or run the mission anew"
         raise ConfigError([Problem("the mission was changed since", str(path), suggestion=cure)])

@@ -7,12 +7,12 @@ import importlib.metadata
 import platform
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
 import executive
 from robot.model.description import RobotDescription
+from robot.reality.contract import World
 
 PACKAGES = ("executive", "intents", "robot", "sim")
 LIBRARIES = ("mujoco", "numpy", "ompl", "daqp", "py-trees")
@@ -34,11 +34,11 @@ class Origin(msgspec.Struct, frozen=True, kw_only=True):
     versions: dict[str, str]
 
 
-def of(world: Any, robot: RobotDescription) -> Origin:
+def of(world: World, robot: RobotDescription) -> Origin:
     """The origin of a run that starts now."""
     return Origin(
         software=software(),
-        world=_digest(msgspec.json.encode(world, enc_hook=repr)),
+        world=_digest(world.content()),
         robot=robot.digest().hex()[:16],
         versions=versions(),
     )

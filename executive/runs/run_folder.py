@@ -40,11 +40,11 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
     where = setup.where
     return Header(
         text=text,
-        world=where.world_name,
+        world=where.world.name,
         robot=where.robot_name,
         seed=setup.seed,
         runtime=setup.kind,
-        varied=where.vary_seed is not None,
+        varied=where.world.vary_seed is not None,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

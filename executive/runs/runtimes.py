@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Generator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import msgspec
 
@@ -17,6 +17,11 @@ from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
 from robot.bringup.mailbox import Handle
 from robot.planning.worker import Planner
+
+if TYPE_CHECKING:
+    from robot.bringup.fast import FastRuntime
+    from robot.bringup.live import LiveRuntime
+    from robot.planning.process import ProcessPlanner
 
 Kind = Literal["fast", "live"]
 
@@ -45,6 +50,25 @@ class Opened(NamedTuple):
 
 
 @contextmanager
+def fast(setup: Setup) -> Generator[tuple[FastRuntime, Planner]]:
+    """A `fast` runtime and its planner. Raises RobotError if a part cannot be built."""
+    from robot.bringup.fast import FastRuntime
+    from robot.planning.inline import InlinePlanner
+
+    where = setup.where
+    with FastRuntime(where.world, where.robot_name, seed=setup.seed) as runtime:
+        yield runtime, InlinePlanner(where.description)
+
+
+def live_parts() -> tuple[type[LiveRuntime], type[ProcessPlanner]]:
+    """What a `live` run is opened with; loading it takes a while, which a spare does beforehand."""
+    from robot.bringup.live import LiveRuntime
+    from robot.planning.process import ProcessPlanner
+
+    return LiveRuntime, ProcessPlanner
+
+
+@contextmanager
 def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
     """Start a runtime and a planner, and leave nothing behind.
 
@@ -57,25 +81,15 @@ def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
     """
     where = setup.where
     if setup.kind == "fast":
-        from robot.bringup.fast import FastRuntime
-        from robot.planning.inline import InlinePlanner
-
-        with FastRuntime(where.world, where.robot_name, seed=setup.seed) as runtime:
-            yield Opened(runtime, InlinePlanner(where.description))
+        with fast(setup) as (runtime, planner):
+            yield Opened(runtime, planner)
         return
-    from robot.bringup.live import LiveRuntime
-    from robot.planning.process import ProcessPlanner
-
+    runtime_type, planner_type = live_parts()
     with ExitStack() as stack:
         temporary = tempfile.TemporaryDirectory(prefix="humanoid-")
         logs = setup.folder or Path(stack.enter_context(temporary))
-        planner = stack.enter_context(ProcessPlanner(where.description))
-        runtime = LiveRuntime(
-            where.world_name,
-            where.robot_name,
-            folder=logs,
-            seed=setup.seed,
-            variation_seed=where.vary_seed,
-            handle=handle,
+        planner = stack.enter_context(planner_type(where.description))
+        live = runtime_type(
+            where.world, where.robot_name, folder=logs, seed=setup.seed, handle=handle
         )
-        yield Opened(stack.enter_context(runtime), planner)
+        yield Opened(stack.enter_context(live), planner)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from robot.bringup import entry
 from robot.bringup.lockstep import Lockstep
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
@@ -13,8 +10,8 @@ from robot.drivers.body_devices import BodyDevices
 from robot.drivers.wiring import Wiring
 from robot.model import description
 from robot.perception.node import PerceptionNode
+from robot.reality.contract import World
 
-PLANT = "sim.plant:Plant"
 PHYSICS_MS = 2  # the motors' firmware runs in the physics step, integrated implicitly; `live`: 1 ms
 
 
@@ -23,33 +20,30 @@ class FastRuntime(Lockstep):
 
     def __init__(
         self,
-        world: Any,
+        world: World,
         robot: str = "juno",
         *,
         seed: int = 0,
         bus: LocalBus | None = None,
-        plant: str = PLANT,
     ) -> None:
         """Build every part; nothing moves before `advance`.
 
         Args:
-            world: name or path of a world, or a world already loaded (and varied).
+            world: where it is.
             robot: name or path of a robot description.
             seed: of everything random.
             bus: to carry the messages; a new one by default.
-            plant: `module:class` of the plant.
 
         Raises:
-            ConfigError: if world, robot or plant cannot be used.
+            ConfigError: if the robot cannot be used.
         """
         bus = bus or LocalBus()
         body = description.load(robot)
-        loaded = entry.world(world) if isinstance(world, str) else world
-        made = entry.attribute(plant)(loaded, body, seed=seed, physics_ms=PHYSICS_MS)
+        plant = world.plant(body, seed=seed, physics_ms=PHYSICS_MS)
         clock = SimulatedClock()
-        wiring = Wiring(robot=body, clock=clock, bus=bus, plant=made)
+        wiring = Wiring(robot=body, clock=clock, bus=bus, plant=plant)
         super().__init__(
-            made,
+            plant,
             lambda: ControlLoop(body),
             PerceptionNode(wiring),
             body=BodyDevices(wiring, needs=NEEDS),

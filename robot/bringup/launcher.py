@@ -54,7 +54,7 @@ def launch(
     """Run a front end in an executive of its own, until that ends, or dies once too often.
 
     Args:
-        entry: `module:function` of the front end, called with a `Handle` and the options.
+        entry: name of the front end.
         options: plain data.
         tell: says a line to people.
         clock: the wall's; another one in tests.

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Protocol, Self
+from typing import Protocol, Self
 
 import msgspec
 
-from robot.bringup import entry, private_folder
+from robot.bringup import private_folder
 from robot.bringup.body_clock import BodyClock
 from robot.bringup.mailbox import RUN_FILE, Handle
 from robot.bringup.supervisor import Supervisor
@@ -25,10 +25,11 @@ from robot.errors import BusError, ConfigError, Failure, ProcessError, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
+from robot.reality.contract import World
+from robot.reality.faults import FAULT, Fault, Kill
 
 START_S = 20.0
 POLL_S = 0.005
-PARSE, FAULT = "sim.faults:parse", "sim.live:FAULT"
 MAX_LAG_S = 0.25
 
 
@@ -68,12 +69,11 @@ class LiveRuntime(Closing):
 
     def __init__(
         self,
-        world: str,
+        world: World,
         robot: str = "juno",
         *,
         folder: Path,
         seed: int = 0,
-        variation_seed: int | None = None,
         wall: Clock | None = None,
         simulated: bool = True,
         handle: Handle | None = None,
@@ -81,28 +81,26 @@ class LiveRuntime(Closing):
         """Check everything that can be checked before a process starts.
 
         Args:
-            world: name or path of a world.
+            world: where it is; the plant's process reads it again, by its name.
             robot: name or path of a robot description.
             folder: of this run; takes `logs/` and `timing.json`.
             seed: of the plant's noise.
-            variation_seed: shuffles start and objects.
             wall: the wall clock; another one in tests.
             simulated: whether reality is: without, no plant is started.
             handle: on the process above, where that one looks after the processes.
 
         Raises:
-            ConfigError: if world, robot or one of its drivers cannot be used.
+            ConfigError: if the robot or one of its drivers cannot be used.
         """
         registry.check(description.load(robot))
-        entry.world(world, variation_seed=variation_seed)
         self.timing: dict[str, LoopTiming] = {}
         self._plan = Run(
             folder=str(folder),
             sockets="",
             robot=robot,
-            world=world,
+            world=world.name,
             seed=seed,
-            variation_seed=variation_seed,
+            variation_seed=world.vary_seed,
             simulated=simulated,
         )
         self._handle = handle
@@ -193,21 +191,20 @@ class LiveRuntime(Closing):
         """Let `advance` return at once; from any thread, and from a signal handler."""
         self._waker.wake()
 
-    def inject(self, fault: Mapping[str, Any]) -> None:
-        """Make a fault (`sim.faults`, as plain data) happen now, in simulation only.
+    def inject(self, fault: Fault) -> None:
+        """Make a fault happen now, in simulation only.
 
         Names that the plant does not know are refused by the plant, later and silently here.
 
         Raises:
-            ConfigError: if there is no such fault, or there is no simulation.
+            ConfigError: if there is no simulation.
         """
         if not self.run.simulated:
             raise ConfigError("faults are injected in simulation only")
-        parsed = entry.attribute(PARSE)(fault)
-        if fault["fault"] == "kill":
-            os.kill(self.supervisor.pid(parsed.process), signal.SIGKILL)
+        if isinstance(fault, Kill):
+            os.kill(self.supervisor.pid(fault.process), signal.SIGKILL)
         else:
-            self._opened().publish(entry.attribute(FAULT), parsed)
+            self._opened().publish(FAULT, fault)
 
     def close(self) -> None:
         """Controller first (it damps the motors), then the rest; write `timing.json`."""

@@ -3,42 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack
-from typing import Any, Protocol, Self
+from typing import Protocol, Self
 
-from robot.bringup import entry
 from robot.bringup.processes import CONTROLLER
 from robot.bus import topics
 from robot.bus.bus import LocalBus
-from robot.bus.topics import Topic
 from robot.clock import SimulatedClock
 from robot.closing import Closing
 from robot.drivers.body_devices import BodyDevices
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.wiring import SimulatedPlant
 from robot.errors import ConfigError, DriverError, Failure, failure
 from robot.link import BusLink
-from robot.messages import BodyCommand, BodyState, Message
+from robot.messages import BodyCommand, BodyState
+from robot.reality.contract import Plant
+from robot.reality.faults import Fault, Kill
 
 CONTROL_PERIOD_MS = 2
 STATE_PERIOD_MS = 20
 TAKE_OVER_MS = 10
 """How long nobody commands the motors when the controller is killed, as in `live`."""
-PARSE, APPLY = "sim.faults:parse", "sim.faults:apply"
-
-
-class Plant(SimulatedPlant, Protocol):
-    """Reality's stand-in: `step` advances whole milliseconds, `sense` gives what is due."""
-
-    def step(self, count: int = 1) -> None:
-        """Advance; raises DriverError if the physics diverged."""
-        ...
-
-    def sense(self, now_s: float) -> Iterable[tuple[Topic[Any], Message]]:
-        """Topics and messages of the sensors that are due."""
-        ...
 
 
 class Controller(Protocol):
@@ -72,7 +58,7 @@ class Lockstep(Closing):
     state, then what the sensors have due, then perception if they had anything.
 
     Attributes:
-        plant: the plant; tests and benchmarks reach it, the product does not.
+        plant: the plant; tests, benchmarks and the judge reach it, the product does not.
         clock: the simulated clock.
         link: the executive's handle on the body.
         restarted: what was started again, in order, a sentence each.
@@ -93,7 +79,7 @@ class Lockstep(Closing):
         `body` is what the controller has of the plant; `clock` is moved on from here.
         """
         self.restarted: list[str] = []
-        self.plant: Any = plant
+        self.plant = plant
         self.clock = clock
         self.link = BusLink(bus, self.clock)
         self._bus = bus
@@ -103,7 +89,6 @@ class Lockstep(Closing):
         self._commands = bus.subscribe(topics.BODY_COMMAND)
         self._body = body
         self._opened = ExitStack()
-        self._plant = plant
         self._time_ms = 0
         self._failure: Failure | None = None
         self._lost = False
@@ -143,19 +128,15 @@ class Lockstep(Closing):
         self._time_ms = end_ms
         self.clock.set(end_ms / 1000.0)
 
-    def inject(self, fault: Mapping[str, Any]) -> None:
-        """Make a fault (`sim.faults`, as plain data) happen now.
-
-        Raises:
-            ConfigError: if there is no such fault, or it names what is not there.
-        """
-        parsed = entry.attribute(PARSE)(fault)
-        if fault["fault"] != "kill":
-            entry.attribute(APPLY)(self._plant, parsed)
-        elif parsed.process == "controller":
-            self._kill_controller()
-        else:
-            raise ConfigError(f"the {parsed.process} is no process of its own in a fast run")
+    def inject(self, fault: Fault) -> None:
+        """Make a fault happen now. Raises ConfigError if it names what is not there."""
+        match fault:
+            case Kill(process="controller"):
+                self._kill_controller()
+            case Kill():
+                raise ConfigError(f"the {fault.process} is no process of its own in a fast run")
+            case _:
+                self.plant.suffer(fault)
 
     def _kill_controller(self) -> None:
         """Another one takes over, unless that happened too often."""
@@ -170,7 +151,7 @@ class Lockstep(Closing):
 
     def _run_until(self, end_ms: int) -> None:
         commands, body = self._commands, self._body
-        step = self._plant.step
+        step = self.plant.step
         while self._time_ms < end_ms:
             if self._controller is None and self._time_ms >= self._back_ms:
                 self._controller = self._control()
@@ -189,7 +170,7 @@ class Lockstep(Closing):
         self.clock.set(now_s)
         if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
-        sensed = list(self._plant.sense(now_s))
+        sensed = list(self.plant.sense(now_s))
         for topic, message in sensed:
             self._bus.publish(topic, message)
         self._body.relay()

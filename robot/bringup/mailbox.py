@@ -25,10 +25,10 @@ FRONT_FILE, RUN_FILE, STATE_FILE = "front.json", "run.json", "state.json"
 
 
 class Front(msgspec.Struct, frozen=True, kw_only=True):
-    """What an executive is to do: `entry` is `module:function`, called with a `Handle` and options.
+    """What an executive is to do.
 
     Attributes:
-        entry: the front end; it returns an exit status.
+        entry: name of the front end, which `executive.main` knows.
         options: its own, as plain data.
         deaths: how often executives of this run have died: not 0 means to go on, not to begin.
     """

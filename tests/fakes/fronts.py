@@ -1,4 +1,4 @@
-"""Front ends for the launcher's tests: an executive that does as its options say.
+"""An executive for the launcher's tests, whose one front end does as its options say.
 
 It appends what happens to `folder/told`, a line each, and asks for a robot of stub processes.
 """
@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import time
 from pathlib import Path
 
+from executive.main import main
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
 
@@ -47,3 +49,7 @@ def front(handle: Handle, options: dict) -> int:
             os.kill(os.getpid(), signal.SIGKILL)
         time.sleep(0.01)
     return 9
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:], load=lambda _: front))

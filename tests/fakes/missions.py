@@ -1,23 +1,32 @@
-"""Robots and worlds are read once, where many missions are checked."""
+"""Missions in the simulation; robots and worlds are read once, where many missions are checked."""
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
+from pathlib import Path
 
 import pytest
 
-from executive.meaning.request import setting
-from executive.missions import check
+from executive.meaning.request import Setting, setting
+from executive.missions import check as checks
+from executive.missions.check import Checked, Options
+from sim.reality import Simulation
+
+SIMULATION = Simulation()
+known = cache(partial(setting, SIMULATION))
+"""A world and a robot, by name."""
 
 
-@cache
-def _known(world: str, robot: str, vary_seed: int | None):
-    return setting(world, robot, vary_seed=vary_seed)
+def check(path: Path, options: Options | None = None) -> Checked:
+    """Check a mission file."""
+    return checks.check(path, SIMULATION, options)
 
 
 @pytest.fixture(autouse=True)
 def known_settings(monkeypatch):
     """Import it into a test module to use it there."""
-    monkeypatch.setattr(
-        check, "setting", lambda world, robot, *, vary_seed=None: _known(world, robot, vary_seed)
-    )
+
+    def once(_reality, world, *, robot, vary_seed=None) -> Setting:
+        return known(world, robot=robot, vary_seed=vary_seed)
+
+    monkeypatch.setattr(checks, "setting", once)

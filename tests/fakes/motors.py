@@ -30,6 +30,7 @@ class FakePlant:
         self.commands: list[MotorCommand] = []
         self.due: list[tuple[Topic, object]] = []
         self.calls: list[str] = []
+        self.suffered: list[object] = []
         self.q = np.zeros(count)
         self._diverge_at_s = diverge_at_s
         self.sample = self.read()
@@ -76,6 +77,9 @@ class FakePlant:
             self.q = self.commands[-1].q_des.copy()
         if self.time_ms / 1000.0 >= self._diverge_at_s:
             raise DriverError("the simulated physics diverged")
+
+    def suffer(self, fault: object) -> None:
+        self.suffered.append(fault)
 
     def sense(self, now_s: float) -> list[tuple[Topic, object]]:
         self.calls.append("sense")

@@ -66,6 +66,36 @@ def puppet() -> SensingPuppet:
     return SensingPuppet(JUNO, things, world_map())
 
 
-WHERE = Setting(
-    world=None, world_map=world_map(), description=JUNO, world_name="test", robot_name="juno"
-)
+class MappedWorld:
+    """A world that is a map and nothing more: for what is meant, not for what is done."""
+
+    def __init__(self, name: str = "test") -> None:
+        self.name = name
+        self.vary_seed = None
+        self.map = world_map()
+
+    def content(self) -> bytes:
+        return b""
+
+
+class Mapped:
+    """A reality of such worlds, whatever is asked for."""
+
+    def names(self) -> list[str]:
+        return ["test"]
+
+    def world(self, name_or_path: str, *, vary_seed: int | None = None) -> MappedWorld:
+        return MappedWorld(name_or_path)
+
+
+def mapped(
+    _reality: object, world: str, *, robot: str = "juno", vary_seed: int | None = None
+) -> Setting:
+    """In place of `executive.meaning.request.setting`: such a world, whatever is asked for."""
+    reality = Mapped()
+    return Setting(
+        reality=reality, world=reality.world(world), description=load(robot), robot_name=robot
+    )
+
+
+WHERE = mapped(None, "test")

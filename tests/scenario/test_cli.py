@@ -23,7 +23,7 @@ from robot.planning.requests import BasePathRequest, PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.synthesiser import Synthesiser
 from tests.fakes.waiting import eventually
-from tests.fakes.worlds import puppet, world_map
+from tests.fakes.worlds import mapped, puppet
 
 
 @pytest.fixture
@@ -36,17 +36,8 @@ def runtime(monkeypatch):
         made.opened = setup.kind
         yield runtimes.Opened(made, made.planner)
 
-    def setting(world, robot, *, vary_seed=None):
-        return request.Setting(
-            world=None,
-            world_map=world_map(),
-            description=description.load(robot),
-            world_name=world,
-            robot_name=robot,
-        )
-
     monkeypatch.setattr(runtimes, "opened", opened)
-    monkeypatch.setattr(request, "setting", setting)
+    monkeypatch.setattr(request, "setting", mapped)
     made.opened = None
     return made
 

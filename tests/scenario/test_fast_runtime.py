@@ -9,6 +9,7 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.messages import Look, WalkTo
 from robot.se3 import SE3
+from sim.reality import Simulation
 from sim.sensors import developed
 
 
@@ -16,7 +17,7 @@ def run(seed: int, duration_s: float) -> bytes:
     """Everything that was said on the bus, as bytes."""
     bus, said = LocalBus(), []
     readers = [bus.subscribe(topic) for topic in topics.TOPICS]
-    with FastRuntime("kitchen", seed=seed, bus=bus) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=seed, bus=bus) as runtime:
         for tick in range(round(duration_s / 0.05)):
             if tick == 10:
                 command = WalkTo(
@@ -35,7 +36,7 @@ def test_the_same_seed_gives_the_same_run_byte_for_byte():
 
 
 def test_perception_believes_what_is_so_while_walking():
-    with FastRuntime("kitchen", seed=1) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=1) as runtime:
         link, plant = runtime.link, runtime.plant
         runtime.advance(0.5)
         cup = plant.oracle.X_WO("red_cup")

@@ -23,9 +23,9 @@ lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
 STUB = "tests.fakes.stub_process"
 three = (Process("plant", STUB, "simulation", death="plant_lost"),
          Process("controller", STUB, "always", death="controller_lost"))
-executive = replace(EXECUTIVE, spare_after_s=json.loads(sys.argv[2]))
-ended = launcher.launch("tests.fakes.fronts:front", json.loads(sys.argv[1]),
-                        tell=print, executive=executive, processes=three)
+executive = replace(EXECUTIVE, module="tests.fakes.fronts", spare_after_s=json.loads(sys.argv[2]))
+ended = launcher.launch("", json.loads(sys.argv[1]), tell=print,
+                        executive=executive, processes=three)
 print("ended", ended.status, ended.reason)
 sys.exit(ended.status)
 """
@@ -97,7 +97,8 @@ def test_the_executives_exit_status_is_the_shells(shell, status):
 def test_ctrl_c_while_the_executive_is_loading_is_heeded(shell):
     """Before there is a robot, and before anybody could listen."""
     job = shell(ends=False, robot=False)
-    assert eventually(lambda: any("executive.main" in words for words in job.left()))
+    loading = lambda: any("tests.fakes.fronts" in words for words in job.left())  # noqa: E731
+    assert eventually(loading)
     os.killpg(job.job.pid, signal.SIGINT)
     status, text = job.end()
     assert status == 1

@@ -19,6 +19,7 @@ from robot.drivers.simulation.shared_plant import SharedPlant
 from robot.errors import ConfigError
 from robot.messages import LoopTiming, WalkTo
 from robot.model import description
+from sim.reality import Simulation
 from tests.fakes.waiting import eventually
 
 pytestmark = pytest.mark.live
@@ -52,7 +53,7 @@ def kill(runtime: LiveRuntime, name: str) -> None:
 
 @pytest.fixture
 def live(tmp_path: Path):
-    with LiveRuntime("kitchen", folder=tmp_path / "run", seed=1) as runtime:
+    with LiveRuntime(Simulation().world("kitchen"), folder=tmp_path / "run", seed=1) as runtime:
         assert runtime.failure() is None, runtime.failure()
         pids = {name: runtime.supervisor.pid(name) for name in NAMES}
         yield runtime
@@ -156,7 +157,7 @@ def test_killed_perception_comes_again(live: LiveRuntime):
 def test_a_bad_world_or_robot_is_refused_before_anything_starts(tmp_path: Path):
     for world, robot in (("kitchn", "juno"), ("kitchen", "junno")):
         with pytest.raises(ConfigError, match=r"juno|kitchen"):
-            LiveRuntime(world, robot, folder=tmp_path)
+            LiveRuntime(Simulation().world(world), robot, folder=tmp_path)
     assert not list(tmp_path.iterdir())
 
 
@@ -164,7 +165,8 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from robot.bringup.live import LiveRuntime
-with LiveRuntime("kitchen", folder=Path(sys.argv[1])) as runtime:
+from sim.reality import Simulation
+with LiveRuntime(Simulation().world("kitchen"), folder=Path(sys.argv[1])) as runtime:
     names = ("plant", "controller", "perception")
     print(*(runtime.supervisor.pid(name) for name in names), runtime.run.sockets, flush=True)
     while True:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from executive.frontends.launching import launch
+from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.options import Listen, RecogniserName
 from executive.frontends.options import takes
 
@@ -31,5 +31,8 @@ def listen(options: Listen) -> None:
         from executive.frontends.listening import hearing
 
         raise typer.Exit(hearing.parse_only(options))
-    front = "executive.frontends.listening.obeying:in_executive"
-    raise typer.Exit(launch(front, options, fast=options.fast))
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.LISTEN, options))
+    from executive.frontends.listening.obeying import in_executive
+
+    raise typer.Exit(here(in_executive, options))

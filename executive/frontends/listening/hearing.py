@@ -12,6 +12,7 @@ import typer
 
 from executive.frontends.language_model import language_model
 from executive.frontends.listening.options import Listen, RecogniserName
+from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
 from intents.goals import to_builtins
@@ -23,7 +24,6 @@ from intents.speech.recogniser import Recogniser
 from intents.state import RobotState
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
-from robot.bringup import entry
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
@@ -132,7 +132,7 @@ def parse_only(options: Listen) -> int:
     Raises:
         RobotError: there is nothing to listen with (ConfigError).
     """
-    knowledge = Knowledge(entry.world_map(options.world))
+    knowledge = Knowledge(REALITY.world(options.world).map)
     vocabulary = knowledge.vocabulary()
     state = RobotState(entities=knowledge.entities())
     dialogue = Dialogue(vocabulary, confirm=False, fallback=language_model(options.model))

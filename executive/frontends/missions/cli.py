@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from executive.frontends.launching import launch
+from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.missions.options import Check, File, Plan, Run
 from executive.frontends.options import takes
 
@@ -69,8 +69,11 @@ def run(options: Run) -> None:
 
       humanoid mission run tidy.yaml --from 3 --param place=shelf --seed 7
     """
-    front = "executive.frontends.missions.run:in_executive"
-    raise typer.Exit(launch(front, options, fast=options.fast, as_json=options.as_json))
+    if not options.fast:
+        raise typer.Exit(launch(FrontEnd.MISSION, options, as_json=options.as_json))
+    from executive.frontends.missions.run import in_executive
+
+    raise typer.Exit(here(in_executive, options))
 
 
 @app.command(name="list")

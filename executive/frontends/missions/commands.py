@@ -10,6 +10,7 @@ import typer
 
 from executive.frontends.exit import echo_json
 from executive.frontends.missions.options import Beside
+from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
 from executive.missions.check import Options, check
@@ -53,7 +54,7 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
         path = load.find(name)
         record: dict[str, Any] = {"file": str(path), "problems": []}
         try:
-            checked = check(path, options)
+            checked = check(path, REALITY, options)
             record["steps"] = sum(1 for _ in errands(checked.task))
         except ConfigError as error:
             record["problems"] = [msgspec.to_builtins(problem) for problem in error.problems]
@@ -79,7 +80,7 @@ def _say_checked(record: dict[str, Any]) -> None:
 
 def plan(name: str, options: Options, *, as_json: bool) -> int:
     """Show a dry run. Raises ConfigError with what is wrong in the file."""
-    checked = check(load.find(name), options)
+    checked = check(load.find(name), REALITY, options)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
         echo_json(made)
@@ -136,7 +137,7 @@ def export_file(name: str, output: Path | None, *, xml: bool) -> int:
     from executive.missions.btcpp import exporting
 
     assert xml, "there is one format"
-    return _write(exporting.xml_of(load.find(name)), output)
+    return _write(exporting.xml_of(load.find(name), REALITY), output)
 
 
 def _write(text: str, output: Path | None) -> int:

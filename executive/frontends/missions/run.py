@@ -7,6 +7,7 @@ from executive.frontends.carrying_out import Prepared
 from executive.frontends.launching import folder_for, overseen
 from executive.frontends.missions.commands import said
 from executive.frontends.missions.options import Run
+from executive.frontends.reality import REALITY
 from executive.missions import load
 from executive.missions.check import check
 from executive.runs import mission_task
@@ -26,7 +27,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
     def prepare() -> Prepared:
         given = said(options, vary_seed=options.vary_seed)
         path = load.find(options.file)
-        checked = check(path, given)
+        checked = check(path, REALITY, given)
         folder = folder_for(options.run_dir, checked.mission.record.name, handle)
         mission_task.keep(checked, folder)
         return Prepared(

@@ -13,6 +13,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs, reader
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
@@ -63,7 +64,7 @@ def replay(run: str | None, *, as_json: bool) -> int:
     """Do a run again and compare; returns the exit status, 1 where it differs."""
     folder = past_runs.find(run)
     with following(f"replaying {folder.name}", quiet=as_json) as follow:
-        result = again.replay(folder, follow=follow)
+        result = again.replay(folder, REALITY, follow=follow)
     status = ExitStatus.FAILED if result.difference else ExitStatus.DONE
     if as_json:
         typer.echo(msgspec.json.encode({"exit_status": int(status), **msgspec.to_builtins(result)}))

@@ -10,9 +10,10 @@ import typer
 
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
-from executive.frontends.launching import launch, now_stamp, overseen, under_way
+from executive.frontends.launching import FrontEnd, launch, now_stamp, overseen, under_way
 from executive.frontends.options import Shown
 from executive.frontends.past_runs import printing
+from executive.frontends.reality import REALITY
 from executive.journal import past_runs
 from executive.runs import run_folder
 from executive.runs.again import catching_up, recording
@@ -46,12 +47,11 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     if recorded.header.runtime == "fast":
         return _go_on_fast(recorded, as_json=as_json)
     wanted = GoOn(left_by=recorded.folder, as_json=as_json)
-    front = "executive.frontends.past_runs.resume:in_executive"
-    return launch(front, wanted, as_json=as_json)
+    return launch(FrontEnd.RESUME, wanted, as_json=as_json)
 
 
 def _go_on_fast(recorded: Recording, *, as_json: bool) -> int:
-    where, changed = recording.setting(recorded)
+    where, changed = recording.setting(recorded, REALITY)
     _note(changed)
     words = f"catching up with {recorded.folder.name}"
     screen = Screen(
@@ -79,7 +79,7 @@ def go_on_live(wanted: GoOn, handle: Handle | None = None) -> int:
 
     def prepare() -> Prepared:
         recorded = catching_up.check(wanted.left_by)
-        where, changed = recording.setting(recorded)
+        where, changed = recording.setting(recorded, REALITY)
         _note(changed)
         left = left_in(recorded.folder)
         assignment = left.newest(where)

@@ -13,13 +13,14 @@ from rich.console import Console
 
 from executive.frontends import carrying_out, speaking
 from executive.frontends.language_model import language_model
-from executive.frontends.launching import folder_for, launch, overseen, under_way
+from executive.frontends.launching import FrontEnd, folder_for, launch, overseen, under_way
 from executive.frontends.options import Prompt
 from executive.frontends.progress import sentence
 from executive.frontends.prompt import commands
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
+from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.journal.journal import Event, Journal
@@ -55,7 +56,7 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         model=model,
         left_by=recorded.folder,
     )
-    return launch("executive.frontends.prompt.cli:in_executive", options, fast=options.fast)
+    return prompt(options) if options.fast else launch(FrontEnd.PROMPT, options)
 
 
 def prompt(options: Begun, handle: Handle | None = None) -> int:
@@ -109,7 +110,9 @@ def conversation(
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    where = request.setting(options.world, options.robot, vary_seed=options.vary_seed)
+    where = request.setting(
+        REALITY, options.world, robot=options.robot, vary_seed=options.vary_seed
+    )
     model = language_model(options.model)
     folder = folder_for(options.run_dir, about, handle)
     left = folder if under_way(handle) is not None else options.left_by

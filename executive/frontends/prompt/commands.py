@@ -281,11 +281,11 @@ class _Steering:
         pairs = [word.partition("=") for word in given]
         params = {key: value for key, _, value in pairs}
         said = Options(params=params)
-        checked = check(load.find(name), said)
+        checked = check(load.find(name), self._shell.robot.where.reality, said)
         here, there = self._shell.robot.where, checked.where
-        if (here.world_name, here.robot_name) != (there.world_name, there.robot_name):
-            text = f"the mission is for {there.robot_name} in {there.world_name}"
-            raise ConfigError(f"{text}: start the prompt with --world {there.world_name}")
+        if (here.world.name, here.robot_name) != (there.world.name, there.robot_name):
+            text = f"the mission is for {there.robot_name} in {there.world.name}"
+            raise ConfigError(f"{text}: start the prompt with --world {there.world.name}")
         if checked.faults:
             self._shell.out("Its faults are left out here; `humanoid mission run` injects them.")
         mission_task.keep(checked, self._shell.folder)

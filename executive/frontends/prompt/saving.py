@@ -34,7 +34,7 @@ def text(name: str, sentences: list[str], where: Setting) -> str:
     """A mission of sentences as YAML (docs/missions.md)."""
     mission: dict[str, Any] = {
         "name": name,
-        "world": where.world_name,
+        "world": where.world.name,
         "robot": where.robot_name,
         "steps": sentences,
     }

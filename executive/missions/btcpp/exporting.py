@@ -15,8 +15,8 @@ import msgspec
 
 from executive.missions.btcpp import leaves
 from executive.missions.btcpp.importing import JSON
-from executive.missions.check import Options
 from executive.missions.expanding import expanded
+from robot.reality.contract import Reality
 
 OWN: dict[str, tuple[str, tuple[str, ...]]] = {
     "OnFail": ("Control", ("codes",)),
@@ -28,13 +28,13 @@ OWN: dict[str, tuple[str, tuple[str, ...]]] = {
 """Nodes that are no stock ones: their kind and their ports."""
 
 
-def xml_of(path: Path, options: Options | None = None) -> str:
+def xml_of(path: Path, reality: Reality) -> str:
     """A mission file as XML.
 
     Raises:
         ConfigError: with everything that is wrong in the file.
     """
-    return xml_of_data(expanded(path, options or Options()))
+    return xml_of_data(expanded(path, reality))
 
 
 def xml_of_data(mission: dict[str, Any]) -> str:

@@ -19,6 +19,7 @@ from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
+from robot.reality.contract import Reality
 
 
 class Recording(msgspec.Struct, frozen=True, kw_only=True):
@@ -89,16 +90,15 @@ def load(folder: Path) -> Recording:
     return Recording(folder=folder, header=header, lines=lines, events=whole, cut=len(rest))
 
 
-def setting(recording: Recording) -> tuple[Setting, list[str]]:
+def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]:
     """Robot and world of a recorded run, and what is not as it was.
 
     Raises:
         ConfigError: if a file is gone or wrong.
     """
     header = recording.header
-    where = request.setting(
-        header.world, header.robot, vary_seed=header.seed if header.varied else None
-    )
+    vary_seed = header.seed if header.varied else None
+    where = request.setting(reality, header.world, robot=header.robot, vary_seed=vary_seed)
     assert header.origin is not None
     return where, provenance.differences(
         header.origin, provenance.of(where.world, where.description)

@@ -19,6 +19,7 @@ from executive.runs.again.requests import Feeder
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from robot.errors import ConfigError, Problem
+from robot.reality.contract import Reality
 
 GRACE_S = 1.0
 """How long after the last recorded event it is waited for one that has not come."""
@@ -38,11 +39,12 @@ class Replayed(msgspec.Struct, frozen=True, kw_only=True):
     cut: bool = False
 
 
-def replay(folder: Path, *, follow: Follow) -> Replayed:
+def replay(folder: Path, reality: Reality, *, follow: Follow) -> Replayed:
     """Do a run again.
 
     Args:
         folder: of the run.
+        reality: that its world is of.
         follow: shows how far it is.
 
     Raises:
@@ -50,7 +52,7 @@ def replay(folder: Path, *, follow: Follow) -> Replayed:
     """
     recorded = recording.load(folder)
     check(recorded)
-    where, changed = recording.setting(recorded)
+    where, changed = recording.setting(recorded, reality)
     checked = Checked(recorded.lines, onward=None if recorded.ended else Nowhere())
     setup = Setup(where=where, seed=recorded.header.seed)
     with runtimes.opened(setup) as robot:

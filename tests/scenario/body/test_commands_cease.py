@@ -4,13 +4,14 @@ import pytest
 
 from robot.bringup.fast import FastRuntime
 from robot.messages import Walk, WalkTo
+from sim.reality import Simulation
 
 PERIOD_S = 0.05
 
 
 @pytest.mark.parametrize("forward_m_s", [0.35, -0.15])
 def test_a_walk_dies_out_and_the_robot_stands(forward_m_s):
-    with FastRuntime("empty") as runtime:
+    with FastRuntime(Simulation().world("empty")) as runtime:
         link = runtime.link
         for _ in range(50):
             runtime.advance(PERIOD_S)
@@ -31,7 +32,7 @@ def test_a_walk_dies_out_and_the_robot_stands(forward_m_s):
 
 
 def test_a_walk_to_a_stance_is_finished_there():
-    with FastRuntime("empty") as runtime:
+    with FastRuntime(Simulation().world("empty")) as runtime:
         link = runtime.link
         runtime.advance(0.2)
         goal = WalkTo(stamp_s=link.now_s(), id=link.next_id(), x_m=0.3, y_m=0.0, yaw_rad=0.0)

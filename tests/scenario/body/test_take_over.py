@@ -5,8 +5,10 @@ import pytest
 
 from robot.bringup.fast import FastRuntime
 from robot.messages import Grip, Stand, WalkTo
+from robot.reality.faults import Kill
+from sim.reality import Simulation
 
-KILL = {"fault": "kill", "process": "controller"}
+KILL = Kill(process="controller")
 
 
 def walking(runtime: FastRuntime, x_m: float, y_m: float, duration_s: float) -> None:
@@ -20,7 +22,7 @@ def walking(runtime: FastRuntime, x_m: float, y_m: float, duration_s: float) -> 
     ("x_m", "y_m", "when_s"), [(2.0, 0.0, 2.3), (2.0, 0.0, 2.6), (0.0, 1.0, 2.4), (-1.0, 0.0, 2.5)]
 )
 def test_in_mid_step_the_next_one_holds_the_robot_up(x_m, y_m, when_s):
-    with FastRuntime("empty", seed=1) as runtime:
+    with FastRuntime(Simulation().world("empty"), seed=1) as runtime:
         walking(runtime, x_m, y_m, when_s)
         before = runtime.link.body()
         assert before.mode == "walk"
@@ -36,7 +38,7 @@ def test_in_mid_step_the_next_one_holds_the_robot_up(x_m, y_m, when_s):
 
 def test_one_that_comes_late_lets_the_motors_damp_until_it_is_told_to_stand(monkeypatch):
     monkeypatch.setattr("robot.bringup.lockstep.TAKE_OVER_MS", 120)
-    with FastRuntime("empty", seed=1) as runtime:
+    with FastRuntime(Simulation().world("empty"), seed=1) as runtime:
         runtime.advance(1.0)
         runtime.inject(KILL)
         runtime.advance(0.14)
@@ -53,7 +55,7 @@ def test_one_that_comes_late_lets_the_motors_damp_until_it_is_told_to_stand(monk
 
 def test_a_robot_that_went_down_meanwhile_is_said_to_have_fallen(monkeypatch):
     monkeypatch.setattr("robot.bringup.lockstep.TAKE_OVER_MS", 3000)
-    with FastRuntime("empty", seed=1) as runtime:
+    with FastRuntime(Simulation().world("empty"), seed=1) as runtime:
         walking(runtime, 2.0, 0.0, 2.3)
         runtime.inject(KILL)
         runtime.advance(4.0)
@@ -63,7 +65,7 @@ def test_a_robot_that_went_down_meanwhile_is_said_to_have_fallen(monkeypatch):
 
 
 def test_a_hand_keeps_its_grip():
-    with FastRuntime("empty", seed=1) as runtime:
+    with FastRuntime(Simulation().world("empty"), seed=1) as runtime:
         link, robot = runtime.link, runtime.plant.robot
         motor = robot.motor_names.index(robot.hands["right"].motor)
         runtime.advance(0.5)

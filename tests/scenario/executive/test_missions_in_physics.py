@@ -8,8 +8,8 @@ import pytest
 
 from executive.frontends.missions import run as mission_run
 from executive.frontends.missions.options import Run
-from executive.missions.check import check
 from executive.missions.load import FOLDER, shipped
+from tests.fakes.missions import check
 
 LONG = ("bring", "tidy", "greet", "patrol")
 

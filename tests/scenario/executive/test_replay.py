@@ -13,7 +13,7 @@ from executive.runs.session import Session
 from robot.errors import failure
 from robot.planning.requests import PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
-from tests.fakes.worlds import puppet
+from tests.fakes.worlds import mapped, puppet
 from tests.scenario.test_cli import press, runtime  # noqa: F401 - a fixture
 
 
@@ -136,7 +136,7 @@ def operate(session: Session, where, script) -> None:
 
 
 def test_what_a_person_asked_for_in_between_is_asked_for_again(runtime, humanoid, anew):  # noqa: F811
-    where = request.setting("test", "juno")
+    where = mapped(None, "test")
 
     def understood(text: str) -> request.Understood:
         meant = request.request(text, where)

@@ -16,7 +16,7 @@ from robot.errors import failure
 from robot.model import description
 from robot.planning.requests import PickRequest
 from robot.se3 import SE3
-from tests.fakes.worlds import world_map
+from tests.fakes.worlds import mapped, world_map
 from tests.scenario.executive.test_replay import anew  # noqa: F401 - a fixture
 from tests.scenario.test_cli import runtime  # noqa: F401 - a fixture
 
@@ -113,7 +113,7 @@ class Robot:
 @pytest.fixture
 def look(runtime):  # noqa: F811
     """What is found when some steps are done and the robot is as it is."""
-    where = request.setting("test", "juno")
+    where = mapped(None, "test")
     understood = request.request(TASK, where)
     assert isinstance(understood, request.Understood), understood
     world = Knowledge(world_map())

@@ -15,8 +15,10 @@ from executive.skills.place import PlaceParams
 from robot.bringup.fast import FastRuntime
 from robot.model.description import load
 from robot.planning.inline import InlinePlanner
+from robot.reality import faults
 from robot.se3 import SE3
-from sim import faults
+from sim.faults import apply
+from sim.reality import SimulatedWorld, Simulation
 from sim.schema import Start
 from sim.world import load as load_world
 
@@ -49,7 +51,7 @@ def stance(runtime):
 
 
 def test_walk_turn_and_postures(planner):
-    with FastRuntime("empty", seed=3) as runtime:
+    with FastRuntime(Simulation().world("empty"), seed=3) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=3)
         goal = NavigateParams(pose=FloorPose(x_m=0.8, y_m=-0.4, yaw_rad=0.6))
@@ -69,7 +71,7 @@ def test_walk_turn_and_postures(planner):
 
 @pytest.mark.slow
 def test_a_cup_is_picked_from_the_table_and_put_on_the_shelf(planner):
-    with FastRuntime("kitchen", seed=1) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=1) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=1)
         before = runtime.plant.oracle.X_WO("red_cup")
@@ -99,7 +101,7 @@ def test_a_cup_is_picked_from_the_table_and_put_on_the_shelf(planner):
 
 @pytest.mark.slow
 def test_somebody_in_the_way_is_walked_around(planner):
-    with FastRuntime("kitchen", seed=4) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=4) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO)
         phases = []
@@ -108,7 +110,7 @@ def test_somebody_in_the_way_is_walked_around(planner):
             phases.append(phase)
             if len(phases) == 60:
                 anna = faults.Move(target="anna", X_WO=SE3.from_xy_yaw(0.6, -1.5, math.pi))
-                faults.apply(runtime.plant, anna)
+                apply(runtime.plant, anna)
 
         goal = NavigateParams(pose=FloorPose(x_m=2.3, y_m=-1.5, yaw_rad=0.0))
         report = carry_out(runtime, context, goal, each_tick=step_in)
@@ -119,7 +121,7 @@ def test_somebody_in_the_way_is_walked_around(planner):
 
 @pytest.mark.slow
 def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
-    with FastRuntime("kitchen", seed=4) as runtime:
+    with FastRuntime(Simulation().world("kitchen"), seed=4) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO)
         pulled = []
@@ -128,7 +130,7 @@ def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
             if "stepping back" in phase and not pulled:
                 pulled.append(phase)
                 down = faults.Push(impulse_n_s=(0.0, 0.0, -6.0), target="red_cup")
-                faults.apply(runtime.plant, down)
+                apply(runtime.plant, down)
 
         report = carry_out(runtime, context, PickParams(object_id="red_cup"), each_tick=pull)
         assert report.failure.code == "object_dropped"
@@ -140,7 +142,7 @@ def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
 def test_a_cup_that_is_pulled_at_is_held_by_gripping_harder(planner):
     """Otherwise it would be gone (docs/control.md); a pull of 60 N takes it, see above."""
     world = msgspec.structs.replace(load_world("kitchen"), start=Start(at_m=(0.6, 0.1)))
-    with FastRuntime(world, seed=1) as runtime:
+    with FastRuntime(SimulatedWorld(world), seed=1) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=1)
         report = carry_out(runtime, context, PickParams(object_id="red_cup"))
@@ -150,7 +152,7 @@ def test_a_cup_that_is_pulled_at_is_held_by_gripping_harder(planner):
         motor, limit_n = JUNO.motor_names.index(name), JUNO.motors[name].torque_limit_nm
         assert runtime.link.body().hands[held.side].pulls == 0
         down = faults.Push(impulse_n_s=(0.0, 0.0, -6.0), duration_s=0.3, target="red_cup")
-        faults.apply(runtime.plant, down)
+        apply(runtime.plant, down)
         for _ in range(100):
             runtime.advance(0.02)
             assert abs(runtime.link.body().tau_nm[motor]) < 1.02 * limit_n
@@ -164,7 +166,7 @@ def test_a_cup_that_is_knocked_over_is_taken_as_it_lies(planner):
     world = msgspec.structs.replace(
         load_world("kitchen"), start=Start(at_m=(1.1, -0.6), yaw_deg=90)
     )
-    with FastRuntime(world, seed=2) as runtime:
+    with FastRuntime(SimulatedWorld(world), seed=2) as runtime:
         runtime.advance(0.5)
         context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=2)
         hit = []
@@ -172,7 +174,7 @@ def test_a_cup_that_is_knocked_over_is_taken_as_it_lies(planner):
         def knock(phase):
             if phase.startswith("stepping up") and not hit:
                 hit.append(phase)
-                faults.apply(runtime.plant, faults.KnockOver(target="red_cup", towards_deg=194.0))
+                apply(runtime.plant, faults.KnockOver(target="red_cup", towards_deg=194.0))
 
         report = carry_out(runtime, context, PickParams(object_id="red_cup"), each_tick=knock)
         assert report.status == "succeeded", report

@@ -18,6 +18,7 @@ from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.terminal import Terminal
+from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request
@@ -33,7 +34,7 @@ from tests.fakes.waiting import eventually
 def shell_in(
     folder: Path, world: str = "kitchen", model: LanguageModel | None = None
 ) -> Iterator[Shell]:
-    where = request.setting(world, "juno")
+    where = request.setting(REALITY, world, robot="juno")
     robot = Robot(Setup(where=where, folder=folder), wall=WallClock(), time_of_day=lambda: 0.0)
     with robot:
         yield Shell(robot, Said(), table=commands.table, folder=folder, model=model)

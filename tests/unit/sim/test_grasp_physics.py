@@ -4,8 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from robot.reality import faults
 from robot.se3 import SE3
-from sim import faults
+from sim.faults import apply
 from sim.plant import Plant
 
 
@@ -51,8 +52,6 @@ def test_a_cup_is_held_without_creep_and_falls_when_let_go(holding):
 def test_a_pull_takes_a_held_cup_away(holding):
     plant, go = holding
     go(0.5, 0.0)
-    faults.apply(
-        plant, faults.Push(target="red_cup", impulse_n_s=(0.0, 0.0, -15.0), duration_s=0.3)
-    )
+    apply(plant, faults.Push(target="red_cup", impulse_n_s=(0.0, 0.0, -15.0), duration_s=0.3))
     go(1.0, 0.0)
     assert plant.oracle.X_WO("red_cup").p[2] < 0.1

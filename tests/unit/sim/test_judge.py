@@ -3,10 +3,17 @@
 import pytest
 
 from robot.errors import ConfigError
+from robot.reality import faults, truth
 from robot.se3 import SE3
-from sim import faults
-from sim.judge import judge
+from sim import atlas
+from sim import judge as judging
+from sim.faults import apply
 from sim.plant import Plant
+
+
+def judge(plant, data):
+    """The verdict on checks as plain data."""
+    return judging.judge(plant, truth.read(data, atlas.world_map(plant.world)))
 
 
 @pytest.fixture
@@ -21,7 +28,7 @@ def test_an_object_is_on_a_place_or_it_is_not(plant):
     assert judge(plant, [{"object": "red_cup", "on": "counter"}]).wrong
     plant.put("object/red_cup", SE3((1.15, 0.15, 0.9)))
     assert "not on" in judge(plant, [{"object": "red_cup", "on": "table"}]).wrong[0]
-    faults.apply(plant, faults.KnockOver(target="box"))
+    apply(plant, faults.KnockOver(target="box"))
     plant.step(600)
     assert judge(plant, [{"object": "box", "on": "counter"}]).wrong
 

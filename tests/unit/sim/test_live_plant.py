@@ -10,8 +10,10 @@ from robot.clock import SimulatedClock
 from robot.drivers.motors.simulated import SimulatedMotors
 from robot.drivers.simulation.sensors import emulated
 from robot.drivers.simulation.shared_plant import PlantServer, SharedPlant
-from sim import faults, world
-from sim.live import FAULT, PATIENCE_S, LivePlant
+from robot.reality import faults
+from robot.reality.faults import FAULT
+from sim import world
+from sim.live import PATIENCE_S, LivePlant
 from sim.plant import Plant
 
 

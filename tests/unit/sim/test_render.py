@@ -1,8 +1,9 @@
 """Pictures: true where EGL is installed, a clear cure where it is not."""
 
-import importlib
 import struct
+import sys
 import zlib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -34,13 +35,19 @@ def test_a_png_holds_the_image(tmp_path):
 
 
 def test_without_egl_the_error_names_the_packages(robot, kitchen, tmp_path, monkeypatch):
-    def missing(_name: str) -> None:
+    def missing(_width: int, _height: int) -> None:
         raise AttributeError("'NoneType' object has no attribute 'eglQueryString'")
 
     plant = Plant(kitchen, robot, seed=0)
-    monkeypatch.setattr(importlib, "import_module", missing)
+    monkeypatch.setitem(sys.modules, "mujoco.egl", SimpleNamespace(GLContext=missing))
     with pytest.raises(ConfigError, match="libegl1 libgl1-mesa-dri libopengl0"):
         render.snapshot(plant, tmp_path / "x.png")
+
+
+def test_without_a_viewer_the_error_says_so(robot, kitchen, monkeypatch):
+    monkeypatch.setitem(sys.modules, "mujoco.viewer", None)
+    with pytest.raises(ConfigError, match="no viewer"):
+        render.show(Plant(kitchen, robot, seed=0))
 
 
 def test_a_snapshot_shows_the_red_cup(robot, kitchen, tmp_path):

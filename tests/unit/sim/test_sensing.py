@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from robot.messages import DepthImage, LidarScan, PoseFix, Sightings
+from robot.reality import faults
 from robot.se3 import SE3
-from sim import faults, world
+from sim import world
+from sim.faults import apply
 from sim.plant import Plant
 from sim.rays import Rays
 from sim.sensors import Exposure, developed
@@ -43,7 +45,7 @@ def test_what_is_behind_is_not_seen(standing):
 def test_what_is_hidden_is_not_seen(standing):
     cup = SE3((1.15, 0.15, 0.76))
     between = SE3.from_xy_yaw(0.87, 0.21, math.pi)
-    faults.apply(standing, faults.Move(target="anna", X_WO=between))
+    apply(standing, faults.Move(target="anna", X_WO=between))
     mujoco.mj_kinematics(standing.model, standing.data)
     assert standing.oracle.X_WO("red_cup").p == pytest.approx(cup.p)
     assert "red_cup" not in ids(standing)
@@ -56,7 +58,7 @@ def test_what_is_far_away_is_not_seen(standing):
 
 
 def test_what_is_taken_away_is_not_seen(standing):
-    faults.apply(standing, faults.Remove(target="blue_cup"))
+    apply(standing, faults.Remove(target="blue_cup"))
     assert ids(standing) == {"red_cup"}
 
 
@@ -155,7 +157,7 @@ def test_everything_comes_at_its_rate(standing):
 
 
 def test_a_silent_sensor_says_nothing_for_its_time(standing):
-    faults.apply(standing, faults.Silence(topic="sensors/depth", duration_s=0.35))
+    apply(standing, faults.Silence(topic="sensors/depth", duration_s=0.35))
     heard = []
     for _ in range(50):
         heard += [

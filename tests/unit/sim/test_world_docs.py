@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from sim import world
+from sim import atlas, world
 from sim.furniture import KINDS
 from sim.palette import COLORS, FLOORS
 
@@ -18,7 +18,7 @@ def test_the_example_is_a_world(tmp_path):
     path.write_text(example[1], encoding="utf-8")
     loaded = world.load(str(path))
     words = {
-        name for place in world.world_map(loaded).places for name in (place.name, *place.synonyms)
+        name for place in atlas.world_map(loaded).places for name in (place.name, *place.synonyms)
     }
     assert "lower shelf" in words
     assert "bookcase" in words

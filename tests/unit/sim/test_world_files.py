@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from robot.errors import ConfigError
-from sim import world
+from sim import atlas, placing, world
 from sim.footprint import Footprint
 from sim.furniture import KINDS, form, size_m
 from sim.schema import Furniture
@@ -51,7 +51,7 @@ def read(tmp_path: Path):
 def test_a_good_world_is_read(read):
     loaded = read(GOOD)
     assert loaded.bounds_m == (-2.0, -2.0, 2.0, 2.0)
-    assert world.world_map(loaded).start_X_WS.yaw_rad == pytest.approx(math.pi / 2)
+    assert atlas.world_map(loaded).start_X_WS.yaw_rad == pytest.approx(math.pi / 2)
 
 
 @pytest.mark.parametrize(
@@ -116,7 +116,7 @@ def test_shipped_worlds_are_right(name):
 
 
 def test_boards_of_a_shelf_are_places_and_so_is_the_whole(kitchen):
-    places = {place.name: place for place in world.world_map(kitchen).places}
+    places = {place.name: place for place in atlas.world_map(kitchen).places}
     boards = [places[f"{level} shelf"] for level in ("lower", "middle", "upper")]
     heights = [board.X_WP.p[2] for board in boards]
     assert heights == sorted(heights)
@@ -149,13 +149,13 @@ def test_furniture_stays_in_its_footprint_and_offers_its_top(kind):
 
 
 def test_variations_are_valid_repeat_and_differ(kitchen):
-    first = world.variation(kitchen, 5)
-    assert world.variation(kitchen, 5) == first
-    assert world.variation(kitchen, 6) != first
+    first = placing.variation(kitchen, 5)
+    assert placing.variation(kitchen, 5) == first
+    assert placing.variation(kitchen, 6) != first
     from sim.checks import check
 
     for seed in range(20):
-        varied = world.variation(kitchen, seed)
+        varied = placing.variation(kitchen, seed)
         assert check(varied) == []
         cups = [o.at_m for o in varied.objects if o.on == "table"]
         assert math.dist(*cups) > 0.16

@@ -8,6 +8,7 @@ from executive.evaluation import campaign, report
 from executive.evaluation.campaign import Case
 from executive.evaluation.record import Record, Results, fingerprint
 from robot.errors import ConfigError
+from sim.reality import Simulation
 
 FAULTS = (
     "missed grasp", "object knocked over", "object dropped while carrying",
@@ -26,7 +27,7 @@ def record(case="a", seed=0, *, ok=True, recovery=True, code="done", **more):
 
 
 def test_the_shipped_campaign_is_sound_and_has_every_fault():
-    cases = campaign.load(campaign.SHIPPED)
+    cases = campaign.load(campaign.SHIPPED, Simulation())
     assert set(FAULTS) <= {case.name for case in cases}
     for case in cases:
         assert case.why, case.name
@@ -52,7 +53,7 @@ def test_mistakes_are_found_before_anything_runs(tmp_path, change, message):
     path = tmp_path / "mine.yaml"
     path.write_text(f"cases:\n  - name: x\n    mission: pick up the red cup\n    {change}\n")
     with pytest.raises(ConfigError, match=message) as error:
-        campaign.load(path)
+        campaign.load(path, Simulation())
     assert all(problem.line for problem in error.value.problems)
 
 

@@ -7,6 +7,7 @@ from executive.missions import fault_plans
 from executive.runs import faults
 from robot.errors import ConfigError
 from robot.planning.requests import BasePathRequest
+from robot.reality.faults import Push
 from tests.fakes.oracle_planner import RulePlanner
 
 PUSH = {"fault": "push", "impulse_n_s": [0, 5, 0]}
@@ -43,7 +44,7 @@ def test_a_time_is_counted_from_the_beginning_of_the_run():
     journal = Journal()
     runtime, made = injector(journal, {"at_s": 2.0, **PUSH})
     assert run(journal, made, {}) == [3.0]
-    assert runtime.suffered == [PUSH]
+    assert runtime.suffered == [Push(impulse_n_s=(0.0, 5.0, 0.0))]
     assert [event.data for event in journal.recent if event.event == "fault"] == [PUSH]
 
 
@@ -68,7 +69,7 @@ def test_draws_follow_the_seed():
     def angle(seed):
         runtime, made = injector(Journal(), entry, seed=seed)
         made.tick(1.0)
-        return runtime.suffered[0]["towards_deg"]
+        return runtime.suffered[0].towards_deg
 
     assert angle(1) == angle(1) != angle(2)
 

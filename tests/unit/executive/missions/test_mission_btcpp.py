@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 from executive.missions import nav2
 from executive.missions.btcpp import exporting, importing, leaves
 from executive.missions.btcpp.xml import parse
-from executive.missions.check import check
 from executive.missions.load import shipped
 from robot import yaml_nodes
 from robot.errors import ConfigError
-from tests.fakes.missions import known_settings  # noqa: F401, a fixture
+from tests.fakes.missions import SIMULATION, check, known_settings  # noqa: F401, a fixture
 
 
 def data_of(xml: str) -> dict[str, Any]:
@@ -193,11 +192,11 @@ def test_what_is_exported_reads_back_to_the_same_steps(steps, expect):
 
 @pytest.mark.parametrize("path", shipped(), ids=lambda path: path.stem)
 def test_shipped_missions_go_out_and_back(path, tmp_path):
-    xml = exporting.xml_of(path)
+    xml = exporting.xml_of(path, SIMULATION)
     copy = tmp_path / "back.yaml"
     copy.write_text(yaml_nodes.dump(data_of(xml)), encoding="utf-8")
     check(copy)
-    assert exporting.xml_of(copy) == xml
+    assert exporting.xml_of(copy, SIMULATION) == xml
 
 
 def test_the_table_names_only_steps_that_there_are():

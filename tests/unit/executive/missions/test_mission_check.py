@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from executive.frontends.missions import commands
-from executive.missions.check import Options, check
+from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
 from executive.missions.plan import forecast
 from executive.missions.template import template
@@ -23,7 +23,7 @@ from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from robot import yaml_nodes
 from robot.errors import ConfigError
-from tests.fakes.missions import known_settings  # noqa: F401, a fixture
+from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
 
 SECOND = 1.0
 

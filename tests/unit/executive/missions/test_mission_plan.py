@@ -13,9 +13,11 @@ from executive.skills.motions.pacing import walking_s
 from executive.trees.parts import errands
 from robot.model.description import load
 from robot.planning.requests import BasePath
+from sim.reality import SimulatedWorld, Simulation
+from sim.world import load as load_world
 
 JUNO = load("juno")
-KITCHEN = request.setting("kitchen", "juno")
+KITCHEN = request.setting(Simulation(), "kitchen", robot="juno")
 TASK = request.request("pick up the red cup and put it on the shelf", KITCHEN).task
 
 
@@ -44,12 +46,12 @@ def test_a_pick_and_a_place_are_planned_with_the_hand_and_from_where_the_robot_i
 
 
 def test_what_no_hand_reaches_is_told():
-    things = KITCHEN.world.objects
+    entries = load_world("kitchen")
     moved = tuple(
         replace(thing, on="doorway", at_m=(0.0, 0.0)) if thing.id == "red_cup" else thing
-        for thing in things
+        for thing in entries.objects
     )
-    where = replace(KITCHEN, world=replace(KITCHEN.world, objects=moved))
+    where = replace(KITCHEN, world=SimulatedWorld(replace(entries, objects=moved)))
     pick, place = (row for row in forecast(TASK, where).rows if row.kind == "step")
     assert "short of the red cup" in pick.problem
     assert place.problem == ""  # nothing is known against it

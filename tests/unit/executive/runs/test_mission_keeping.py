@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from executive.meaning.request import setting
-from executive.missions.check import Options, check
+from executive.missions.check import Options
 from executive.runs import mission_task
 from executive.runs.mission_task import keep, origin
 from executive.trees.parts import errands
 from robot.errors import ConfigError
+from tests.fakes.missions import check, known
 
 MAIN = "name: main\nworld: empty\nsteps:\n  - mission: ../parts/part.yaml\n  - wave\n"
 PART = "name: part\nworld: empty\nsteps:\n  - say hello\n"
-WHERE = setting("empty", "juno")
+WHERE = known("empty", robot="juno")
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@ import pytest
 
 from robot.bringup.live import LiveRuntime
 from robot.messages import LoopTiming
+from sim.reality import Simulation
 
 TIMING = LoopTiming(
     stamp_s=1.0, process="plant", period_s=0.001, count=1000, late=1, p50_s=0.0, p99_s=0.0,
@@ -19,7 +20,7 @@ def closed(tmp_path: Path):
     """Closes a run that never started, with a report of its loops."""
 
     def close() -> Path:
-        runtime = LiveRuntime("empty", folder=tmp_path)
+        runtime = LiveRuntime(Simulation().world("empty"), folder=tmp_path)
         runtime.timing = {"plant": TIMING}
         runtime.close()
         return tmp_path / "timing.json"

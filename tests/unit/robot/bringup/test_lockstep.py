@@ -13,6 +13,7 @@ from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError
 from robot.messages import PoseFix, Stand
 from robot.model import description
+from robot.reality.faults import Kill, Remove
 from robot.se3 import SE3
 from tests.fakes.messages_for_tests import body_state
 from tests.fakes.motors import FakePlant, hold
@@ -123,7 +124,7 @@ def test_a_lost_plant_is_a_failure_and_time_goes_on():
 
 
 def kill(runtime):
-    runtime.inject({"fault": "kill", "process": "controller"})
+    runtime.inject(Kill(process="controller"))
 
 
 def test_a_killed_controller_is_followed_by_another_a_little_later():
@@ -164,11 +165,10 @@ def test_leaving_damps(parts):
     assert not plant.commands[-1].kp.any()
 
 
-def test_unknown_parts_are_told():
-    from robot.bringup import entry
-
-    for spec in ("no.such.module:Thing", "sim.world:nothing"):
-        with pytest.raises(ConfigError, match="cannot load"):
-            entry.attribute(spec)
-    with pytest.raises(ConfigError, match="kitchen"):
-        entry.world("kitchn")
+def test_a_fault_is_the_plants_to_suffer_but_a_killed_process_is_not(parts):
+    runtime, plant, _, _, _ = parts
+    runtime.inject(Remove(target="red_cup"))
+    assert plant.suffered == [Remove(target="red_cup")]
+    with pytest.raises(ConfigError, match="no process of its own"):
+        runtime.inject(Kill(process="perception"))
+    assert len(plant.suffered) == 1

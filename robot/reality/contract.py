@@ -1,0 +1,128 @@
+"""What the software asks of reality: a world to read, and a plant that a robot is tried out in.
+
+`sim.reality.Simulation` fulfils it; it is chosen in one place (`executive.frontends.reality`), and
+everybody else is handed it. What stands here is all that is known outside of what lies behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+from robot.bus.topics import Topic
+from robot.drivers.wiring import SimulatedPlant
+from robot.messages import Message, WorldMap
+from robot.model.description import RobotDescription
+from robot.reality.faults import Fault
+from robot.reality.truth import Check, Verdict
+from robot.se3 import SE3
+
+
+class Reality(Protocol):
+    """Where worlds come from. A value without a state: it can be pickled, and sent to a worker."""
+
+    def names(self) -> list[str]:
+        """Names of the shipped worlds."""
+        ...
+
+    def world(self, name_or_path: str, *, vary_seed: int | None = None) -> World:
+        """A world by name or path, with its start and objects shuffled if a seed is given.
+
+        Raises:
+            ConfigError: with everything that is wrong in the file.
+        """
+        ...
+
+
+class Begin(NamedTuple):
+    """Where an object is before anything moved: its pose, and the id of the place it is on."""
+
+    X_WO: SE3
+    place_id: str
+
+
+class World(Protocol):
+    """A world as it was read: the robot is told its map, and nothing else of it."""
+
+    @property
+    def name(self) -> str:
+        """As it was asked for: the name of a shipped world, or the path of a file."""
+        ...
+
+    @property
+    def vary_seed(self) -> int | None:
+        """What it was shuffled by; with the name all that another process needs to read it."""
+        ...
+
+    @property
+    def map(self) -> WorldMap:
+        """The prior map: what is there, but not where the objects are."""
+        ...
+
+    def content(self) -> bytes:
+        """Everything in it, for a hash: the same worlds give the same bytes."""
+        ...
+
+    def objects(self) -> Mapping[str, Begin]:
+        """Where every object begins (oracle), by id."""
+        ...
+
+    def nudged(self, seed: int, *, start: tuple[float, float, float] | None = None) -> World:
+        """The same world, begun a little otherwise: for many runs of one short mission.
+
+        Args:
+            seed: of the draw; the same seed gives the same world.
+            start: where the robot starts (x [m], y [m], heading [deg]) in place of its start.
+        """
+        ...
+
+    def verify(self, fault: Fault, robot: RobotDescription) -> None:
+        """Check every name in a fault. Raises ConfigError with the nearest name."""
+        ...
+
+    def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> Plant:
+        """The world with a robot in it, which stands at its start.
+
+        Args:
+            robot: who is there.
+            seed: of everything random.
+            physics_ms: time step of the physics, 1 or 2.
+
+        Raises:
+            RobotError: if they do not fit together.
+        """
+        ...
+
+
+class Plant(SimulatedPlant, Protocol):
+    """A robot in its world: `step` advances whole milliseconds, `sense` gives what is due."""
+
+    def step(self, count: int = 1) -> None:
+        """Advance; raises DriverError if the physics diverged."""
+        ...
+
+    def sense(self, now_s: float) -> Sequence[tuple[Topic[Any], Message]]:
+        """Topics and messages of the sensors that are due."""
+        ...
+
+    def suffer(self, fault: Fault) -> None:
+        """Let a fault happen now. Raises ConfigError if it names what is not there."""
+        ...
+
+    def judge(self, checks: Iterable[Check]) -> Verdict:
+        """How it truly is. Raises ConfigError if a check names what is not there."""
+        ...
+
+    def save_picture(self, path: Path) -> None:
+        """Write a picture of all of it as PNG.
+
+        Raises:
+            ConfigError: if nothing can be rendered here, with the cure.
+            OSError: if the file cannot be written.
+        """
+        ...
+
+    def show(self) -> None:
+        """Open a window on it, until that is closed. Raises ConfigError if there can be none."""
+        ...

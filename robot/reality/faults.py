@@ -1,0 +1,186 @@
+"""What can be done to a running world: pushes, things that move or vanish, senses that fail.
+
+Faults are values; a benchmark, a test or a person sends one, the world suffers it
+(`sim.faults`). They reach the robot through physics and sensors only. As plain data, in files and
+at the prompt, a fault is a dict with its name under `fault`:
+``{"fault": "push", "impulse_n_s": [0, 4, 0]}``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Literal, get_args
+
+import msgspec
+
+from robot.bus.topics import Topic
+from robot.config import nearest
+from robot.errors import ConfigError, Problem
+from robot.se3 import SE3, Vector3
+
+
+def _name(kind: str) -> str:
+    """`StandInWay` to `stand_in_way`."""
+    return "".join(f"_{c.lower()}" if c.isupper() else c for c in kind).lstrip("_")
+
+
+class _Fault(
+    msgspec.Struct, frozen=True, kw_only=True, tag=_name, tag_field="fault",
+    forbid_unknown_fields=True,
+):  # fmt: skip
+    """A fault; it begins when it is applied."""
+
+
+class Push(_Fault, frozen=True, kw_only=True):
+    """A force on the robot's torso, or on an object, a piece of furniture, or a body by name.
+
+    `impulse_n_s` in the world's axes, spread evenly over `duration_s`. A push down on a held
+    object pulls it out of the hand.
+    """
+
+    impulse_n_s: Vector3
+    target: str = "robot"
+    duration_s: float = 0.1
+
+
+class Shove(_Fault, frozen=True, kw_only=True):
+    """A level push on the robot's torso of `strength_n_s`, towards an angle from where it faces.
+
+    0 degrees pushes it forwards, 90 to its left.
+    """
+
+    strength_n_s: float
+    towards_deg: float = 0.0
+    duration_s: float = 0.1
+
+
+class KnockOver(_Fault, frozen=True, kw_only=True):
+    """An object is hit at its rim and goes over, towards an angle of the world."""
+
+    target: str
+    towards_deg: float = 0.0
+
+
+class Move(_Fault, frozen=True, kw_only=True):
+    """An object, a person or a movable piece of furniture is suddenly elsewhere, at rest.
+
+    `X_WO` says where, or `by_m` how far from where it is.
+    """
+
+    target: str
+    X_WO: SE3 | None = None
+    by_m: Vector3 | None = None
+
+    def __post_init__(self) -> None:
+        """Check that there is one destination."""
+        if (self.X_WO is None) == (self.by_m is None):
+            raise ValueError("give exactly one of X_WO, by_m")
+
+
+class Occupy(_Fault, frozen=True, kw_only=True):
+    """Another object suddenly stands on a place, at `at_m` from the middle of it."""
+
+    place: str
+    target: str
+    at_m: tuple[float, float] = (0.0, 0.0)
+
+
+class StandInWay(_Fault, frozen=True, kw_only=True):
+    """Somebody, or a chair, stands in the way for `duration_s`, then where it was again.
+
+    That is before the robot, or at a point of the floor.
+    """
+
+    target: str
+    ahead_m: float = 0.9
+    left_m: float = 0.0
+    at_m: tuple[float, float] | None = None
+    duration_s: float = math.inf
+
+
+class Remove(_Fault, frozen=True, kw_only=True):
+    """An object or a person is suddenly gone."""
+
+    target: str
+
+
+class Silence(_Fault, frozen=True, kw_only=True):
+    """A sensor (`camera`), or one topic (`sensors/depth`), says nothing for `duration_s`."""
+
+    topic: str
+    duration_s: float = math.inf
+
+
+class Mislead(_Fault, frozen=True, kw_only=True):
+    """The oracle's fixes of the robot's pose are off for `duration_s`."""
+
+    by_m: tuple[float, float]
+    by_deg: float = 0.0
+    duration_s: float = math.inf
+
+
+class Heat(_Fault, frozen=True, kw_only=True):
+    """A motor's winding is suddenly that hot; it cools down as it does."""
+
+    motor: str
+    temperature_c: float
+
+
+class Discharge(_Fault, frozen=True, kw_only=True):
+    """The emulated battery is suddenly left with that part of its charge."""
+
+    charge: float
+
+    def __post_init__(self) -> None:
+        """Check the range."""
+        if not 0.0 <= self.charge <= 1.0:
+            raise ValueError(f"charge is a part, 0 to 1, not {self.charge}")
+
+
+class MotorOff(_Fault, frozen=True, kw_only=True):
+    """One motor no longer obeys: it damps, whatever it is told (`off=False`: it obeys again)."""
+
+    motor: str
+    off: bool = True
+
+
+class Kill(_Fault, frozen=True, kw_only=True):
+    """A process dies. The runtime does this, not the plant."""
+
+    process: Literal["controller", "perception"]
+
+
+Fault = (
+    Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead | Heat
+    | Discharge | MotorOff | Kill
+)  # fmt: skip
+KINDS: dict[str, type[_Fault]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
+"""Name to fault."""
+
+FAULT: Topic[Fault] = Topic("sim/fault", Fault, None, "executive")
+"""Carries faults to a world in another process."""
+
+
+def parse(data: Mapping[str, Any]) -> Fault:
+    """A fault out of plain data.
+
+    Raises:
+        ConfigError: if it is none, with the nearest name of a fault or of a key.
+    """
+    name = str(data.get("fault", ""))
+    check_name(name, list(KINDS), "fault")
+    keys = [field.name for field in msgspec.structs.fields(KINDS[name])]
+    for key in data:
+        if key != "fault":
+            check_name(key, keys, f"key of the fault {name!r}:")
+    try:
+        return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"the fault {name!r}: {error}") from None
+
+
+def check_name(name: str, valid: list[str], what: str) -> None:
+    """Refuse a name that is not there. Raises ConfigError with the nearest one that is."""
+    if name not in valid:
+        raise ConfigError([Problem(f"unknown {what} {name!r}", suggestion=nearest(name, valid))])

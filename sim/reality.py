@@ -1,0 +1,76 @@
+"""The simulation as the rest of the software knows it: `robot.reality.contract`, fulfilled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from robot.model.description import RobotDescription
+from robot.reality.contract import Begin
+from robot.reality.faults import Fault
+from sim import atlas, faults, placing, world
+from sim.schema import World
+
+if TYPE_CHECKING:
+    from sim.judged_plant import JudgedPlant
+
+
+class Simulation:
+    """Shipped worlds, and anybody's own (docs/worlds.md), in MuJoCo."""
+
+    def names(self) -> list[str]:
+        """Names of the shipped worlds."""
+        return world.available()
+
+    def world(self, name_or_path: str, *, vary_seed: int | None = None) -> SimulatedWorld:
+        """A world by name or path, shuffled if a seed is given. Raises ConfigError."""
+        entries = world.load(name_or_path)
+        if vary_seed is not None:
+            entries = placing.variation(entries, vary_seed)
+        return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed)
+
+
+class SimulatedWorld:
+    """A world file as it was read and shuffled.
+
+    Attributes:
+        entries: of the file.
+        name: by which it was asked for.
+        vary_seed: what it was shuffled by.
+        map: the prior map.
+    """
+
+    def __init__(self, entries: World, *, name: str = "", vary_seed: int | None = None) -> None:
+        """Make the map."""
+        self.entries = entries
+        self.name = name or entries.name
+        self.vary_seed = vary_seed
+        self.map = atlas.world_map(entries)
+
+    def content(self) -> bytes:
+        """Everything in it."""
+        return msgspec.json.encode(self.entries)
+
+    def objects(self) -> Mapping[str, Begin]:
+        """Where every object begins, by id."""
+        poses = placing.object_poses(self.entries)
+        return {item.id: Begin(poses[item.id], item.on) for item in self.entries.objects}
+
+    def nudged(
+        self, seed: int, *, start: tuple[float, float, float] | None = None
+    ) -> SimulatedWorld:
+        """The same, begun a little otherwise."""
+        entries = placing.nudged(self.entries, seed, start=start)
+        return SimulatedWorld(entries, name=self.name, vary_seed=self.vary_seed)
+
+    def verify(self, fault: Fault, robot: RobotDescription) -> None:
+        """Check every name in a fault. Raises ConfigError with the nearest name."""
+        faults.verify(fault, self.entries, robot)
+
+    def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> JudgedPlant:
+        """Build the scene and stand the robot in it. Raises RobotError as `sim.plant.Plant`."""
+        from sim.judged_plant import JudgedPlant  # MuJoCo, which a list of worlds needs not
+
+        return JudgedPlant(self.entries, robot, seed=seed, physics_ms=physics_ms)
