@@ -23,7 +23,6 @@ from rich.table import Table
 from robot.errors import Failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model import description
-from robot.planning.body import UPRIGHT, Body, Standing
 from robot.planning.requests import (
     ArmPlan,
     ArmRequest,
@@ -41,6 +40,7 @@ from robot.planning.requests import (
     Stance,
     Surroundings,
 )
+from robot.planning.robot_body import UPRIGHT, Body, Standing
 from robot.planning.solve import Solver
 from robot.se3 import SE3
 from sim.reality import Simulation

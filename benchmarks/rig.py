@@ -16,8 +16,8 @@ from robot.messages import BodyCommand, Channel
 from robot.model import description
 from robot.se3 import SE3, wrap_angle
 from sim.plant import Plant
-from sim.schema import World
 from sim.world import empty
+from sim.world_schema import World
 
 STEPS = round(BUS_PERIOD_S / 0.001)
 

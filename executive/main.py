@@ -17,7 +17,7 @@ import msgspec
 
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
-from executive.frontends.launching import FrontEnd, Overseen
+from executive.frontends.launching import FrontEnd, PlainFrontEnd
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
@@ -27,7 +27,7 @@ from robot.exit_status import ExitStatus
 POLL_S = 0.02
 
 
-def front_end(name: str) -> Overseen:
+def front_end(name: str) -> PlainFrontEnd:
     """The front end of that name, which is loaded with all that it needs, and nothing else is."""
     match FrontEnd(name):
         case FrontEnd.DO:
@@ -53,7 +53,7 @@ def front_end(name: str) -> Overseen:
 
 
 def main(
-    private: str, parent_pid: str, number: str, *, load: Callable[[str], Overseen] = front_end
+    private: str, parent_pid: str, number: str, *, load: Callable[[str], PlainFrontEnd] = front_end
 ) -> int:
     """Load, build, run, close; returns the exit status. A spare waits for its turn in between.
 
@@ -76,7 +76,9 @@ def main(
         return ExitStatus.CRASHED
 
 
-def _turn(folder: Path, number: int, load: Callable[[str], Overseen]) -> tuple[Overseen, Front]:
+def _turn(
+    folder: Path, number: int, load: Callable[[str], PlainFrontEnd]
+) -> tuple[PlainFrontEnd, Front]:
     """Load everything, then wait until as many executives have died as `number` says.
 
     Ctrl-C is for the executive whose turn it is: that hears it while it loads, a spare does not.

@@ -8,7 +8,7 @@ from robot.messages import ObjectInfo, Obstacle, PersonInfo, Place, Shape, World
 from robot.se3 import SE3
 from sim import furniture
 from sim.footprint import Footprint
-from sim.schema import Furniture, Object, Person, Room, World
+from sim.world_schema import Furniture, Object, Person, Room, World
 
 WALL_M = 0.08
 PERSON_RADIUS_M = 0.25

@@ -15,7 +15,7 @@ from robot.messages import Obstacle
 from robot.se3 import SE3
 from sim import atlas, furniture
 from sim.paint import Paint
-from sim.schema import Furniture, Object, Person
+from sim.world_schema import Furniture, Object, Person
 
 FLOOR_FRICTION = [0.9, 0.01, 0.0005]
 WOOD_FRICTION = [0.5, 0.005, 0.0001]

@@ -28,7 +28,7 @@ from robot.reality.faults import (
 )
 from robot.se3 import SE3, Vector3
 from sim import atlas
-from sim.schema import World
+from sim.world_schema import World
 
 if TYPE_CHECKING:
     from sim.plant import Plant

@@ -1,6 +1,6 @@
 """The form of every kind of furniture: the parts it is made of, and the surfaces it offers.
 
-One form serves the physics (`sim.scene`) and the robot's prior map (`sim.atlas`). Parts and
+One form serves the physics (`sim.assembly`) and the robot's prior map (`sim.atlas`). Parts and
 surfaces are in the furniture's frame: x out of its front, z up, the origin on the floor under the
 middle of its footprint.
 """
@@ -13,7 +13,7 @@ from typing import Literal
 import msgspec
 
 from robot.se3 import Vector3
-from sim.schema import Furniture
+from sim.world_schema import Furniture
 
 PANEL_M = 0.02
 OPEN_M = 2.0  # clearance of a surface with nothing above it

@@ -16,7 +16,7 @@ from robot.messages import PoseFix, Sighting, Sightings
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 from sim.rays import Rays
-from sim.schema import World
+from sim.world_schema import World
 
 FIX_NOISE_M = 0.003
 FIX_NOISE_RAD = math.radians(0.2)

@@ -12,7 +12,7 @@ from robot.messages import Place
 from robot.se3 import SE3
 from sim import atlas
 from sim.footprint import Footprint, Point
-from sim.schema import Object, Start, World
+from sim.world_schema import Object, Start, World
 
 GAP_M = 0.10  # between objects that are drawn at random: room for a hand around each
 EDGE_M = 0.02  # from an object's side to the edge of its place

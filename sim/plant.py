@@ -19,15 +19,15 @@ from robot.messages import Message, Place
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 from sim import atlas
+from sim.assembly import compile_scene
 from sim.atlas import start_pose
 from sim.battery import Battery
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.placing import placed
-from sim.scene import compile_scene
-from sim.schema import World
 from sim.sensing import Sensing
+from sim.world_schema import World
 
 NEVER = 1 << 62
 PHYSICS_MS = 1

@@ -11,7 +11,7 @@ from robot.model.description import RobotDescription
 from robot.reality.contract import Begin
 from robot.reality.faults import Fault
 from sim import atlas, faults, placing, world
-from sim.schema import World
+from sim.world_schema import World
 
 if TYPE_CHECKING:
     from sim.judged_plant import JudgedPlant

@@ -17,7 +17,7 @@ from robot.errors import ConfigError, Problem
 from robot.se3 import Vector3
 from sim.plant import Plant
 from sim.rays import UNSENSED
-from sim.schema import World
+from sim.world_schema import World
 
 PACKAGES = "libegl1 libgl1-mesa-dri libopengl0"
 Image = NDArray[np.uint8]

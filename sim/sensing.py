@@ -19,8 +19,8 @@ from sim.atlas import world_map
 from sim.battery import Battery
 from sim.oracle import Oracle
 from sim.rays import Rays
-from sim.schema import World
 from sim.sensors import DepthCamera, PlanarLidar
+from sim.world_schema import World
 
 M = TypeVar("M", bound=Message)
 SLOWER = 2.0

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
-from sim import checks
-from sim.schema import Room, World
+from sim import world_checks
+from sim.world_schema import Room, World
 
 
 def available() -> list[str]:
@@ -32,7 +32,7 @@ def load(name_or_path: str) -> World:
     world = config.convert(node, World)
     problems = [
         config.place(node, found.where).problem(found.message, found.suggestion)
-        for found in checks.check(world)
+        for found in world_checks.check(world)
     ]
     if problems:
         raise ConfigError(sorted(problems, key=lambda problem: problem.line or 0))

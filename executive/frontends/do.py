@@ -11,7 +11,7 @@ from executive.frontends import carrying_out, speaking
 from executive.frontends.carrying_out import Prepared
 from executive.frontends.exit import refuse
 from executive.frontends.language_model import language_model
-from executive.frontends.launching import folder_for, overseen
+from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.options import Do
 from executive.frontends.reality import REALITY
 from executive.meaning import request
@@ -43,7 +43,7 @@ def do(options: Do, handle: Handle | None = None) -> int:
     return carrying_out.carry_out(prepare, options, handle, voiced=options)
 
 
-in_executive = overseen(Do, do)
+in_executive = from_plain_options(Do, do)
 
 
 def _understood(options: Do, where: request.Setting) -> request.Understood | request.Refused:

@@ -23,7 +23,7 @@ from robot.bus.run import Run
 
 T = TypeVar("T")
 
-Overseen = Callable[[Handle | None, dict[str, Any]], int]
+PlainFrontEnd = Callable[[Handle | None, dict[str, Any]], int]
 """A front end as a process calls it: with a handle on the robot's, if any, and plain options."""
 
 
@@ -37,11 +37,11 @@ class FrontEnd(StrEnum):
     RESUME = "resume"
 
 
-def here(front: Overseen, options: object) -> int:
+def here(front: PlainFrontEnd, options: object) -> int:
     """Run a front end in this process, in `fast`; returns the exit status.
 
     Args:
-        front: what `overseen` made.
+        front: what `from_plain_options` made.
         options: of the front end, a struct or a dataclass.
 
     Raises:
@@ -66,7 +66,7 @@ def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
     return ended.status
 
 
-def overseen(kind: type[T], front: Callable[[T, Handle | None], int]) -> Overseen:
+def from_plain_options(kind: type[T], front: Callable[[T, Handle | None], int]) -> PlainFrontEnd:
     """A front end as the executive's process calls it: with plain data for options."""
 
     def run(handle: Handle | None, plain: dict[str, Any]) -> int:

@@ -10,8 +10,8 @@ import numpy as np
 
 from robot.errors import Failure, failure
 from robot.planning import numerics, sampling
-from robot.planning.body import Arm, Body
 from robot.planning.requests import ArmPlan, ArmRequest
+from robot.planning.robot_body import Arm, Body
 from robot.planning.scene import HELD, Scene, Touch
 from robot.planning.solids import solids_of
 from robot.planning.timing import Timed, rounded, time_path

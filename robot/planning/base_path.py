@@ -15,9 +15,9 @@ from robot.errors import Failure, failure
 from robot.model.description import RobotDescription
 from robot.planning import numerics, sampling
 from robot.planning.base_block import explain_no_path
-from robot.planning.body import Body
 from robot.planning.floor import Floor, with_room
 from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.robot_body import Body
 from robot.planning.solids import Solid, solids_of
 from robot.se3 import Array, wrap_angle
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from robot.messages import Side
 from robot.planning import reach
-from robot.planning.body import UPRIGHT, Body
 from robot.planning.grasps import HandOption
 from robot.planning.handling_problem import HandlingProblem
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
+from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.scene import Scene
 from robot.planning.solids import solid
 from robot.planning.stances import Candidates, posture_of

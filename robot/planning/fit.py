@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from robot.model.description import RobotDescription
-from robot.planning.body import UPRIGHT, Body
 from robot.planning.requests import BodyPosture
+from robot.planning.robot_body import UPRIGHT, Body
 from robot.se3 import SE3
 
 SOLE_M = 0.004

@@ -17,10 +17,10 @@ import numpy as np
 
 from robot.errors import Failure, failure
 from robot.messages import Side
-from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
+from robot.planning.robot_body import Body
 from robot.planning.stances import propose
 from robot.planning.trials import passing
 

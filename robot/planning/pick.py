@@ -7,13 +7,13 @@ import numpy as np
 from robot.errors import Failure, failure
 from robot.messages import Side
 from robot.planning import reach
-from robot.planning.body import UPRIGHT, Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import pick_options
 from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
+from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.solids import Solid, solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import SE3, Array

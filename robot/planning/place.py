@@ -8,12 +8,12 @@ import numpy as np
 
 from robot.errors import Failure, failure
 from robot.messages import Place, Shape
-from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.grasps import held_option
 from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
+from robot.planning.robot_body import Body
 from robot.planning.solids import solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import Array

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from robot.messages import Side
-from robot.planning.body import Arm, Body
 from robot.planning.grasps import HandOption
 from robot.planning.numerics import Indices, Mask
+from robot.planning.robot_body import Arm, Body
 from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 

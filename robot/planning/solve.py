@@ -6,7 +6,6 @@ from robot.errors import failure
 from robot.model.description import RobotDescription
 from robot.planning.arm_path import plan_arm
 from robot.planning.base_path import plan_base_path
-from robot.planning.body import Body
 from robot.planning.pick import plan_pick
 from robot.planning.place import plan_place
 from robot.planning.requests import (
@@ -16,6 +15,7 @@ from robot.planning.requests import (
     PlanRequest,
     PlanResult,
 )
+from robot.planning.robot_body import Body
 
 
 class Solver:

@@ -10,11 +10,11 @@ import numpy as np
 from robot.messages import Side
 from robot.model.body import SIDES
 from robot.planning import reach
-from robot.planning.body import Body
 from robot.planning.checks import END, Checker
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.numerics import Mask
 from robot.planning.reach import Targets
+from robot.planning.robot_body import Body
 from robot.planning.stances import Candidates
 from robot.se3 import Array
 

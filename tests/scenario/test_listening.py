@@ -206,7 +206,7 @@ def test_stop_silences_it_and_is_never_said_aloud(humanoid, told, loudspeaker):
 
 
 def test_a_recording_that_is_gone_ends_a_live_run_and_is_no_crash(tmp_path):
-    """The overseer starts an executive again after a crash; after this it must not."""
+    """The launcher starts an executive again after a crash; after this it must not."""
     options = Listen(file=tmp_path / "gone.wav", run_dir=tmp_path / "run", fast=True)
     plain = msgspec.to_builtins(options, enc_hook=str)
     with pytest.raises(ConfigError, match="gone"):

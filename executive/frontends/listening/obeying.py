@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from executive.behaviours.ask import ANSWERS
-from executive.frontends.launching import overseen
+from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
 from executive.frontends.prompt import cli
@@ -42,7 +42,7 @@ def obey(options: Listen, handle: Handle | None = None) -> int:
             return _converse(options, handle, speech)
 
 
-in_executive = overseen(Listen, obey)
+in_executive = from_plain_options(Listen, obey)
 
 
 def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:

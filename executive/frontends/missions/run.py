@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
-from executive.frontends.launching import folder_for, overseen
+from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.missions.commands import said
 from executive.frontends.missions.options import Run
 from executive.frontends.reality import REALITY
@@ -38,4 +38,4 @@ def run(options: Run, handle: Handle | None = None) -> int:
     return carrying_out.carry_out(prepare, options, handle)
 
 
-in_executive = overseen(Run, run)
+in_executive = from_plain_options(Run, run)

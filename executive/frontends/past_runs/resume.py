@@ -10,7 +10,7 @@ import typer
 
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
-from executive.frontends.launching import FrontEnd, launch, now_stamp, overseen, under_way
+from executive.frontends.launching import FrontEnd, from_plain_options, launch, now_stamp, under_way
 from executive.frontends.options import Shown
 from executive.frontends.past_runs import printing
 from executive.frontends.reality import REALITY
@@ -96,7 +96,7 @@ def go_on_live(wanted: GoOn, handle: Handle | None = None) -> int:
     return carrying_out.carry_out(prepare, wanted, handle)
 
 
-in_executive = overseen(GoOn, go_on_live)
+in_executive = from_plain_options(GoOn, go_on_live)
 
 
 def _note(changed: list[str]) -> None:

@@ -13,7 +13,13 @@ from rich.console import Console
 
 from executive.frontends import carrying_out, speaking
 from executive.frontends.language_model import language_model
-from executive.frontends.launching import FrontEnd, folder_for, launch, overseen, under_way
+from executive.frontends.launching import (
+    FrontEnd,
+    folder_for,
+    from_plain_options,
+    launch,
+    under_way,
+)
 from executive.frontends.options import Prompt
 from executive.frontends.progress import sentence
 from executive.frontends.prompt import commands
@@ -76,7 +82,7 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
         return status
 
 
-in_executive = overseen(Begun, prompt)
+in_executive = from_plain_options(Begun, prompt)
 
 
 def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None) -> int:

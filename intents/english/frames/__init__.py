@@ -6,7 +6,7 @@ A frame is a function ``frame(clause, scope) -> goals``. It raises
 
 from collections.abc import Callable
 
-from intents.english.frames import body, devices, handling, mission, motion, people
+from intents.english.frames import devices, handling, mission, motion, people, postures
 from intents.english.phrases.complements import Clause
 from intents.english.phrases.referents import Scope
 from intents.goals import Goal
@@ -37,13 +37,13 @@ FRAMES: dict[str, Frame] = {
     "open": devices.open_,
     "close": devices.close,
     "switch": devices.switch,
-    "stand": body.stand,
-    "balance": body.stand,
-    "squat": body.squat,
-    "sit": body.sit,
-    "lean": body.lean,
-    "lift_leg": body.lift_leg,
-    "gesture": body.gesture,
+    "stand": postures.stand,
+    "balance": postures.stand,
+    "squat": postures.squat,
+    "sit": postures.sit,
+    "lean": postures.lean,
+    "lift_leg": postures.lift_leg,
+    "gesture": postures.gesture,
     "stop": mission.stop,
     "pause": mission.pause,
     "resume": mission.resume,

@@ -19,8 +19,8 @@ from robot.reality import faults
 from robot.se3 import SE3
 from sim.faults import apply
 from sim.reality import SimulatedWorld, Simulation
-from sim.schema import Start
 from sim.world import load as load_world
+from sim.world_schema import Start
 
 JUNO = load("juno")
 TICK_S = 0.05

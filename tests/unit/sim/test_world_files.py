@@ -9,7 +9,7 @@ from robot.errors import ConfigError
 from sim import atlas, placing, world
 from sim.footprint import Footprint
 from sim.furniture import KINDS, form, size_m
-from sim.schema import Furniture
+from sim.world_schema import Furniture
 
 GOOD = """\
 name: test
@@ -152,7 +152,7 @@ def test_variations_are_valid_repeat_and_differ(kitchen):
     first = placing.variation(kitchen, 5)
     assert placing.variation(kitchen, 5) == first
     assert placing.variation(kitchen, 6) != first
-    from sim.checks import check
+    from sim.world_checks import check
 
     for seed in range(20):
         varied = placing.variation(kitchen, seed)

@@ -3,7 +3,7 @@
 import pytest
 
 from robot.model.description import load
-from robot.planning.body import Body
+from robot.planning.robot_body import Body
 from robot.planning.solve import Solver
 
 

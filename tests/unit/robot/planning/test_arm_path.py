@@ -7,8 +7,8 @@ from scipy.interpolate import CubicSpline
 from robot.errors import Failure
 from robot.messages import Side
 from robot.model import description
-from robot.planning.body import UPRIGHT, Body
 from robot.planning.requests import ArmPlan, ArmRequest, Joints, Surroundings
+from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
 from robot.se3 import SE3

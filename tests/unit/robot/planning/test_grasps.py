@@ -7,8 +7,8 @@ import pytest
 
 from robot.errors import Failure
 from robot.messages import Shape
-from robot.planning.body import Body
 from robot.planning.grasps import HandOption, held_option, pick_options
+from robot.planning.robot_body import Body
 from robot.se3 import SE3
 
 AT = SE3((1.0, 2.0, 0.8))

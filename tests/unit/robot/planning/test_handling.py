@@ -7,7 +7,6 @@ import pytest
 
 from robot.errors import Failure
 from robot.messages import Shape
-from robot.planning.body import Body
 from robot.planning.floor import Floor
 from robot.planning.requests import (
     ObjectPose,
@@ -18,6 +17,7 @@ from robot.planning.requests import (
     Stance,
     Surroundings,
 )
+from robot.planning.robot_body import Body
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
 from robot.se3 import SE3

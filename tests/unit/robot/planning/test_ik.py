@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from robot.planning.body import Body
+from robot.planning.robot_body import Body
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

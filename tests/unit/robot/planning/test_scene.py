@@ -3,8 +3,8 @@
 import numpy as np
 
 from robot.messages import Shape
-from robot.planning.body import UPRIGHT, Body
 from robot.planning.requests import Held
+from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.scene import Scene
 from robot.planning.solids import Solid
 from robot.se3 import SE3

@@ -16,7 +16,7 @@ from sim import atlas, furniture
 from sim.footprint import Footprint
 from sim.palette import COLORS, FLOORS
 from sim.placing import clear_of, radius_m
-from sim.schema import Furniture, Object, Room, World
+from sim.world_schema import Furniture, Object, Room, World
 
 MAX_M = 100.0
 MAX_OBJECT_KG = 50.0

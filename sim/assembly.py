@@ -12,7 +12,7 @@ from robot.model import mjcf
 from robot.model.description import RobotDescription
 from sim import atlas, bodies, motors, placing
 from sim.paint import Paint
-from sim.schema import World
+from sim.world_schema import World
 
 GROUND_M = 40.0
 
