@@ -1,0 +1,64 @@
+"""The example of a new kind of sensor, with its row in the registry: it is published."""
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from examples import sensor_thermometer as thermometer
+from robot.bus.bus import LocalBus
+from robot.clock import SimulatedClock
+from robot.drivers import registry, senses
+from robot.drivers.registry import Sense
+from robot.drivers.wiring import Wiring
+from robot.errors import DriverError
+from robot.model import description
+
+ROBOT = description.load("juno")
+# What a simulated plant measures is simulated; of the computer there is but the real one.
+ROW = Sense("thermometer", {"linux": thermometer.make}, thermometer.COMPUTER)
+
+
+@pytest.fixture
+def zone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    zone = tmp_path / "temp"
+    zone.write_text("41500\n")
+    monkeypatch.setattr(thermometer, "ZONE", zone)
+    return zone
+
+
+@pytest.fixture
+def wiring(zone: Path, monkeypatch: pytest.MonkeyPatch) -> Wiring:
+    monkeypatch.setattr(senses, "SENSES", (*registry.SENSES, ROW))
+    monkeypatch.setattr(registry, "FAMILIES", (*registry.FAMILIES, ROW))
+    drivers = {**ROBOT.drivers, "thermometer": "linux"}
+    robot = msgspec.structs.replace(ROBOT, drivers=drivers)
+    return Wiring(robot=robot, clock=SimulatedClock(), bus=LocalBus())
+
+
+def test_perception_publishes_it_once_a_second(wiring: Wiring, zone: Path):
+    heard = wiring.bus.subscribe(thermometer.COMPUTER)
+    with senses.Senses(wiring, "perception") as opened:
+        for tick in range(21):
+            wiring.clock.sleep_until(0.1 * tick)
+            if tick == 15:
+                zone.write_text("52000\n")
+            opened.relay()
+    assert [(m.stamp_s, m.temperature_c) for m in heard.take()] == [
+        (0.0, 41.5), (1.0, 41.5), (2.0, 52.0)
+    ]  # fmt: skip
+
+
+def test_a_closed_one_refuses(wiring: Wiring):
+    source = ROW.make(wiring)
+    with source:
+        pass
+    with pytest.raises(DriverError, match="not open"):
+        source.read()
+
+
+def test_a_computer_without_one_is_told_when_it_is_opened(wiring: Wiring, zone: Path):
+    zone.unlink()
+    source = ROW.make(wiring)
+    with pytest.raises(DriverError, match="no thermometer"), source:
+        pass
