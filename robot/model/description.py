@@ -231,7 +231,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
     def digest(self) -> bytes:
         """SHA-256 of the description and its MJCF, wherever they lie, 32 bytes."""
-        placeless = msgspec.structs.replace(self, folder="", mjcf_folder="")
+        placeless = msgspec.structs.replace(self, folder="", file="", mjcf_folder="")
         return hashlib.sha256(msgspec.json.encode(placeless) + self.source.content()).digest()
 
     def posture(self, name: str) -> tuple[float, ...]:

@@ -13,7 +13,6 @@ from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.drivers.motor_bus import Capability, MotorBus
 from robot.drivers.registry import MOTORS
-from robot.drivers.simulation.fingerprint import fingerprint
 from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -229,7 +228,7 @@ def test_another_robot_is_refused(shared: Device, tmp_path: Path, other):
     with pytest.raises(DriverError, match="different robots") as caught:
         SharedPlant(other, tmp_path, clock=SimulatedClock()).open()
     for robot in (ROBOT, other):
-        assert fingerprint(robot).hex()[:16] in str(caught.value)
+        assert robot.digest().hex()[:16] in str(caught.value)
 
 
 @pytest.mark.parametrize("content", [b"", b"junk", b"HUMOTOR9" + bytes(20000)])

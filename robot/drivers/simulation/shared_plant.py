@@ -19,7 +19,6 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import MotorCommand, MotorState
-from robot.drivers.simulation.fingerprint import fingerprint
 from robot.drivers.simulation.seqlock import Seqlock
 from robot.errors import DriverError
 from robot.model.description import RobotDescription
@@ -55,7 +54,7 @@ class PlantMemory:
         path, count = folder / NAME, len(robot.motors)
         sample_at = HEADER.size + Seqlock.bytes_for(_command_size(count))
         size = sample_at + Seqlock.bytes_for(_sample_size(count))
-        header = HEADER.pack(MAGIC, count, fingerprint(robot))
+        header = HEADER.pack(MAGIC, count, robot.digest())
         if create:
             fresh = path.with_suffix(".new")
             fresh.write_bytes(header + bytes(size - len(header)))
