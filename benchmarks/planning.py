@@ -20,7 +20,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model import description
 from robot.planning.requests import (

@@ -1,6 +1,6 @@
 """A failure code: the ground is too slippery to walk on.
 
-`KIND` would be the row "slipping" of `CATALOGUE` in `robot/errors.py`, `RULE` that of `RULES` in
+`KIND` would be the row "slipping" of `CATALOGUE` in `robot/failures.py`, `RULE` that of `RULES` in
 `executive/trees/recovery.py`. The rule asks a person when all else has failed, so there is a third
 row, `HELP` in `executive/trees/remedies.py`; a rule without `ask` needs two files.
 """
@@ -8,7 +8,7 @@ row, `HELP` in `executive/trees/remedies.py`; a rule without `ask` needs two fil
 from __future__ import annotations
 
 from executive.trees.recovery import Rule
-from robot.errors import FailureKind
+from robot.failures import FailureKind
 
 CODE = "slipping"
 KIND = FailureKind("the feet slip on the floor", "dry the floor")

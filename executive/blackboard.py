@@ -12,7 +12,8 @@ from types import UnionType
 from typing import Any, Generic, TypeVar, cast, get_args, get_origin
 
 from executive.health import Health
-from robot.errors import Failure, RobotError
+from robot.errors import RobotError
+from robot.failures import Failure
 from robot.messages import BodyState, Side, WorldMap, WorldState
 from robot.se3 import SE3
 

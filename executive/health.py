@@ -7,7 +7,7 @@ from enum import IntEnum
 
 import msgspec
 
-from robot.errors import Failure
+from robot.failures import Failure
 
 
 class Level(IntEnum):

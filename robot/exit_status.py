@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from robot.errors import Failure
+from robot.failures import Failure
 
 
 class ExitStatus(IntEnum):

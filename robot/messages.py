@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.se3 import SE3, Vector3
 
 Side = Literal["left", "right"]

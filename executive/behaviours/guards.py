@@ -7,7 +7,7 @@ from py_trees.common import Status
 
 from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import ABORT, HEALTH, PAUSE, PAUSED, RESTLESS, STOP, Writer
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 HOLD_LIMIT_S = 20.0
 """How long the robot may stand and wait in one task, all waits together."""

@@ -22,7 +22,7 @@ from executive.behaviours.stage import Stage, broken
 from executive.blackboard import Blackboard
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resumable, Skill, SkillReport
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 Bound = Callable[[Blackboard], SkillParams | Failure]
 """Parameters that are known only when the step's turn comes."""

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from robot.errors import Failure
+from robot.failures import Failure
 
 
 class Suspendable(Protocol):

@@ -13,7 +13,7 @@ from executive.blackboard import FAILURE, HELP, NOW, PHASE, RECOVERIES, RESTLESS
 from executive.journal.journal import Journal
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill, SkillReport
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 STOP_TIMEOUT_S = 10.0
 """How long a skill may take to bring the body to rest before it is given up."""

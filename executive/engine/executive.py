@@ -32,7 +32,8 @@ from executive.skills import catalogue
 from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, Skill
-from robot.errors import Failure, RobotError, failure
+from robot.errors import RobotError
+from robot.failures import Failure, failure
 
 RATE_HZ = 20.0
 KEPT_JOBS = 1000

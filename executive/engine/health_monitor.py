@@ -17,7 +17,7 @@ import msgspec
 from executive.engine.estop import EmergencyStop
 from executive.health import Finding, Health, Level
 from robot.bus.topics import TOPICS, Silence
-from robot.errors import failure
+from robot.failures import failure
 from robot.messages import BodyState, LoopTiming, PowerState, WorldState
 
 START_UP_S = 10.0

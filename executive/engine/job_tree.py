@@ -20,7 +20,7 @@ from executive.behaviours.scope import Scope
 from executive.behaviours.stage import Stage, broken, failure_data
 from executive.blackboard import FAILURE, GOAL, RECOVERIES, RESTLESS
 from executive.engine.jobs import OVER, UNDER_WAY, Job, JobState, side_by_side
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 log = logging.getLogger(__name__)
 

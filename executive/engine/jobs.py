@@ -8,7 +8,7 @@ from typing import Literal
 import msgspec
 
 from executive.skills.skill import Resource
-from robot.errors import Failure
+from robot.failures import Failure
 
 BODY: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
 """What a job needs unless it says less: all but the voice."""

@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 
 from executive.engine.executive import RATE_HZ, Executive
 from robot.clock import Clock, Waker
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.link import BodyLink
 from robot.messages import Damp, LoopTiming
 from robot.reality.faults import Fault

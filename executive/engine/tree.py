@@ -33,7 +33,7 @@ from executive.engine.job_tree import Jobs
 from executive.engine.sense import Sense, WindDown
 from executive.skills.navigate import FloorPose, NavigateParams
 from executive.skills.stop import StopParams
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 REST_LIMIT_S = 15.0
 

@@ -17,7 +17,8 @@ from executive.missions.load import find
 from executive.runs import mission_task
 from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
-from robot.errors import CATALOGUE, ConfigError, Problem
+from robot.errors import ConfigError, Problem
+from robot.failures import CATALOGUE
 from robot.reality import truth
 from robot.reality.contract import Reality
 

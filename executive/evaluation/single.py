@@ -18,7 +18,7 @@ from executive.runs import runtimes
 from executive.runs.again import continuation
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.reality import truth
 from robot.reality.contract import Plant, Reality
 

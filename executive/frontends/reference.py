@@ -16,8 +16,8 @@ from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot import config
 from robot.bus.topics import BY_NAME
-from robot.errors import CATALOGUE
 from robot.exit_status import BROKEN_CODES, MEANINGS
+from robot.failures import CATALOGUE
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
 

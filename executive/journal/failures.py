@@ -1,14 +1,14 @@
 """A failure in words: what every command, prompt, voice and dump says of one.
 
 A failure has a code for programs, a cause for people, and maybe a suggestion of its own
-(`robot.errors.Failure`); the journal's and the summary's records of one have the same fields.
+(`robot.failures.Failure`); the journal's and the summary's records of one have the same fields.
 """
 
 from __future__ import annotations
 
 from typing import Protocol
 
-from robot.errors import CATALOGUE
+from robot.failures import CATALOGUE
 
 
 class Failed(Protocol):

@@ -13,7 +13,7 @@ from intents import goals
 from intents.grounding import Ambiguous, Entity, Unknown, describe, ground
 from intents.relations import Viewpoint
 from robot.config import nearest
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import ObjectInfo, PersonInfo, Place
 
 HANDS = 2

@@ -19,7 +19,7 @@ from intents.outcomes import YES_OR_NO, Goals, Question, Refusal
 from intents.parser import Fallback
 from intents.state import RobotState
 from intents.wording import in_words
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import WorldMap
 from robot.model import description
 from robot.model.body import BodyModel

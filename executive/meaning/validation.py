@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.skills.catalogue import skill_of, unable
 from executive.skills.parameters import SkillParams
 from executive.trees.parts import Part, errands
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import WorldMap
 from robot.model.description import RobotDescription
 

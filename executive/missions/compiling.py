@@ -26,7 +26,7 @@ from executive.trees import parts as p
 from executive.trees.build import ANY
 from intents import goals
 from robot.config import nearest
-from robot.errors import CATALOGUE
+from robot.failures import CATALOGUE
 from robot.model.description import RobotDescription
 from robot.yaml_nodes import Node, text_node
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from executive.meaning.request import Setting
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Place, Side
 from robot.planning.requests import (
     Held,

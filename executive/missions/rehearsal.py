@@ -16,7 +16,7 @@ from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.pacing import BEGIN_S, straight_s, walking_s
 from executive.skills.motions.standpoints import ROOM_M, stances_at
 from executive.skills.motions.walk import CLEARANCE_M
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Place, Side, WorldMap
 from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PlacePlan, Stance

@@ -15,7 +15,8 @@ import numpy as np
 from executive.journal.journal import FILE as JOURNAL
 from executive.journal.journal import Event, Journal
 from executive.missions.fault_plans import FaultPlan, drawn
-from robot.errors import ConfigError, Failure, failure
+from robot.errors import ConfigError
+from robot.failures import Failure, failure
 from robot.planning.requests import PlanRequest, PlanResult
 from robot.planning.worker import Planner
 from robot.reality.faults import Fault, parse

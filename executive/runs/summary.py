@@ -11,8 +11,8 @@ from executive.meaning.knowledge import Knowledge
 from executive.runs.session import Session
 from executive.skills.place import PlaceParams
 from executive.trees.parts import Part, errands
-from robot.errors import Failure
 from robot.exit_status import exit_status
+from robot.failures import Failure
 from robot.messages import LoopTiming, WorldState
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import msgspec
 
 from executive.engine.loop import PERIOD_S, Interrupts, Runtime
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import BodyState, Damp, Stand, Walk
 from robot.model.description import RobotDescription
 

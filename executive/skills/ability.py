@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from executive.skills.skill import Resource, SkillReport
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Side
 from robot.model.description import RobotDescription
 

@@ -13,7 +13,7 @@ from executive.skills.motions.script import Script, give_up
 from executive.skills.motions.walk import stand_still
 from executive.skills.parameters import SkillParams, lasting
 from executive.skills.scripted import ScriptedSkill
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import OneLeg, Side, WorldMap
 from robot.model.description import RobotDescription
 

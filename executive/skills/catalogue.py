@@ -21,7 +21,7 @@ from executive.skills.search import Search
 from executive.skills.skill import Skill
 from executive.skills.stop import Stop
 from executive.skills.wait import Wait
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.model.description import RobotDescription
 
 SKILLS: tuple[type[ScriptedSkill[Any]], ...] = (

@@ -25,7 +25,7 @@ from executive.skills.motions.stow import stow_arms
 from executive.skills.motions.walk import follow, plan_path, stand_still, turn_by, walk_to
 from executive.skills.parameters import SkillParams, exactly_one, finite, within
 from executive.skills.scripted import ScriptedSkill
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import WorldMap
 from robot.model.description import RobotDescription
 from robot.planning.requests import BasePath, Stance

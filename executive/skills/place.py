@@ -22,7 +22,7 @@ from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.motions.support import occupant, surroundings, tilt
 from executive.skills.parameters import SkillParams, exactly_one, finite
 from executive.skills.scripted import ScriptedSkill
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2

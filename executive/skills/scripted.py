@@ -17,7 +17,7 @@ from executive.skills.motions.rest import come_to_rest
 from executive.skills.motions.script import GaveUp, Script
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import WorldMap
 from robot.model.description import RobotDescription
 

@@ -11,7 +11,7 @@ from typing import Literal, Protocol, runtime_checkable
 import msgspec
 
 from executive.skills.parameters import SkillParams
-from robot.errors import Failure
+from robot.failures import Failure
 
 Resource = Literal["legs", "left_arm", "right_arm", "head", "voice"]
 

@@ -27,7 +27,7 @@ from executive.trees.flow import (
 )
 from executive.trees.idioms import either, in_order, once
 from executive.trees.recovery import resilient
-from robot.errors import failure
+from robot.failures import failure
 
 ANY = "any"
 """In `OnFail`: any code that has no handler of its own."""

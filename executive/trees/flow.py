@@ -23,7 +23,7 @@ from py_trees.composites import Composite
 from executive.behaviours.stage import Stage
 from executive.trees.idioms import Build
 from executive.trees.parts import Finding, Loop, Retry, of_attempt
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 PATIENCE_S = 2.0
 """How long an expectation may take to come true: what is seen lags behind what is done."""

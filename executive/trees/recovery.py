@@ -33,7 +33,7 @@ from executive.behaviours.stage import Stage
 from executive.trees.idioms import Alternatives, in_order
 from executive.trees.parts import Errand
 from executive.trees.remedies import ASKING, HELP, REMEDIES, Remedy, question
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 PER_STEP, PER_TASK = 6, 14
 """Recoveries of one step, and those that one task may spend, whatever their codes."""

@@ -11,7 +11,7 @@ from executive.skills.navigate import NavigateParams, Step
 from executive.skills.pick import PickParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand
-from robot.errors import Failure
+from robot.failures import Failure
 
 Remedy = Literal["retry", "wait", "look_again", "fetch_again", "step_back", "get_up", "ask"]
 

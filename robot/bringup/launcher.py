@@ -26,8 +26,9 @@ from robot.bringup.processes import EXECUTIVE, PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import run
 from robot.clock import Clock, WallClock
-from robot.errors import Failure, RobotError
+from robot.errors import RobotError
 from robot.exit_status import ExitStatus
+from robot.failures import Failure
 
 WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that mean that somebody wants it to end."""

@@ -21,7 +21,8 @@ from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, Waker, WallClock
 from robot.closing import Closing
 from robot.drivers import registry
-from robot.errors import BusError, ConfigError, Failure, ProcessError, failure
+from robot.errors import BusError, ConfigError, ProcessError
+from robot.failures import Failure, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description

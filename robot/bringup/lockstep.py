@@ -15,7 +15,8 @@ from robot.closing import Closing
 from robot.drivers.body_devices import BodyDevices
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
-from robot.errors import ConfigError, DriverError, Failure, failure
+from robot.errors import ConfigError, DriverError
+from robot.failures import Failure, failure
 from robot.link import BusLink
 from robot.messages import BodyCommand, BodyState
 from robot.reality.contract import Plant

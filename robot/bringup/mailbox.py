@@ -19,7 +19,8 @@ import msgspec
 
 from robot.bus import run
 from robot.bus.run import Run
-from robot.errors import Failure, ProcessError
+from robot.errors import ProcessError
+from robot.failures import Failure
 
 FRONT_FILE, RUN_FILE, STATE_FILE = "front.json", "run.json", "state.json"
 

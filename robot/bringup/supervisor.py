@@ -10,7 +10,8 @@ from robot.bringup.child import Child, describe_exit
 from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
 from robot.clock import Clock
 from robot.closing import Closing
-from robot.errors import Failure, ProcessError, failure
+from robot.errors import ProcessError
+from robot.failures import Failure, failure
 
 LOG_TAIL_BYTES = 4096
 

@@ -23,7 +23,7 @@ from robot.control.walking.gait import Reference
 from robot.control.whole_body import WholeBody
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.fusion.base_state import BaseStateEstimator
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import (

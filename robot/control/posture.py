@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.fusion.base_state import BaseStateEstimator
 from robot.kinematics.dynamics import Dynamics
 from robot.se3 import Array

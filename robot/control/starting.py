@@ -14,7 +14,7 @@ import numpy as np
 from robot.control.walking.footsteps import Sole, stance_of
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorState
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Mode
 from robot.model.body import SIDES

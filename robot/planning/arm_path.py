@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.planning import numerics, sampling
 from robot.planning.requests import ArmPlan, ArmRequest
 from robot.planning.robot_body import Arm, Body

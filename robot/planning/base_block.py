@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.planning import numerics
 from robot.planning.floor import CELL_M, Floor
 from robot.planning.numerics import Indices

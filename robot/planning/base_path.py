@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.model.description import RobotDescription
 from robot.planning import numerics, sampling
 from robot.planning.base_block import explain_no_path

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import Shape
 from robot.model.description import Hand
 from robot.model.handling import Gripping

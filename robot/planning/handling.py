@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import Side
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.messages import Place, Shape
 from robot.planning.floor import Floor
 from robot.planning.grasps import held_option

@@ -16,7 +16,8 @@ from multiprocessing.context import SpawnProcess
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import Clock, WallClock
 from robot.closing import Closing
-from robot.errors import ProcessError, failure
+from robot.errors import ProcessError
+from robot.failures import failure
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 

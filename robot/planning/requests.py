@@ -22,7 +22,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Obstacle, Place, Shape, Side, WorldMap, WorldState
 from robot.se3 import SE3
 

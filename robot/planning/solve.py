@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robot.errors import failure
+from robot.failures import failure
 from robot.model.description import RobotDescription
 from robot.planning.arm_path import plan_arm
 from robot.planning.base_path import plan_base_path

@@ -11,7 +11,8 @@ import pytest
 from robot.bus import topics
 from robot.bus.bus import Bus, LocalBus
 from robot.bus.zenoh_bus import ZenohBus
-from robot.errors import BusError, failure
+from robot.errors import BusError
+from robot.failures import failure
 from robot.messages import (
     DepthImage,
     Grip,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.model.description import load
 from robot.planning import process
 from robot.planning.inline import PLAN_SPAN_S, InlinePlanner

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 from robot.planning import requests as r
 from robot.se3 import SE3
 from tests.fakes.puppet import joints

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from robot import messages as m
-from robot.errors import Failure
+from robot.failures import Failure
 from tests.fakes.oracle_planner import RulePlanner
 from tests.fakes.puppet import TICK_S, Puppet
 

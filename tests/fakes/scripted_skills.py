@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
-from robot.errors import failure
+from robot.failures import failure
 from robot.messages import WorldMap
 
 

@@ -15,8 +15,8 @@ from executive.frontends import carrying_out, do
 from executive.meaning import request
 from executive.runs import runtimes
 from intents.outcomes import Question
-from robot.errors import failure
 from robot.exit_status import ExitStatus
+from robot.failures import failure
 from robot.messages import Damp, Stand
 from robot.model import description
 from robot.planning.requests import BasePathRequest, PickRequest

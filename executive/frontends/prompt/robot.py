@@ -19,7 +19,8 @@ from executive.runs.session import Session
 from robot.bringup.mailbox import Handle
 from robot.clock import Clock
 from robot.closing import Closing
-from robot.errors import Failure, ProcessError
+from robot.errors import ProcessError
+from robot.failures import Failure
 
 LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""

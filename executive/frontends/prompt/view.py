@@ -13,7 +13,7 @@ from executive.engine.executive import Executive
 from executive.engine.jobs import UNDER_WAY
 from executive.health import Level
 from executive.journal.snapshot import Shown, at_work, in_order
-from robot.errors import Failure
+from robot.failures import Failure
 
 PACE_SPAN_S = 2.0
 PANEL_PERIOD_S = 0.2

@@ -10,7 +10,7 @@ from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm
 from executive.skills.motions.script import Script
 from executive.skills.motions.walk import stand_still, walk_to
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Side
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan
 from robot.se3 import SE3

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.script import GaveUp, Script, give_up
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Side
 from robot.planning import requests
 from robot.planning.requests import PlanRequest, Stance

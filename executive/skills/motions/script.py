@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from typing import TypeAlias, TypeVar
 
-from robot.errors import Failure, failure
+from robot.failures import Failure, failure
 
 T = TypeVar("T")
 Script: TypeAlias = Generator[None, None, T]

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from executive.journal.journal import Journal
-from robot.errors import failure
+from robot.failures import failure
 from robot.planning.requests import PickRequest
 from tests.scenario.test_cli import press, runtime  # noqa: F401 - a fixture
 

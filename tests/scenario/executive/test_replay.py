@@ -10,7 +10,7 @@ import pytest
 from executive.meaning import request
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
-from robot.errors import failure
+from robot.failures import failure
 from robot.planning.requests import PickRequest
 from tests.fakes.puppet_runtime import PuppetRuntime
 from tests.fakes.worlds import mapped, puppet

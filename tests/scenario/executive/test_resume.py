@@ -12,7 +12,7 @@ from executive.meaning import request
 from executive.meaning.knowledge import Knowledge
 from executive.runs.again import agreement, continuation
 from robot import messages as m
-from robot.errors import failure
+from robot.failures import failure
 from robot.model import description
 from robot.planning.requests import PickRequest
 from robot.se3 import SE3

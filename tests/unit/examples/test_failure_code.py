@@ -6,7 +6,7 @@ from examples.failure_code import CODE, KIND, RULE, WISH
 from executive.skills.navigate import NavigateParams
 from executive.trees.recovery import RULES, unasked
 from executive.trees.remedies import HELP, REMEDIES
-from robot.errors import CATALOGUE, failure
+from robot.failures import CATALOGUE, failure
 from tests.fakes.rig import WALK, Rig
 from tests.fakes.scripted_skills import Script
 

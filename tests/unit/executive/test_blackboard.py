@@ -3,7 +3,7 @@
 import pytest
 
 from executive.blackboard import BODY, FAILURE, KEYS, NOW, Blackboard, BlackboardError, Key
-from robot.errors import failure
+from robot.failures import failure
 
 
 def test_every_key_has_a_writer_and_a_meaning():

@@ -4,7 +4,8 @@ import msgspec
 import pytest
 
 from robot import errors
-from robot.errors import CATALOGUE, ConfigError, Failure, Problem, RobotError, failure
+from robot.errors import ConfigError, Problem, RobotError
+from robot.failures import CATALOGUE, Failure, failure
 
 
 def test_a_failure_with_an_unknown_code_cannot_be_made():

@@ -12,7 +12,7 @@ from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.skills.search import SearchParams
 from executive.skills.wait import WaitParams
-from robot.errors import CATALOGUE, Failure
+from robot.failures import CATALOGUE, Failure
 from tests.fakes.rig import PICK, PUT, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 from tests.fakes.worlds import WHERE

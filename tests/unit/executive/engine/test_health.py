@@ -18,7 +18,7 @@ from executive.engine.health_monitor import (
 )
 from executive.health import Level
 from robot.bus.topics import TOPICS
-from robot.errors import CATALOGUE
+from robot.failures import CATALOGUE
 from robot.messages import LoopTiming, PowerState, WorldState
 from robot.se3 import SE3
 from tests.fakes.puppet import Puppet

@@ -19,7 +19,7 @@ from executive.trees.build import build
 from executive.trees.parts import Branch
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES, Errand
 from executive.trees.remedies import REMEDIES
-from robot.errors import CATALOGUE, Failure
+from robot.failures import CATALOGUE, Failure
 from robot.messages import LidarScan
 from tests.fakes.rig import PICK, PUT, TICK_S, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script

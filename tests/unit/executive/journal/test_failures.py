@@ -3,7 +3,7 @@
 import pytest
 
 from executive.journal import failures
-from robot.errors import CATALOGUE, failure
+from robot.failures import CATALOGUE, failure
 
 MISSED = failure("grasp_missed", "the fingers closed on air")
 

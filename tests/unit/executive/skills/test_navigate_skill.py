@@ -9,7 +9,7 @@ from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.reach import posture_rad
 from executive.skills.navigate import FloorPose, NavigateParams, Step
-from robot.errors import failure
+from robot.failures import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
 from robot.planning.requests import BasePathRequest
 from robot.se3 import SE3, wrap_angle

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 
 from executive.skills.pick import PickParams
-from robot.errors import failure
+from robot.failures import failure
 from robot.messages import DepthImage, Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest, PickRequest
 from robot.se3 import SE3

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from robot.errors import failure
+from robot.failures import failure
 from robot.messages import Grip, MoveHand
 from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import ArmRequest, PlaceRequest

@@ -11,7 +11,7 @@ from executive.skills.place import PlaceParams
 from executive.skills.search import SearchParams
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES, unasked
 from executive.trees.remedies import HELP, REMEDIES, question
-from robot.errors import CATALOGUE, Failure, failure
+from robot.failures import CATALOGUE, Failure, failure
 from tests.fakes.rig import PICK, PUT, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 

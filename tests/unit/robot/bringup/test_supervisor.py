@@ -14,7 +14,7 @@ from robot.bringup.child import describe_exit
 from robot.bringup.processes import PROCESSES, STOP_ORDER, Process
 from robot.bringup.supervisor import Supervisor, last_line
 from robot.clock import WallClock
-from robot.errors import CATALOGUE
+from robot.failures import CATALOGUE
 from tests.fakes.waiting import eventually
 
 STUB = "tests.fakes.stub_process"

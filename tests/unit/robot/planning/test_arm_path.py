@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Side
 from robot.model import description
 from robot.planning.requests import ArmPlan, ArmRequest, Joints, Surroundings

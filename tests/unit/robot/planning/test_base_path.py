@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import PersonInfo, Track, WorldState
 from robot.planning.floor import Floor
 from robot.planning.requests import BasePath, BasePathRequest, Stance, Surroundings

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Shape
 from robot.planning.grasps import HandOption, held_option, pick_options
 from robot.planning.robot_body import Body

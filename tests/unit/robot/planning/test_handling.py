@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from robot.errors import Failure
+from robot.failures import Failure
 from robot.messages import Shape
 from robot.planning.floor import Floor
 from robot.planning.requests import (

@@ -6,7 +6,7 @@ from executive.frontends.prompt.toolbar import toolbar
 from executive.frontends.prompt.view import View, view_of_lost
 from executive.health import Level
 from executive.journal.snapshot import Shown, window
-from robot.errors import failure
+from robot.failures import failure
 
 words = st.text(st.characters(codec="ascii", categories=("L", "N", "Zs")), max_size=60)
 trees = st.lists(

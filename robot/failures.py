@@ -1,0 +1,114 @@
+"""What a robot could not do, as values, and the catalogue of them with the words that people read.
+
+A failure is an expected outcome of asking a robot to do something: a value with a code out of one
+catalogue, chosen by code for recovery, and shown to people with its cause and a suggestion.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+
+class Failure(msgspec.Struct, frozen=True, kw_only=True):
+    """Why something asked for was not done.
+
+    Attributes:
+        code: an entry of `CATALOGUE`; recovery is chosen by it.
+        cause: one sentence with the particulars, for people.
+        evidence: the measurements behind it, name to value (units in the names).
+        suggestion: what a person could do about it.
+    """
+
+    code: str
+    cause: str
+    evidence: dict[str, float | str] = {}
+    suggestion: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a code that the catalogue does not have."""
+        if self.code not in CATALOGUE:
+            raise ValueError(f"unknown failure code {self.code!r}")
+
+
+class FailureKind(msgspec.Struct, frozen=True):
+    """An entry of the catalogue: what a code means, and what a person can usually do."""
+
+    meaning: str
+    suggestion: str
+
+
+CATALOGUE: dict[str, FailureKind] = {
+    # words and goals
+    "unknown_object": FailureKind(
+        "no such object in this world", "name one of the objects that are there"
+    ),
+    "unknown_place": FailureKind(
+        "no such place in this world", "name one of the places that are there"
+    ),
+    "ambiguous": FailureKind("more than one thing fits", "say which one"),
+    "unsupported": FailureKind("this robot has no skill for that", "ask what it can do"),
+    "invalid_goal": FailureKind(
+        "the goal is out of range or contradicts itself", "check the numbers"
+    ),
+    # planning
+    "no_path": FailureKind(
+        "no free path leads to the place", "clear the way or name another place"
+    ),
+    "start_in_collision": FailureKind(
+        "the robot touches something where it stands", "move it into free space"
+    ),
+    "goal_in_collision": FailureKind("the goal is inside an obstacle", "free the place"),
+    "out_of_reach": FailureKind("the hand cannot reach there", "move the object nearer"),
+    "no_grasp": FailureKind("no grasp holds this shape", "hand over something at most 9 cm wide"),
+    "no_stance": FailureKind(
+        "no free place to stand within reach", "clear the floor in front of it"
+    ),
+    "no_free_spot": FailureKind("the place has no free spot of that size", "clear the place"),
+    "planner_timeout": FailureKind("the planner ran out of its budget", "try again, or simplify"),
+    # acting
+    "path_blocked": FailureKind("something stands in the way", "clear the way"),
+    "walk_stalled": FailureKind("walking made no progress", "look for what holds the robot"),
+    "grasp_missed": FailureKind("the fingers closed on air", "check where the object is"),
+    "object_dropped": FailureKind("the object left the hand", "check the object"),
+    "object_not_seen": FailureKind("the object is not where it was", "show it to the camera"),
+    "on_the_floor": FailureKind(
+        "the object lies on the floor, lower than a hand reaches", "put it back onto a table"
+    ),
+    "not_taken": FailureKind("nobody took what was held out", "pull it out of the hand"),
+    "person_near": FailureKind("somebody stands too near to go on", "step back from the robot"),
+    "person_not_seen": FailureKind("the person is not where they were", "come before the camera"),
+    "not_holding": FailureKind("there is nothing in the hand", "pick something up first"),
+    "hands_full": FailureKind("no free hand", "put something down first"),
+    "arm_stalled": FailureKind("the arm did not get to where it was sent", "clear the arm"),
+    "place_missed": FailureKind("the object did not stay where it was put", "check the place"),
+    "lost_balance": FailureKind("the robot could not keep its balance", "stand it up"),
+    # body and system
+    "fallen": FailureKind("the robot lies on the floor", "make room, then say 'get up'"),
+    "localisation_lost": FailureKind("the robot does not know where it is", "wait, or re-localise"),
+    "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
+    "overheated": FailureKind("a motor is too hot", "let it cool down"),
+    "battery_low": FailureKind("the battery is nearly empty", "charge it"),
+    "emergency_stop": FailureKind("the emergency stop was pressed", "release it, then reset it"),
+    "overloaded": FailureKind("the computer does not keep up", "end other programs on it"),
+    "controller_lost": FailureKind(
+        "the controller process died", "see that the robot stands, and say it again"
+    ),
+    "plant_lost": FailureKind("the simulation died", "restart"),
+    "timeout": FailureKind("it took longer than it may", "try again"),
+    "given_up": FailureKind("the mission gave up on purpose", "read the mission's reason"),
+    "not_as_expected": FailureKind(
+        "the world is not as the mission expects it", "look at what was found instead"
+    ),
+    "cancelled": FailureKind("it was stopped on request", ""),
+    "internal": FailureKind("the software broke", "report it with the run folder"),
+}
+
+
+def failure(code: str, cause: str, *, suggestion: str = "", **evidence: float | str) -> Failure:
+    """Make a `Failure`, with the catalogue's suggestion unless a better one is given."""
+    return Failure(
+        code=code,
+        cause=cause,
+        evidence=evidence,
+        suggestion=suggestion or CATALOGUE[code].suggestion,
+    )
