@@ -1,5 +1,5 @@
 "use strict";
-// The run as data, and what can be asked of it. Arrays are those of executive/journal/pages/model.py.
+// The run as data, and what can be asked of it. Arrays are those of executive/journal/run.py.
 
 const page = JSON.parse(document.getElementById("data").textContent);
 const run = page.run;
