@@ -9,8 +9,8 @@ judged before anything is built of them.
 
 from __future__ import annotations
 
+import errno
 import re
-import stat
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal, cast
@@ -18,6 +18,8 @@ from typing import Any, Literal, cast
 import yaml
 
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
+from robot.printable import is_printable, printable
 
 MAX_BYTES = 2_000_000
 MAX_DEPTH = 60
@@ -110,15 +112,12 @@ def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
     """
     path = Path(path)
     try:
-        _must_be_file(path)
-        with path.open("rb") as file:
-            data = file.read(limit + 1)
+        data = read_ordinary(path, limit=limit)
     except FileNotFoundError:
         raise _refusal(path, "there is no such file", "check the path") from None
     except OSError as error:
-        raise _refusal(path, f"cannot be read: {error.strerror}", "name a file") from None
-    if len(data) > limit:
-        raise _refusal(path, f"the file is larger than {limit / 1e6:g} MB", "split it up")
+        cure = "split it up" if error.errno == errno.EFBIG else "name a file"
+        raise _refusal(path, f"cannot be read: {error.strerror}", cure) from None
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -126,16 +125,6 @@ def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
         column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
         text = f"this is no UTF-8 text (byte {data[error.start]:#04x})"
         raise _refusal(path, text, "save it as UTF-8", line=line, column=column) from None
-
-
-def _must_be_file(path: Path) -> None:
-    """Check that it is a file that ends.
-
-    Raises:
-        ConfigError: it is a folder, a device or a pipe.
-    """
-    if not stat.S_ISREG(path.stat().st_mode):
-        raise _refusal(path, "this is no ordinary file", "name a file")
 
 
 def read(path: Path | str, *, begin_with: str = "") -> Node:
@@ -216,6 +205,9 @@ class _Builder:
                 node = self._begin("text", event)
                 node.text = event.value
                 node.plain = not event.style
+                if not is_printable(node.text):
+                    text = f"a text holds what cannot be printed: {printable(node.text)[:60]}"
+                    self._refuse(event, text, "leave it out")
                 self._put(node)
             elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
                 self._open(event, "map" if kind is yaml.MappingStartEvent else "list")

@@ -1,0 +1,31 @@
+"""Text that may be a stranger's, made fit for a terminal or a page.
+
+A terminal obeys what it is sent: an escape sequence in the name of a cup can clear the screen,
+retitle the window or fill the clipboard, and characters that turn the direction of writing around
+make a line read as what it is not.
+"""
+
+from __future__ import annotations
+
+import re
+
+_CONTROL = "\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for tab and new line, DEL, C1
+_DIRECTION = "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # https://trojansource.codes
+_BREAKS = "\u2028\u2029"  # ends of lines to some readers and not to others
+_SURROGATES = "\ud800-\udfff"  # no text: writing them raises
+_UNFIT = re.compile(f"[{_CONTROL}{_DIRECTION}{_BREAKS}{_SURROGATES}]")
+
+
+def printable(text: str) -> str:
+    r"""The text with what a terminal would obey written out, as in `\x1b[31m`."""
+    return _UNFIT.sub(_written_out, text)
+
+
+def is_printable(text: str) -> bool:
+    """Whether nothing of it has to be written out."""
+    return _UNFIT.search(text) is None
+
+
+def _written_out(found: re.Match[str]) -> str:
+    code = ord(found[0])
+    return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}"

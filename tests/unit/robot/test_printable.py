@@ -1,0 +1,38 @@
+"""What a terminal would obey is written out, and everything else is left alone."""
+
+import unicodedata
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robot.printable import is_printable, printable
+
+ANY = st.text(st.characters())
+
+
+@given(ANY)
+def test_nothing_that_a_terminal_obeys_is_left(text: str) -> None:
+    left = printable(text)
+    assert is_printable(left)
+    assert all(unicodedata.category(one) not in ("Cc", "Cs") for one in left if one not in "\n\t")
+
+
+@given(ANY)
+def test_what_is_fit_stays_as_it_is(text: str) -> None:
+    assert (printable(text) == text) == is_printable(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("\x1b[31mred", r"\x1b[31mred"),
+        ("\x9b31m", r"\x9b31m"),
+        ("\x1b]0;title\x07", r"\x1b]0;title\x07"),
+        ("cup\u202egnp", r"cup\u202egnp"),
+        ("a\rb", r"a\x0db"),
+        ("grüße, 杯子 👋🏽\n\tnext", "grüße, 杯子 👋🏽\n\tnext"),
+    ],
+)
+def test_what_it_looks_like(text: str, shown: str) -> None:
+    assert printable(text) == shown
