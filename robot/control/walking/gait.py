@@ -44,6 +44,10 @@ INTEGRAL_GAIN = 0.8
 INTEGRAL_LIMIT_M = 0.05
 URGENT_DOUBLE_S = 0.05
 URGENT_M = 0.03
+# Above what a sole gives when the weight comes onto it (3 mm), below what the margin of the
+# support takes.
+MOVED_M = 0.01
+MOVED_RAD = 0.05
 
 Phase = Literal["stand", "double", "single"]
 
@@ -165,6 +169,7 @@ class Gait:
         """
         self.phase_s += dt_s
         if self.phase == "stand":
+            self._replant(measured, load)
             self._update_stand(xi)
         elif self.phase == "double" and not self._landings and self._escapes(xi):
             self._begin(swing=self._trailing(xi), start_s=URGENT_START_S)
@@ -192,6 +197,21 @@ class Gait:
             ):
                 swing = support
             self._begin(swing=swing, start_s=self.description.walking.start_s)
+
+    def _replant(self, measured: dict[Side, Sole], load: list[float]) -> None:
+        """Standing, believe the soles that bear, should one not be where it was planted.
+
+        It slid, or hung in the air when another controller was replaced by this one and came down
+        elsewhere. A walk that began from the old place would shift the weight beyond the new one.
+        """
+        moved = [
+            side
+            for side, share in zip(SIDES, load, strict=True)
+            if share > STAMP_LOAD and _apart(self.planted[side], measured[side])
+        ]
+        if moved:
+            self.planted.update({side: measured[side] for side in moved})
+            self._stand()
 
     def _escapes(self, xi: Point) -> bool:
         """Is the DCM where no ZMP inside the support brings it back?"""
@@ -407,3 +427,8 @@ class Gait:
         return Reference(
             xi_ref, zmp_ref, command, contact, share, heading, strain, self.swing, swing_side
         )
+
+
+def _apart(planted: Sole, measured: Sole) -> bool:
+    forward, left, turn = planted.relative(measured)
+    return math.hypot(forward, left) > MOVED_M or abs(turn) > MOVED_RAD

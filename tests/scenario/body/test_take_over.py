@@ -1,14 +1,22 @@
 """A controller dies in the middle of something and another one takes the motors over."""
 
+import math
+
 import numpy as np
 import pytest
 
 from robot.bringup.fast import FastRuntime
 from robot.messages import Grip, Stand, WalkTo
 from robot.reality.faults import Kill
+from robot.se3 import SE3
 from sim.reality import Simulation
 
 KILL = Kill(process="controller")
+
+
+def up_of(X_NB: SE3) -> float:
+    """Cosine of the base's tilt."""
+    return float(X_NB.rotation()[2, 2])
 
 
 def walking(runtime: FastRuntime, x_m: float, y_m: float, duration_s: float) -> None:
@@ -34,6 +42,25 @@ def test_in_mid_step_the_next_one_holds_the_robot_up(x_m, y_m, when_s):
         assert runtime.failure() is None
         walking(runtime, 1.0, 0.0, 2.0)
         assert runtime.link.body().mode == "walk"
+
+
+@pytest.mark.parametrize("when_s", [2.25, 2.35, 2.45])
+def test_it_walks_on_upright_from_where_the_swinging_foot_came_down(when_s):
+    """It once shifted its weight over the foot's place in the air: 6 cm beyond the sole."""
+    with FastRuntime(Simulation().world("empty"), seed=1) as runtime:
+        link = runtime.link
+        runtime.advance(0.5)
+        aside = WalkTo(stamp_s=0.5, id=link.next_id(), x_m=-1.0, y_m=-1.0, yaw_rad=-1.2)
+        link.send(aside)
+        runtime.advance(when_s)
+        runtime.inject(KILL)
+        runtime.advance(1.0)
+        on = WalkTo(stamp_s=link.now_s(), id=link.next_id(), x_m=1.5, y_m=0.0, yaw_rad=-1.2)
+        link.send(on)
+        for _ in range(20):
+            runtime.advance(0.1)
+            assert link.body().mode == "walk"
+            assert up_of(link.body().X_NB) > math.cos(math.radians(10.0))
 
 
 def test_one_that_comes_late_lets_the_motors_damp_until_it_is_told_to_stand(monkeypatch):
