@@ -19,8 +19,8 @@ class Process:
         when: "always", or only where reality is simulated.
         death: failure code that its death means, once it is not restarted any more.
         restarts: how often it may be started again within `RESTART_WINDOW_S`.
-        spare_after_s: how long after a start a second one is loaded, which waits for its turn; not
-            at once, as it would compete for the processor. None: never.
+        spare_after_s: how long after the first start a second one is loaded, which waits for its
+            turn; not at once, as it would compete for the processor. None: never.
         stop_s: how long it may take to stop before it is killed.
     """
 
