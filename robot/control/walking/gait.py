@@ -204,7 +204,7 @@ class Gait:
         It slid, or hung in the air when another controller was replaced by this one and came down
         elsewhere. A walk that began from the old place would shift the weight beyond the new one.
         """
-        moved = [
+        moved: list[Side] = [
             side
             for side, share in zip(SIDES, load, strict=True)
             if share > STAMP_LOAD and _apart(self.planted[side], measured[side])
