@@ -26,6 +26,11 @@ def is_printable(text: str) -> bool:
     return _UNFIT.search(text) is None
 
 
+def printable_json(json: str) -> str:
+    r"""JSON that means the same, with what a terminal would obey as `\u001b`."""
+    return _UNFIT.sub(lambda found: f"\\u{ord(found[0]):04x}", json)
+
+
 def _written_out(found: re.Match[str]) -> str:
     code = ord(found[0])
     return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}"

@@ -8,6 +8,7 @@ from executive.frontends.prompt.view import View
 from executive.health import Level
 from executive.journal.dumps.text import MARKS
 from executive.journal.snapshot import Shown, window
+from robot.printable import printable
 
 STYLES: dict[str, str] = {
     "bottom-toolbar": "noreverse",
@@ -29,7 +30,7 @@ def toolbar(view: View, *, columns: int, rows: int) -> StyleAndTextTuples:
     for depth, shown in window(view.tree, rows):
         parts += _tree_line(depth, shown, columns)
     parts += _status(view, columns)
-    return parts
+    return [(style, printable(text)) for style, text, *_ in parts]
 
 
 def _tree_line(depth: int, shown: Shown, columns: int) -> StyleAndTextTuples:
