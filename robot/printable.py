@@ -8,6 +8,7 @@ make a line read as what it is not.
 from __future__ import annotations
 
 import re
+from typing import cast
 
 _CONTROL = "\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for tab and new line, DEL, C1
 _DIRECTION = "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # https://trojansource.codes
@@ -19,6 +20,23 @@ _UNFIT = re.compile(f"[{_CONTROL}{_DIRECTION}{_BREAKS}{_SURROGATES}]")
 def printable(text: str) -> str:
     r"""The text with what a terminal would obey written out, as in `\x1b[31m`."""
     return _UNFIT.sub(_written_out, text)
+
+
+def printable_line(text: str) -> str:
+    """The same on one line: new lines and tabs are spaces like others."""
+    return " ".join(printable(text).split())
+
+
+def printable_data(data: object) -> object:
+    """The same for every text in plain data."""
+    if isinstance(data, str):
+        return printable(data)
+    if isinstance(data, dict):
+        entries = cast("dict[object, object]", data).items()
+        return {printable_data(key): printable_data(value) for key, value in entries}
+    if isinstance(data, list | tuple):
+        return [printable_data(item) for item in cast("list[object]", data)]
+    return data
 
 
 def is_printable(text: str) -> bool:

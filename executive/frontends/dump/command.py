@@ -60,6 +60,8 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         lines = f"{run.unreadable} lines of the journal, the first of them line "
         say(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)
     if str(asked.output) == "-" or (asked.output is None and kind in TO_TERMINAL):
+        if kind == "png" and sys.stdout.isatty():
+            raise ConfigError([Problem("a terminal shows no picture", suggestion="name a file")])
         write_data(data)
         return 0
     path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
