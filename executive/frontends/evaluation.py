@@ -19,6 +19,9 @@ from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
+MAX_WIDTH = 1000
+"""Of any table: how wide it would be is asked without a bound of the terminal."""
+
 
 def evaluate(options: Eval) -> int:
     """Run a campaign, or what is left of one; returns the exit status.
@@ -42,10 +45,20 @@ def evaluate(options: Eval) -> int:
     if options.as_json:
         write_json(found)
     else:
-        table_screen().print(report.table(found))
+        show(found)
         say(f"results: {results.path}; go on with: --resume {folder}")
     well = found.worst >= options.require and not found.without_code
     return ExitStatus.DONE if well else ExitStatus.FAILED
+
+
+def show(found: report.Report) -> None:
+    """The report as a table, where the terminal is wide enough for one."""
+    screen, table = table_screen(), report.table(found)
+    unbound = screen.options.update(width=MAX_WIDTH)
+    if screen.measure(table, options=unbound).maximum <= screen.width:
+        screen.print(table)
+    else:
+        say(report.narrow(found))
 
 
 def save(folder: Path, found: report.Report) -> None:

@@ -27,8 +27,9 @@ from robot.printable import printable, printable_json
 PIPE_WIDTH = 160
 """Of tables where nobody's terminal says how wide they may be."""
 
-_HEAD = re.compile(r" *(?:\[[^\]]*\] +|\S.*?  +)?")
-"""What a line goes on beside: its indentation, a time stamp, the first of its columns."""
+_STAMP = re.compile(r" *(?:\[[^\]]*\] +)?")
+_GAP = re.compile(r"(?<=\S)  +(?=\S)")
+"""A line goes on beside its indentation, its time stamp, the last column in its first half."""
 
 
 def say(text: str = "", *, err: bool = False, styled: tuple[str, str] = ("", "")) -> None:
@@ -120,10 +121,9 @@ def fitted(text: str, columns: int) -> str:
 def _broken(line: str, columns: int) -> str:
     if cell_len(line) <= columns:
         return line
-    head = _HEAD.match(line)
-    begin = cell_len(head[0]) if head else 0
-    if begin > columns // 2:
-        begin = len(line) - len(line.lstrip(" ")) + 2
+    stamp = _STAMP.match(line)
+    begins = [stamp.end() if stamp else 0, *(gap.end() for gap in _GAP.finditer(line))]
+    begin = max((cell_len(line[:end]) for end in begins if 2 * end <= columns), default=2)
     lines = [""]
     for gap, word in re.findall(r"( *)([^ ]+)", line):
         longer = f"{lines[-1]}{gap}{word}"

@@ -115,12 +115,12 @@ def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
 
 
 def _table(shown: Iterable[Past]) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold")
+    table = Table(box=None, pad_edge=False, header_style="bold", expand=True)
     table.add_column("run", no_wrap=True, min_width=15)
     table.add_column("took", no_wrap=True, min_width=5, justify="right")
     table.add_column("", no_wrap=True, min_width=4, style="dim")
     table.add_column("how it ended", no_wrap=True, min_width=15)
-    table.add_column("what", overflow="ellipsis", no_wrap=True)
+    table.add_column("what", overflow="ellipsis", no_wrap=True, ratio=1)
     for one in shown:
         name = one.folder.rpartition("/")[2]
         stamp = re.match(r"\d{8}-\d{6}", name)
