@@ -18,6 +18,7 @@ import msgspec
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
 from executive.frontends.launching import FrontEnd, PlainFrontEnd
+from executive.frontends.output import say, tell_of_mistakes
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
@@ -64,6 +65,7 @@ def main(
         load: gives the front end of a name; another one in tests.
     """
     streams.steady()
+    tell_of_mistakes()
     tie_to_parent(int(parent_pid))
     folder = Path(private)
     try:
@@ -72,7 +74,7 @@ def main(
     except (RobotError, KeyboardInterrupt) as error:
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))
     except Exception:  # the launcher starts another one, which goes on where this one was
-        traceback.print_exc()
+        say(traceback.format_exc().rstrip(), err=True)
         return ExitStatus.CRASHED
 
 

@@ -8,6 +8,7 @@ make a line read as what it is not.
 from __future__ import annotations
 
 import re
+from typing import cast
 
 _CONTROL = "\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for tab and new line, DEL, C1
 _DIRECTION = "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # https://trojansource.codes
@@ -21,9 +22,31 @@ def printable(text: str) -> str:
     return _UNFIT.sub(_written_out, text)
 
 
+def printable_line(text: str) -> str:
+    """The same on one line: new lines and tabs are spaces like others."""
+    return " ".join(printable(text).split())
+
+
+def printable_data(data: object) -> object:
+    """The same for every text in plain data."""
+    if isinstance(data, str):
+        return printable(data)
+    if isinstance(data, dict):
+        entries = cast("dict[object, object]", data).items()
+        return {printable_data(key): printable_data(value) for key, value in entries}
+    if isinstance(data, list | tuple):
+        return [printable_data(item) for item in cast("list[object]", data)]
+    return data
+
+
 def is_printable(text: str) -> bool:
     """Whether nothing of it has to be written out."""
     return _UNFIT.search(text) is None
+
+
+def printable_json(json: str) -> str:
+    r"""JSON that means the same, with what a terminal would obey as `\u001b`."""
+    return _UNFIT.sub(lambda found: f"\\u{ord(found[0]):04x}", json)
 
 
 def _written_out(found: re.Match[str]) -> str:

@@ -12,6 +12,8 @@ from rich.table import Table
 from executive.evaluation.campaign import RECOVERED, Case
 from executive.evaluation.record import Record
 
+HEAD = ("case", "expected", "with recovery", "without", "robot time", "what else happened")
+
 
 class Score(msgspec.Struct, frozen=True, kw_only=True):
     """One way of running a case: with recovery, or without."""
@@ -86,26 +88,28 @@ def report(cases: Sequence[Case], records: Iterable[Record]) -> Report:
 
 def table(found: Report) -> Table:
     """For the terminal."""
-    drawn = Table(title="", caption=_caption(found), header_style="bold", pad_edge=False)
-    for name in (
-        "case",
-        "expected",
-        "with recovery",
-        "without",
-        "robot time",
-        "what else happened",
-    ):
-        drawn.add_column(name, overflow="fold")
+    drawn = Table(box=None, caption=_caption(found), header_style="bold", pad_edge=False)
+    for name in HEAD:
+        drawn.add_column(name)
     for row in found.rows:
         style = "" if row.with_recovery.share >= 0.95 else "red"
         drawn.add_row(*_cells(row), style=style)
     return drawn
 
 
+def narrow(found: Report) -> str:
+    """The same for a terminal that has no room for the table: a paragraph a case."""
+    lines: list[str] = []
+    for row in found.rows:
+        case, *cells = _cells(row)
+        told = zip(HEAD[1:], cells, strict=True)
+        lines += [case, *(f"  {name:18}  {cell}" for name, cell in told if cell not in ("", "-"))]
+    return "\n".join([*lines, _caption(found)])
+
+
 def markdown(found: Report) -> str:
     """For a page."""
-    head = ["case", "expected", "with recovery", "without", "robot time", "what else happened"]
-    lines = [head, ["---"] * len(head), *(_cells(row) for row in found.rows)]
+    lines = [HEAD, ["---"] * len(HEAD), *(_cells(row) for row in found.rows)]
     rows = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
     return f"{rows}\n\n{_caption(found)}\n"
 

@@ -8,16 +8,14 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import msgspec
-import typer
-from rich.console import Console
 
 from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts
 from executive.frontends import speaking
 from executive.frontends.dump.writer import along
-from executive.frontends.exit import echo_json
 from executive.frontends.launching import under_way
 from executive.frontends.options import Seeded, Shown, Voiced
+from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.frontends.reality import REALITY
 from executive.meaning import request
@@ -144,15 +142,15 @@ def _silent(_executive: Executive) -> Progress:
 
 
 def _on_screen(executive: Executive) -> Progress:
-    console = Console()
+    console = Screen()
     if console.is_terminal:
         return LiveTree(executive, console, wall_s=WallClock().now_s)
-    return Lines(executive, console)
+    return Lines(executive)
 
 
 def say_how_it_ended(summary: Summary, *, as_json: bool) -> None:
     """The last words."""
     if as_json:
-        echo_json(summary)
+        write_json(summary)
     else:
-        typer.echo("\n".join(last_lines(summary)))
+        say("\n".join(last_lines(summary)))

@@ -27,9 +27,11 @@ from executive.frontends.options import (
     World,
     takes,
 )
+from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
 from robot import exit_status
-from robot.errors import ConfigError
+from robot.errors import ConfigError, Problem
+from robot.printable import is_printable, printable
 
 app = typer.Typer(
     name="humanoid",
@@ -47,7 +49,7 @@ app.add_typer(model_app, name="model")
 
 def _version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"humanoid-executive {importlib.metadata.version('humanoid-executive')}")
+        say(f"humanoid-executive {importlib.metadata.version('humanoid-executive')}")
         raise typer.Exit
 
 
@@ -205,8 +207,8 @@ def worlds() -> None:
         world_map = REALITY.world(name).map
         objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
         places = ", ".join(place.name for place in world_map.places)
-        typer.echo(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
-    typer.echo("Write your own: docs/worlds.md; use it with --world FILE.")
+        say(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
+    say("Write your own: docs/worlds.md; use it with --world FILE.")
 
 
 @model_app.command()
@@ -229,7 +231,7 @@ def export(
         urdf.write_text(text, encoding="utf-8")
     except OSError as error:
         raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
-    typer.echo(f"Done: {urdf}")
+    say(f"Done: {urdf}")
 
 
 # After the commands above, so that `--help` lists first what people use first.
@@ -263,11 +265,21 @@ def evaluate(options: Eval) -> None:
 app.command()(listen)
 
 
+def _check_words(words: list[str]) -> None:
+    """Refuse what cannot be printed: typer repeats words that it does not understand."""
+    for word in words:
+        if not is_printable(word):
+            text = f"the command line holds what cannot be printed: {printable(word)[:60]}"
+            raise ConfigError([Problem(text, suggestion="leave it out")])
+
+
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
     streams.steady()
+    tell_of_mistakes()
     sys.argv[1:] = map(streams.readable, sys.argv[1:])
     try:
+        _check_words(sys.argv[1:])
         app(prog_name="humanoid")
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

@@ -5,14 +5,13 @@ from __future__ import annotations
 import sys
 from dataclasses import replace
 
-import typer
-
-from executive.frontends import carrying_out, speaking
+from executive.frontends import carrying_out, output, speaking
 from executive.frontends.carrying_out import Prepared
 from executive.frontends.exit import refuse
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.options import Do
+from executive.frontends.output import say
 from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs.task_run import Assignment
@@ -61,7 +60,7 @@ def _understood(options: Do, where: request.Setting) -> request.Understood | req
         meant = request.request(options.text, where, ask=aloud if asking else None, fallback=model)
         if isinstance(meant, request.Refused):
             if model is not None and model.trouble:
-                typer.echo(f"The language model was of no help: {model.trouble}.", err=True)
+                say(f"The language model was of no help: {model.trouble}.", err=True)
             if not asking or meant.outcome != "question":
                 speech.say(meant.reason)
                 speech.finish()
@@ -76,8 +75,8 @@ def at_terminal() -> bool:
 def ask(question: Question) -> str | None:
     """Put an open question to the person at the terminal."""
     try:
-        answer = typer.prompt(question.question, default="", show_default=False, prompt_suffix=" ")
-    except (typer.Abort, EOFError):
-        typer.echo()  # what is said next begins a line
+        answer = output.ask(question.question)
+    except (KeyboardInterrupt, EOFError):
+        say()  # what is said next begins a line
         return None
-    return str(answer) or None
+    return answer or None

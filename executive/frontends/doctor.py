@@ -13,10 +13,8 @@ from pathlib import Path
 from typing import Literal
 
 import msgspec
-from rich.console import Console
-from rich.markup import escape
 
-from executive.frontends.exit import echo_json
+from executive.frontends.output import say, write_json
 from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
@@ -32,6 +30,9 @@ LIBRARIES = {
 """Module to distribution."""
 
 Verdict = Literal["ok", "optional", "missing"]
+_MARKS: dict[Verdict, tuple[str, str]] = {
+    "ok": ("ok", "green"), "optional": ("--", "yellow"), "missing": ("no", "red"),
+}  # fmt: skip
 
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,16 +50,15 @@ def doctor(*, robot: str = "juno", as_json: bool) -> int:
     missing = any(finding.verdict == "missing" for finding in findings)
     status = ExitStatus.INVALID if missing else ExitStatus.DONE
     if as_json:
-        echo_json(findings)
+        write_json(findings)
         return status
-    console = Console(highlight=False, soft_wrap=True)
-    marks = {"ok": "[green]ok[/]", "optional": "[yellow]--[/]", "missing": "[red]no[/]"}
     for finding in findings:
-        console.print(f"{marks[finding.verdict]}  {finding.name:14} {escape(finding.text)}")
+        mark, style = _MARKS[finding.verdict]
+        say(f"{mark}  {finding.name:14}  {finding.text}", styled=(mark, style))
         if finding.cure:
-            console.print(f"    [dim]cure:[/] {escape(finding.cure)}")
+            say(f"    cure: {finding.cure}", styled=("    cure:", "dim"))
     cure = "Something that is needed is missing; see its cure above."
-    console.print(cure if missing else "All that is needed is there.")
+    say(cure if missing else "All that is needed is there.")
     return status
 
 

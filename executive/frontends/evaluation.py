@@ -6,8 +6,6 @@ from datetime import datetime
 from pathlib import Path
 
 import msgspec
-import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import executive
@@ -15,10 +13,14 @@ from executive.evaluation import campaign, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import Record, Results, fingerprint
 from executive.frontends.options import Eval
+from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+
+MAX_WIDTH = 1000
+"""Of any table: how wide it would be is asked without a bound of the terminal."""
 
 
 def evaluate(options: Eval) -> int:
@@ -34,19 +36,29 @@ def evaluate(options: Eval) -> int:
     folder = options.resume or Path("runs") / f"{datetime.now().astimezone():%Y%m%d-%H%M%S}-eval"
     root = Path(executive.__file__).parent.parent
     results = Results(folder, fingerprint=fingerprint(root))
-    console = Console(stderr=True, quiet=options.as_json)
+    console = Screen(err=True, quiet=options.as_json)
     if results.stale:
-        console.print("[yellow]some results there were made by other code[/]")
+        console.print("some results there were made by other code", style="yellow")
     _go_through(results, results.left(wanted), options, console)
     found = report.report(cases, results.records.values())
     save(folder, found)
     if options.as_json:
-        typer.echo(msgspec.json.encode(found, order="deterministic"))
+        write_json(found)
     else:
-        Console().print(report.table(found))
-        typer.echo(f"results: {results.path}; go on with: --resume {folder}")
+        show(found)
+        say(f"results: {results.path}; go on with: --resume {folder}")
     well = found.worst >= options.require and not found.without_code
     return ExitStatus.DONE if well else ExitStatus.FAILED
+
+
+def show(found: report.Report) -> None:
+    """The report as a table, where the terminal is wide enough for one."""
+    screen, table = table_screen(), report.table(found)
+    unbound = screen.options.update(width=MAX_WIDTH)
+    if screen.measure(table, options=unbound).maximum <= screen.width:
+        screen.print(table)
+    else:
+        say(report.narrow(found))
 
 
 def save(folder: Path, found: report.Report) -> None:
@@ -108,7 +120,7 @@ def _own(mission: str, fault: Case | None, options: Eval) -> Case:
     )
 
 
-def _go_through(results: Results, runs: list[Run], options: Eval, console: Console) -> None:
+def _go_through(results: Results, runs: list[Run], options: Eval, console: Screen) -> None:
     """Do the runs that are left, keeping each record as it comes."""
     work = (
         pool.on_ray(runs, REALITY)
@@ -118,7 +130,7 @@ def _go_through(results: Results, runs: list[Run], options: Eval, console: Conso
     done = len(results.records)
     columns = (
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
-        TextColumn("{task.fields[last]}"),
+        TextColumn("{task.fields[last]}", markup=False),
     )  # fmt: skip
     with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
         task = bar.add_task("eval", total=done + len(runs), completed=done, last="")

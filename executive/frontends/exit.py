@@ -6,8 +6,8 @@ import traceback
 from typing import TYPE_CHECKING
 
 import msgspec
-import typer
 
+from executive.frontends.output import say, write_json
 from executive.journal import failures
 from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
@@ -37,9 +37,9 @@ def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_jso
     if as_json:
         outcome = "invalid" if status == ExitStatus.INVALID else "failed"
         record = {"status": outcome, "exit_status": status, "reason": lines, "suggestion": cure}
-        typer.echo(msgspec.json.encode(record))
+        write_json(record)
         return status
-    typer.echo("\n".join(["\n  ".join([heading, *lines]), *failures.advice(cure)]), err=True)
+    say("\n".join(["\n  ".join([heading, *lines]), *failures.advice(cure)]), err=True)
     return status
 
 
@@ -47,13 +47,8 @@ def refuse(refused: Refused, *, as_json: bool) -> int:
     """Say why nothing is done; returns the status."""
     if as_json:
         status = int(ExitStatus.INVALID)
-        echo_json({"status": "invalid", "exit_status": status, **msgspec.to_builtins(refused)})
+        write_json({"status": "invalid", "exit_status": status, **msgspec.to_builtins(refused)})
         return status
     heading = "Question" if refused.outcome == "question" else "Not done"
-    typer.echo("\n".join([f"{heading}: {refused.reason}", *failures.advice(refused.suggestion)]))
+    say("\n".join([f"{heading}: {refused.reason}", *failures.advice(refused.suggestion)]))
     return ExitStatus.INVALID
-
-
-def echo_json(value: object) -> None:
-    """Print a value as one line of JSON."""
-    typer.echo(msgspec.json.encode(value, order="deterministic"))

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
-import typer
 
 from executive.frontends.exit import last_words
+from executive.frontends.output import say
 from robot.bringup import launcher
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
@@ -59,7 +59,7 @@ def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
         as_json: nothing but JSON goes to standard output.
     """
     plain = msgspec.to_builtins(options, enc_hook=str)
-    ended = launcher.launch(front, plain, tell=lambda line: typer.echo(line, err=True))
+    ended = launcher.launch(front, plain, tell=lambda line: say(line, err=True))
     if ended.reason:
         cure = "see `humanoid why`; `humanoid resume` goes on where it was"
         return last_words("Broken:", [ended.reason], cure, status=ended.status, as_json=as_json)

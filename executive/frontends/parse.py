@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import cast
 
 import msgspec
-import typer
 
 from executive.frontends.language_model import language_model
+from executive.frontends.output import say, write_json
 from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Context
@@ -19,6 +20,7 @@ from intents.parser import hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
+from robot.printable import is_printable, printable
 
 
 def parse_all(
@@ -48,9 +50,12 @@ def parse_all(
     outcome: Outcome | None = None
     for text in [*texts, *(_lines(file) if file else ())]:
         outcome, _ = hear(text, names, context=context, fallback=fallback)
-        typer.echo(_record(text, outcome) if as_json else _words(text, outcome))
+        if as_json:
+            write_json(to_record(text, outcome))
+        else:
+            say(_words(text, outcome))
         if fallback is not None and fallback.trouble:
-            typer.echo(f"  {fallback.trouble}", err=True)
+            say(f"  {fallback.trouble}", err=True)
     return 0 if file is not None or isinstance(outcome, Goals) else 2
 
 
@@ -60,9 +65,25 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
         knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
     try:
-        return Vocabulary.from_json(file.read_bytes()), Context()
+        vocabulary = Vocabulary.from_json(file.read_bytes())
     except (OSError, msgspec.DecodeError) as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
+    for name in _texts(msgspec.to_builtins(vocabulary)):
+        if not is_printable(name):
+            text = f"a name holds what cannot be printed: {printable(name)[:60]}"
+            raise ConfigError([Problem(text, str(file), suggestion="leave it out")])
+    return vocabulary, Context()
+
+
+def _texts(data: object) -> Iterator[str]:
+    """Every text in plain data."""
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, dict):
+        yield from _texts([*cast("dict[str, object]", data).values()])
+    elif isinstance(data, list | tuple):
+        for one in cast("list[object]", data):
+            yield from _texts(one)
 
 
 def _lines(file: Path) -> Iterable[str]:
@@ -73,10 +94,6 @@ def _lines(file: Path) -> Iterable[str]:
         return file.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
-
-
-def _record(text: str, outcome: Outcome) -> str:
-    return msgspec.json.encode(to_record(text, outcome)).decode()
 
 
 def _words(text: str, outcome: Outcome) -> str:

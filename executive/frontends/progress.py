@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Self
 
-from rich.console import Console, Group
+from rich.console import Group
 from rich.live import Live
 from rich.text import Text
 
 from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
 from executive.engine.executive import Executive
+from executive.frontends.output import Screen, say
 from executive.journal import words
 from executive.journal.dumps.text import MARKS
 from executive.journal.journal import Event
@@ -38,23 +39,22 @@ class Silent(Closing):
 class Lines(Silent):
     """One line an event: for pipes, logs and CI."""
 
-    def __init__(self, executive: Executive, console: Console) -> None:
+    def __init__(self, executive: Executive) -> None:
         """Print the journal's events as they come."""
-        self._console = console
         executive.journal.listen(self._heard)
 
     def _heard(self, event: Event) -> None:
         told = sentence(event)
         if told:
             line = f"[{event.t_s:7.2f} s] {told}"
-            self._console.print(line, markup=False, highlight=False, soft_wrap=True)
+            say(line)
 
 
 class LiveTree(Silent):
     """The tree, redrawn in place."""
 
     def __init__(
-        self, executive: Executive, console: Console, *, wall_s: Callable[[], float]
+        self, executive: Executive, console: Screen, *, wall_s: Callable[[], float]
     ) -> None:
         """Draw on `console`; `wall_s` paces the drawing."""
         self._executive = executive
@@ -68,7 +68,7 @@ class LiveTree(Silent):
     def _heard(self, event: Event) -> None:
         """Warnings scroll by above the tree."""
         if event.event == "warning":
-            self._live.console.print(f"warning: {event.data['text']}", style="yellow", markup=False)
+            self._console.print(f"warning: {event.data['text']}", style="yellow")
 
     def update(self) -> None:
         """Draw, at most every `REFRESH_S`, and seldom while the controller is pressed for time."""

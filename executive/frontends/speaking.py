@@ -9,8 +9,7 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-import typer
-
+from executive.frontends.output import say
 from executive.journal import failures
 from executive.journal.journal import Event
 from intents.speech.audio import AudioError
@@ -88,7 +87,7 @@ class Speech(Closing):
         problem = self._voice.problem if isinstance(self._voice, Synthesiser) else ""
         if problem and not self._told:
             self._told = True
-            typer.echo(f"Nothing is heard ({problem.splitlines()[-1]}).", err=True)
+            say(f"Nothing is heard ({problem.splitlines()[-1]}).", err=True)
 
 
 def opened(*, wanted: bool, model: Path | None = None) -> Speech:
@@ -121,11 +120,11 @@ def able(*, wanted: bool, model: Path | None = None) -> bool:
     try:
         voice("espeak-ng").close()
     except AudioError as error:
-        typer.echo(f"No voice: {error}, so {ONLY_PRINTED}. To hear it, {error.cure}", err=True)
+        say(f"No voice: {error}, so {ONLY_PRINTED}. To hear it, {error.cure}", err=True)
         return False
     reason = _unheard()
     if reason:
-        typer.echo(f"No voice: espeak-ng makes no sound ({reason}), so {ONLY_PRINTED}.", err=True)
+        say(f"No voice: espeak-ng makes no sound ({reason}), so {ONLY_PRINTED}.", err=True)
     return not reason
 
 

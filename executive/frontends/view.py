@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-import typer
-
+from executive.frontends.output import say
 from executive.frontends.reality import REALITY
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
@@ -31,5 +30,5 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     except OSError as error:
         cure = "choose another file"
         raise ConfigError([Problem(str(error), suggestion=cure)]) from None
-    typer.echo(f"Done: {snapshot}")
+    say(f"Done: {snapshot}")
     return 0

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import typer
-from rich.console import Console
-
 from executive.engine.loop import Interrupts
-from executive.frontends.exit import echo_json, refuse
+from executive.frontends.exit import refuse
 from executive.frontends.options import Walk
+from executive.frontends.output import Screen, say, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.meaning import request
@@ -41,7 +39,7 @@ def walk(options: Walk) -> int:
     kind: runtimes.Kind = "fast" if options.fast else "live"
     setup = Setup(where=where, kind=kind, seed=options.seed)
     with interrupts.listen(), runtimes.opened(setup) as (runtime, _):
-        with Console(quiet=options.as_json).status("walking") as status:
+        with Screen(quiet=options.as_json).status("walking") as status:
 
             def show(body: BodyState) -> None:
                 status.update(f"walking: {body.stamp_s:.0f} of {command.duration_s:.0f} s")
@@ -50,10 +48,10 @@ def walk(options: Walk) -> int:
         past_s = runtime.clock.now_s()
         late = late_periods(runtime)
     if options.as_json:
-        echo_json(walked)
+        write_json(walked)
     else:
         lines = _words(walked, past_s, wall.now_s() - begun_s)
-        typer.echo("\n".join([*lines, *(f"  {line}" for line in late)]))
+        say("\n".join([*lines, *(f"  {line}" for line in late)]))
     return exit_status(walked.failure)
 
 

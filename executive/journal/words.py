@@ -75,8 +75,8 @@ def sentence(kind: str, data: Mapping[str, Any]) -> str:
         return ""
     if kind in _OF_KIND:
         return _OF_KIND[kind](data)
-    told = _filled(AS_IT_HAPPENS, kind, data)
-    return told or ", ".join([kind, *(f"{key} {value}" for key, value in data.items())])
+    filled = _filled(AS_IT_HAPPENS, kind, data)
+    return filled or ", ".join([kind, *(f"{key} {told(value)}" for key, value in data.items())])
 
 
 def in_hindsight(kind: str, data: Mapping[str, Any]) -> str:
@@ -109,14 +109,26 @@ def _expect(data: Mapping[str, Any]) -> str:
 
 def _fault(data: Mapping[str, Any]) -> str:
     nested = data.get("fault")
-    told = {**data, **(cast(dict[str, Any], nested) if isinstance(nested, dict) else {})}
-    kind = told.pop("fault", "")
-    particulars = ", ".join(f"{key} {value}" for key, value in told.items())
+    every = {**data, **(cast(dict[str, Any], nested) if isinstance(nested, dict) else {})}
+    kind = every.pop("fault", "")
+    particulars = ", ".join(f"{key} {told(value)}" for key, value in every.items())
     head = f"fault injected: {kind if isinstance(kind, str) else ''}"
     return f"{head} ({particulars})" if particulars else head
 
 
 _OF_KIND = {"health": _health, "expect": _expect, "fault": _fault}
+
+
+def told(value: object) -> str:
+    """A value of a journal; numbers are as fine as anything that is measured: a millimetre."""
+    if isinstance(value, float):
+        return f"{round(value, 3 if abs(value) < 1000.0 else 0) + 0.0:.15g}"
+    if isinstance(value, Mapping):
+        entries = cast("Mapping[object, object]", value).items()
+        return ", ".join(f"{key}: {told(item)}" for key, item in entries) or "nothing"
+    if isinstance(value, list | tuple):
+        return ", ".join(map(told, cast("list[object]", value)))
+    return str(value)
 
 
 def evidence(measured: Mapping[str, object]) -> str:
@@ -128,7 +140,7 @@ def _measurement(name: str, value: object) -> str:
     words, _, unit = name.rpartition("_")
     known = UNITS.get(unit) if words else None
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return f"{name.replace('_', ' ')} {value}"
+        return f"{name.replace('_', ' ')} {told(value)}"
     if known is None:
         return f"{name.replace('_', ' ')} {value:.4g}"
     return f"{words.replace('_', ' ')} {value:.3g} {known}"

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
-import typer
 
 from executive.frontends.dump.writer import parse_formats
+from executive.frontends.output import say, write_data
 from executive.journal import journal, past_runs, reader
 from executive.journal.dumps.formats import FORMATS, Wish, render
 from executive.journal.dumps.text import Style
@@ -55,16 +55,18 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
     )
     data = render(run, kind, wish)
     if not run.nodes:
-        typer.echo("no tree is in this journal (yet): only events can be shown", err=True)
+        say("no tree is in this journal (yet): only events can be shown", err=True)
     if run.unreadable:
         lines = f"{run.unreadable} lines of the journal, the first of them line "
-        typer.echo(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)
+        say(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)
     if str(asked.output) == "-" or (asked.output is None and kind in TO_TERMINAL):
-        typer.echo(data, nl=False)
+        if kind == "png" and sys.stdout.isatty():
+            raise ConfigError([Problem("a terminal shows no picture", suggestion="name a file")])
+        write_data(data)
         return 0
     path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
     _write(path, data)
-    typer.echo(f"Done: {path}")
+    say(f"Done: {path}")
     if asked.opened:
         browse(path.resolve().as_uri())
     return 0

@@ -16,9 +16,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal, Self, get_args
 
-import typer
-
 from executive.engine.executive import Executive
+from executive.frontends.output import say
 from executive.journal.dumps.formats import FORMATS, Format, Wish, render
 from executive.journal.journal import Event
 from executive.journal.why import why
@@ -153,7 +152,7 @@ class Together(Closing):
         self._shown.close()
         self._dumper.close()
         if self._dumper.problem:
-            typer.echo(f"warning: {self._dumper.problem}", err=True)
+            say(f"warning: {self._dumper.problem}", err=True)
 
 
 def along(show: Show, directory: Path | None, *, on: str, formats: str) -> Show:

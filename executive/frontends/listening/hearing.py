@@ -8,10 +8,10 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 
 import msgspec
-import typer
 
 from executive.frontends.language_model import language_model
 from executive.frontends.listening.options import Listen, RecogniserName
+from executive.frontends.output import say, write_json
 from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
@@ -81,7 +81,7 @@ def sound(options: Listen) -> Generator[Iterator[Block]]:
         found = wav.form(options.file)
         if found.missing:
             lost_s = found.missing / found.rate_hz
-            typer.echo(f"{options.file} is cut off: {lost_s:.1f} s are missing", err=True)
+            say(f"{options.file} is cut off: {lost_s:.1f} s are missing", err=True)
         yield (Block(sound=one) for one in wav.blocks(options.file))
         return
     with microphone.opened(options.device) as source:
@@ -89,7 +89,7 @@ def sound(options: Listen) -> Generator[Iterator[Block]]:
         if options.push_to_talk:
             yield _pressed(blocks)
         else:
-            typer.echo("Listening. Ctrl-C leaves.", err=True)
+            say("Listening. Ctrl-C leaves.", err=True)
             yield (Block(sound=one) for one in blocks)
 
 
@@ -103,11 +103,11 @@ def _pressed(blocks: Iterator[Samples]) -> Iterator[Block]:
                 talking.clear()
             else:
                 talking.set()
-            typer.echo("Speak; Enter ends it." if talking.is_set() else "Heard.", err=True)
+            say("Speak; Enter ends it." if talking.is_set() else "Heard.", err=True)
         left.set()
 
     threading.Thread(target=read, name="push to talk", daemon=True).start()
-    typer.echo("Enter, speak, Enter. Stop is heard at any time. Ctrl-D leaves.", err=True)
+    say("Enter, speak, Enter. Stop is heard at any time. Ctrl-D leaves.", err=True)
     before = False
     for one in blocks:
         now = talking.is_set()
@@ -143,22 +143,24 @@ def parse_only(options: Listen) -> int:
             turn = None if one.kind == "ignored" else dialogue.hear(one.text, state)
             listener.replying = dialogue.question is not None
             understood |= isinstance(turn, Goals | Reply)
-            typer.echo(_record(one, turn) if options.as_json else _words(one, turn))
+            if options.as_json:
+                write_json(_record(one, turn))
+            else:
+                say(_words(one, turn))
     if not understood and not options.as_json:
-        typer.echo("Nothing was understood as a command.")
+        say("Nothing was understood as a command.")
     return ExitStatus.DONE if understood else ExitStatus.INVALID
 
 
-def _record(one: Spoken, turn: Turn | None) -> str:
-    """What was said and what it means, as one line of JSON."""
+def _record(one: Spoken, turn: Turn | None) -> dict[str, object]:
+    """What was said and what it means, for programs."""
     kinds = {Goals: "goals", Question: "question", Refusal: "refusal", Reply: "reply"}
-    record = {
+    return {
         **msgspec.to_builtins(one),
         "outcome": "ignored" if turn is None else kinds[type(turn)],
         "goals": to_builtins(turn.goals) if isinstance(turn, Goals) else [],
         "said": None if turn is None or isinstance(turn, Goals) else answer(turn),
     }
-    return msgspec.json.encode(record).decode()
 
 
 def _words(one: Spoken, turn: Turn | None) -> str:

@@ -8,6 +8,7 @@ from executive.behaviours.ask import ANSWERS
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
+from executive.frontends.output import say
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech, able
@@ -107,9 +108,9 @@ class Conversation:
         shell = self._shell
         if one.kind == "ignored":
             if one.text:
-                cli.say(f"(“{one.text}” passed over: {one.why})")
+                say(f"(“{one.text}” passed over: {one.why})")
             return
-        cli.say(f"> {one.text}")
+        say(f"> {one.text}")
         if one.kind == "stop":
             shell.stop("a cry to stop was heard")
         elif shell.robot.executive.question and one.text in ANSWERS:
@@ -135,6 +136,6 @@ class Conversation:
 
     def _status(self) -> int:
         if self._shell.dialogue.question is not None:
-            cli.say("Nobody answered; that is not done.")
+            say("Nobody answered; that is not done.")
             return ExitStatus.INVALID
         return cli.status_of(self._shell)

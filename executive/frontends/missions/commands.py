@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
-import typer
 
-from executive.frontends.exit import echo_json
 from executive.frontends.missions.options import Beside
+from executive.frontends.output import say, write, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
@@ -64,18 +63,18 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
     wrong = any(record["problems"] for record in found)
     if as_json:
         status = "invalid" if wrong else "done"
-        echo_json({"status": status, "missions": found})
+        write_json({"status": status, "missions": found})
     elif wrong:
-        typer.echo("\n".join(failures.advice("correct that, then check again")), err=True)
+        say("\n".join(failures.advice("correct that, then check again")), err=True)
     return ExitStatus.INVALID if wrong else ExitStatus.DONE
 
 
 def _say_checked(record: dict[str, Any]) -> None:
     problems = [msgspec.convert(problem, Problem) for problem in record["problems"]]
     if not problems:
-        typer.echo(f"{record['file']}: all is well, {record['steps']} steps")
+        say(f"{record['file']}: all is well, {record['steps']} steps")
     for problem in problems:
-        typer.echo(str(problem), err=True)
+        say(str(problem), err=True)
 
 
 def plan(name: str, options: Options, *, as_json: bool) -> int:
@@ -83,10 +82,10 @@ def plan(name: str, options: Options, *, as_json: bool) -> int:
     checked = check(load.find(name), REALITY, options)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
-        echo_json(made)
+        write_json(made)
     else:
-        typer.echo(checked.mission.record.name)
-        typer.echo("\n".join(lines(made)))
+        say(checked.mission.record.name)
+        say("\n".join(lines(made)))
     return ExitStatus.DONE
 
 
@@ -97,10 +96,8 @@ def list_shipped() -> int:
     for path in load.shipped():
         mission = load.load(path, Problems())
         about = mission.record.about if mission is not None else "cannot be read"
-        typer.echo(f"{path.stem:12}  {about}")
-    typer.echo(
-        "Run one: humanoid mission run NAME --fast. Write your own: humanoid mission new NAME"
-    )
+        say(f"{path.stem:12}  {about}")
+    say("Run one: humanoid mission run NAME --fast. Write your own: humanoid mission new NAME")
     return ExitStatus.DONE
 
 
@@ -142,11 +139,11 @@ def export_file(name: str, output: Path | None, *, xml: bool) -> int:
 
 def _write(text: str, output: Path | None) -> int:
     if output is None:
-        typer.echo(text, nl=False)
+        write(text)
         return ExitStatus.DONE
     try:
         output.write_text(text, encoding="utf-8")
     except OSError as error:
         raise ConfigError(f"{output} cannot be written: {error.strerror}") from None
-    typer.echo(f"Done: {output}")
+    say(f"Done: {output}")
     return ExitStatus.DONE

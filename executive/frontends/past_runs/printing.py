@@ -7,12 +7,11 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 
 import msgspec
-import typer
-from rich.console import Console
-from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
+from rich.text import Text
 
+from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs, reader
 from executive.journal.journal import Event
@@ -22,7 +21,6 @@ from executive.runs.again import replay as again
 from executive.runs.again.comparison import Difference
 from robot.exit_status import ExitStatus
 
-PIPE_WIDTH = 160
 _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
 
 
@@ -32,10 +30,10 @@ def why(run: str | None, *, as_json: bool) -> int:
     told = explain(reader.read(folder), live=journal.is_written(folder))
     if as_json:
         record = {"folder": str(folder), **msgspec.to_builtins(told)}
-        typer.echo(msgspec.json.encode(record))
+        write_json(record)
     else:
-        typer.echo(told.text)
-        typer.echo(f"({folder})")
+        say(told.text)
+        say(f"({folder})")
     return ExitStatus.DONE
 
 
@@ -44,19 +42,14 @@ def history(*, count: int, as_json: bool) -> int:
     known = past_runs.runs()
     shown = [past_runs.look(folder) for folder in known[-count:]]
     if as_json:
-        typer.echo(msgspec.json.encode(shown))
+        write_json(shown)
         return ExitStatus.DONE
     if not shown:
-        typer.echo(
-            f'There is no run in {past_runs.BASE}/ yet. Begin with: humanoid do "squat" --fast'
-        )
+        say(f'There is no run in {past_runs.BASE}/ yet. Begin with: humanoid do "squat" --fast')
         return ExitStatus.DONE
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = PIPE_WIDTH
-    console.print(_table(shown))
+    table_screen().print(_table(shown))
     if len(known) > len(shown):
-        typer.echo(f"{len(known) - len(shown)} older ones: humanoid history --all")
+        say(f"{len(known) - len(shown)} older ones: humanoid history --all")
     return ExitStatus.DONE
 
 
@@ -67,25 +60,25 @@ def replay(run: str | None, *, as_json: bool) -> int:
         result = again.replay(folder, REALITY, follow=follow)
     status = ExitStatus.FAILED if result.difference else ExitStatus.DONE
     if as_json:
-        typer.echo(msgspec.json.encode({"exit_status": int(status), **msgspec.to_builtins(result)}))
+        write_json({"exit_status": int(status), **msgspec.to_builtins(result)})
         return status
     if result.difference is None:
         what = "what there is of it (it was cut off)" if result.cut else "it"
-        typer.echo(
+        say(
             f"Identical: {what} repeats byte for byte, {result.events} events "
             f"in {result.simulated_s:.1f} s of robot time."
         )
     else:
-        typer.echo("\n".join(differs(result.difference)))
+        say("\n".join(differs(result.difference)))
     for change in result.changed:
-        typer.echo(f"  note: {change}, since it was recorded")
+        say(f"  note: {change}, since it was recorded")
     if result.difference is not None:
         cure = (
             "that is why it differs, most likely; replay with what it had then."
             if result.changed
             else "nothing changed that is known of; report it with the run folder."
         )
-        typer.echo("\n".join(failures.advice(cure)))
+        say("\n".join(failures.advice(cure)))
     return status
 
 
@@ -109,8 +102,8 @@ def _short(event: Event) -> str:
 @contextmanager
 def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
     """A bar over the run's time, on standard error."""
-    console = Console(stderr=True, quiet=quiet)
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(),
+    console = Screen(err=True, quiet=quiet)
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(),
                TimeRemainingColumn())  # fmt: skip
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(words, total=None)
@@ -122,12 +115,12 @@ def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
 
 
 def _table(shown: Iterable[Past]) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold")
+    table = Table(box=None, pad_edge=False, header_style="bold", expand=True)
     table.add_column("run", no_wrap=True, min_width=15)
     table.add_column("took", no_wrap=True, min_width=5, justify="right")
     table.add_column("", no_wrap=True, min_width=4, style="dim")
     table.add_column("how it ended", no_wrap=True, min_width=15)
-    table.add_column("what", overflow="ellipsis", no_wrap=True)
+    table.add_column("what", overflow="ellipsis", no_wrap=True, ratio=1)
     for one in shown:
         name = one.folder.rpartition("/")[2]
         stamp = re.match(r"\d{8}-\d{6}", name)
@@ -135,7 +128,7 @@ def _table(shown: Iterable[Past]) -> Table:
             stamp[0] if stamp else name,
             f"{one.took_s:.0f} s",
             one.runtime,
-            f"[{_STYLES.get(one.ending, 'dim')}]{one.code or one.ending}[/]",
-            escape(one.text),
+            Text(one.code or one.ending, style=_STYLES.get(one.ending, "dim")),
+            one.text,
         )
     return table

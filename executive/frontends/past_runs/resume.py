@@ -6,12 +6,11 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import typer
-
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
 from executive.frontends.launching import FrontEnd, from_plain_options, launch, now_stamp, under_way
 from executive.frontends.options import Shown
+from executive.frontends.output import say
 from executive.frontends.past_runs import printing
 from executive.frontends.reality import REALITY
 from executive.journal import past_runs
@@ -63,8 +62,8 @@ def _go_on_fast(recorded: Recording, *, as_json: bool) -> int:
     try:
         summary = catching_up.go_on(recorded, where, screen)
     except CannotGoOn as end:
-        typer.echo("It cannot be gone on with: it does not repeat.", err=True)
-        typer.echo("\n".join(printing.differs(end.difference)), err=True)
+        say("It cannot be gone on with: it does not repeat.", err=True)
+        say("\n".join(printing.differs(end.difference)), err=True)
         return ExitStatus.FAILED
     carrying_out.say_how_it_ended(summary, as_json=as_json)
     return summary.exit_status
@@ -101,4 +100,4 @@ in_executive = from_plain_options(GoOn, go_on_live)
 
 def _note(changed: list[str]) -> None:
     for change in changed:
-        typer.echo(f"note: {change}, since it was recorded", err=True)
+        say(f"note: {change}, since it was recorded", err=True)

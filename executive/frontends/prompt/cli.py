@@ -9,8 +9,6 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.console import Console
-
 from executive.frontends import carrying_out, speaking
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
@@ -21,6 +19,7 @@ from executive.frontends.launching import (
     under_way,
 )
 from executive.frontends.options import Prompt
+from executive.frontends.output import Screen, say
 from executive.frontends.progress import sentence
 from executive.frontends.prompt import commands
 from executive.frontends.prompt.plain import work_off
@@ -130,7 +129,7 @@ def conversation(
         left=left_in(left) if left is not None else None,
     )
     with ExitStack() as stack:
-        with Console(stderr=True).status("starting the robot"):
+        with Screen(err=True).status("starting the robot"):
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, table=commands.table, folder=folder, model=model, speech=speech)
@@ -138,12 +137,6 @@ def conversation(
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)
         yield shell
-
-
-def say(text: str) -> None:
-    """A line for people; above the prompt where there is one."""
-    console = Console(file=sys.stdout, highlight=False)
-    console.print(text, markup=False, soft_wrap=not console.is_terminal)
 
 
 def tell_what_goes_on(journal: Journal) -> None:

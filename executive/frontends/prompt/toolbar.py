@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from prompt_toolkit.formatted_text import StyleAndTextTuples
+from rich.cells import cell_len, set_cell_size
 
 from executive.frontends.prompt.view import View
 from executive.health import Level
 from executive.journal.dumps.text import MARKS
 from executive.journal.snapshot import Shown, window
+from robot.printable import printable
 
 STYLES: dict[str, str] = {
     "bottom-toolbar": "noreverse",
@@ -33,9 +35,9 @@ def toolbar(view: View, *, columns: int, rows: int) -> StyleAndTextTuples:
 
 
 def _tree_line(depth: int, shown: Shown, columns: int) -> StyleAndTextTuples:
-    name = f"{'  ' * depth}{MARKS[shown.state]} {shown.name}"[: columns - 1]
+    name = _cropped(f"{'  ' * depth}{MARKS[shown.state]} {shown.name}", columns - 1)
     note = f"  {shown.note}" if shown.note and shown.state != "done" else ""
-    note = note[: max(0, columns - 1 - len(name))]
+    note = _cropped(note, columns - 1 - cell_len(name))
     return [(f"class:tree.{shown.state}", name), ("class:tree.note", note), ("", "\n")]
 
 
@@ -76,8 +78,14 @@ def _cut(fields: list[tuple[str, str]], columns: int) -> StyleAndTextTuples:
     for style, text in fields:
         if left <= 0:
             break
-        separated = text if not shown else f"|{text}"
-        shown.append((style, separated[:left]))
-        left -= len(separated)
+        cropped = _cropped(text if not shown else f"|{text}", left)
+        shown.append((style, cropped))
+        left -= cell_len(cropped)
     shown.append(("class:status", " " * max(0, left)))
     return shown
+
+
+def _cropped(text: str, columns: int) -> str:
+    """As much of a text as fits into so many columns of one line."""
+    line = printable(text.replace("\n", " ").replace("\t", " "))
+    return set_cell_size(line, max(0, min(columns, cell_len(line))))

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import msgspec
+
 from executive.blackboard import NOW, Blackboard, Key
+from executive.journal import words
 
 PERIOD_S = 0.5
 WIDTH = 200
@@ -33,6 +36,6 @@ class Watch:
         now_s = self._board.read(NOW)
         if self._told_s is None or now_s - self._told_s >= PERIOD_S:
             self._told_s = now_s
-            words = str(value)
-            cut = words if len(words) <= WIDTH else f"{words[:WIDTH]} ..."
+            said = words.told(msgspec.to_builtins(value, enc_hook=str))
+            cut = said if len(said) <= WIDTH else f"{said[:WIDTH]} ..."
             self._out(f"{self._name} = {cut}")

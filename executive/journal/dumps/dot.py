@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from executive.journal.dumps.layout import LOOKS, NAME_CHARS, cut
 from executive.journal.dumps.text import ASCII_MARKS
 from executive.journal.snapshot import Shown
+from robot.printable import printable_line
 
 _SHAPES = {"sequence": "box", "selector": "octagon", "parallel": "parallelogram"}
 
@@ -42,5 +43,4 @@ def _attributes(shown: Shown) -> str:
 
 def quoted(text: str) -> str:
     """A DOT string: neither quotes, nor escapes, nor line breaks of the text mean anything."""
-    plain = "".join(c if c.isprintable() else " " for c in text)
-    return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return '"' + printable_line(text).replace("\\", "\\\\").replace('"', '\\"') + '"'

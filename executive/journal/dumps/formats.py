@@ -13,6 +13,7 @@ from executive.journal.dumps.svg import svg
 from executive.journal.dumps.text import Style, picture
 from executive.journal.run import Run
 from executive.journal.snapshot import snapshot
+from robot.printable import printable_json
 
 Format = Literal["html", "svg", "png", "dot", "json", "text"]
 
@@ -57,7 +58,7 @@ def _dot(run: Run, wish: Wish) -> bytes:
 
 
 def _json(run: Run, _wish: Wish) -> bytes:
-    return msgspec.json.encode(run.dumped()) + b"\n"
+    return printable_json(msgspec.json.encode(run.dumped()).decode()).encode() + b"\n"
 
 
 def _text(run: Run, wish: Wish) -> bytes:

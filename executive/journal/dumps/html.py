@@ -19,6 +19,7 @@ import msgspec
 from executive.journal.failures import verdict
 from executive.journal.run import Run
 from executive.journal.snapshot import inner
+from robot.printable import printable, printable_data
 
 _SCRIPTS = (
     "1_run.js", "2_tools.js", "3_timeline.js", "4_lanes.js", "5_map.js", "6_panels.js", "7_main.js",
@@ -39,15 +40,16 @@ def page(run: Run, *, why: list[str] | None = None) -> str:
     script = "\n".join((files / name).read_text(encoding="utf-8") for name in _SCRIPTS)
     style = (files / "viewer.css").read_text(encoding="utf-8")
     template = Template((files / "page.html").read_text(encoding="utf-8"))
-    data = msgspec.json.encode(Page(run=run.dumped(), inner=sorted(inner(run)), why=why or []))
+    told = Page(run=run.dumped(), inner=sorted(inner(run)), why=why or [])
+    data = msgspec.json.encode(printable_data(msgspec.to_builtins(told)))
     policy = (
         f"default-src 'none'; script-src {_hash(script)}; style-src {_hash(style)}; "
         "base-uri 'none'; form-action 'none'"
     )
     return template.substitute(
         policy=policy,
-        title=html.escape(run.text or "a run"),
-        fallback=html.escape(fallback(run)),
+        title=html.escape(printable(run.text) or "a run"),
+        fallback=html.escape(printable(fallback(run))),
         style=style,
         data=embedded(data.decode()),
         script=script,

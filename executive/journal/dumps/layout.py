@@ -15,6 +15,7 @@ import msgspec
 
 from executive.journal.snapshot import Shown
 from executive.journal.tree import State
+from robot.printable import printable_line
 
 MARGIN, GAP_X, GAP_Y = 16.0, 34.0, 8.0
 PAD_X, MARK_WIDTH = 10.0, 22.0
@@ -210,5 +211,5 @@ def _note(shown: Shown) -> str:
 
 def cut(text: str, chars: int) -> str:
     """A text on one line, no longer than that."""
-    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    line = printable_line(text)
     return line if len(line) <= chars else line[: chars - 1] + "…"

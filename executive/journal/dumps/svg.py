@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from unicodedata import east_asian_width
 from xml.sax.saxutils import escape
 
 from executive.journal.dumps.layout import (
@@ -19,9 +20,11 @@ from executive.journal.dumps.layout import (
     arrange,
 )
 from executive.journal.snapshot import Shown
+from robot.printable import printable
 
 FONT = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif"
 _NARROW, _WIDE = frozenset("fijlrtI.,:;'|!()[] "), frozenset("mwMW@%…")
+_NO_XML = {0xFFFE: None, 0xFFFF: None}
 
 
 def svg(roots: Sequence[Shown], *, title: str) -> str:
@@ -42,7 +45,16 @@ def svg(roots: Sequence[Shown], *, title: str) -> str:
 
 def measure(text: str, size: int) -> float:
     """About how wide a text is in the fonts named above; rather more than less."""
-    return size * sum(0.38 if c in _NARROW else 0.98 if c in _WIDE else 0.66 for c in text)
+    return size * sum(
+        0.38
+        if c in _NARROW
+        else 0.98
+        if c in _WIDE
+        else 1.3
+        if east_asian_width(c) in "WF"
+        else 0.66
+        for c in text
+    )
 
 
 def _edges(picture: Picture) -> list[str]:
@@ -94,6 +106,5 @@ def _mark(box: Box) -> str:
 
 
 def _safe(text: str) -> str:
-    """Text as XML may have it: escaped, without the control characters that XML forbids."""
-    allowed = (c for c in text if c in "\t\n" or (ord(c) >= 32 and not 0xD800 <= ord(c) <= 0xDFFF))
-    return escape("".join(allowed).replace("\ufffe", "").replace("\uffff", ""), {'"': "&quot;"})
+    """Text as XML may have it: escaped, and without the characters that it forbids."""
+    return escape(printable(text).translate(_NO_XML), {'"': "&quot;"})

@@ -7,6 +7,7 @@ from typing import Literal
 
 from executive.journal.snapshot import Shown
 from executive.journal.tree import State
+from robot.printable import printable_line
 
 Style = Literal["unicode", "ascii", "colour"]
 
@@ -25,16 +26,15 @@ COLOURS: dict[State, str] = {
 def picture(roots: Iterable[Shown], *, style: Style = "unicode") -> str:
     """A snapshot as text, one line a node, with how long each has taken.
 
-    Control characters in names are left out, so that no name can command a terminal.
+    What a terminal would obey is written out, so that no name can command it.
     """
     return "\n".join(_drawn(depth, shown, style) for root in roots for depth, shown in root.walk())
 
 
 def _drawn(depth: int, shown: Shown, style: Style) -> str:
     marks = ASCII_MARKS if style == "ascii" else MARKS
-    words = "".join(letter for letter in shown.name if letter.isprintable())
-    note = "".join(letter for letter in shown.note if letter.isprintable())
-    line = f"{marks[shown.state]} {words}"
+    note = printable_line(shown.note)
+    line = f"{marks[shown.state]} {printable_line(shown.name)}"
     tail = f": {note}" if note else ""
     tail += f"  ({shown.took_s:.1f} s)" if shown.took_s else ""
     if style == "ascii":

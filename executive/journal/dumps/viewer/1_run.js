@@ -114,8 +114,25 @@ function clock(t) {
 }
 const span = (seconds) => (seconds < 100 ? `${seconds.toFixed(2)} s` : `${seconds.toFixed(0)} s`);
 
+/** A number as fine as anything that is measured here: a millimetre, a millisecond, a milliradian. */
+function number(value) {
+  const fine = Math.abs(value) < 1000 ? 3 : 0;
+  return Number.isFinite(value) ? String(Number(value.toFixed(fine)) + 0) : String(value);
+}
+/** As `-0.00` of a fixed number of decimals never looks. */
+const fixed = (value, decimals) => value.toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
+
+const UNITS = { m: "m", s: "s", rad: "rad", c: "°C", hz: "Hz", n: "N", nm: "N m", kg: "kg", w: "W", v: "V" };
+/** A measurement in words: `gap_m` and 0.1234 are "gap 0.123 m". */
+function measured(name, value) {
+  const [, what, unit] = /^(.+)_([a-z]+)$/.exec(name) || [null, name, ""];
+  const known = typeof value === "number" && Object.hasOwn(UNITS, unit);
+  return known ? `${what.replaceAll("_", " ")} ${number(value)} ${UNITS[unit]}` : `${name.replaceAll("_", " ")} ${words(value)}`;
+}
+
 function words(value) {
   if (typeof value === "string") return value;
+  if (typeof value === "number") return number(value);
   if (value && typeof value === "object" && !Array.isArray(value)) {
     const pairs = Object.entries(value).map(([key, item]) => `${key}: ${words(item)}`);
     return pairs.length ? pairs.join(", ") : "nothing";

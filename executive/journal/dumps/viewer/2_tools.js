@@ -64,15 +64,17 @@ function hatch(pen, state) {
   return hatches.get(state);
 }
 
+/** The first letters of a text, and a sign that there are more; no letter is cut in half. */
+const begun = (text, count) => `${text.slice(0, count).replace(/[\uD800-\uDBFF]$/, "")}…`;
 /** Text cut to a width. */
 function fitted(pen, text, width) {
   if (pen.measureText(text).width <= width) return text;
   let low = 0, high = text.length;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if (pen.measureText(`${text.slice(0, middle)}…`).width <= width) low = middle; else high = middle - 1;
+    if (pen.measureText(begun(text, middle)).width <= width) low = middle; else high = middle - 1;
   }
-  return low > 2 ? `${text.slice(0, low)}…` : "";
+  return low > 2 ? begun(text, low) : "";
 }
 
 function showTip(event, text) {

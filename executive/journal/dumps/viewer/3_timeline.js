@@ -212,7 +212,7 @@ function arrow(pen, x, y) {
 
 /** A step of the axis: 1, 2 or 5 times a power of ten seconds, or round minutes. */
 function axisStep(width) {
-  const least = ((view.to - view.from) / Math.max(width, 1)) * 90;
+  const least = ((view.to - view.from) / Math.max(width, 1)) * 70;
   const steps = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 21600];
   return steps.find((step) => step >= least) || steps[steps.length - 1] * Math.ceil(least / 21600);
 }

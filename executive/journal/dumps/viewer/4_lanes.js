@@ -1,6 +1,6 @@
 // Above the rows: the whole run at a glance, the axis, what happened, health, and the body's mode.
 
-const LANE = 22;
+const LANE = 22, MARK = 14;
 const EVENTS = new Map(Object.entries({
   failure: ["✗", "failed"], fault: ["⚡", "warn"], recovery: ["↻", "running"], said: ["“", "accent"],
   hold: ["‖", "warn"], pause: ["‖", "accent"], resume: ["▸", "accent"], stop: ["■", "stopped"],
@@ -31,14 +31,12 @@ function drawLanes() {
   grid(pen, width, height);
   pen.fillStyle = colours.dim;
   for (const t of gridTimes(width)) {
-    const x = xOf(t, width);
-    if (x > 20 && x < width - 24) {
-      const text = axisText(t, width), w = pen.measureText(text).width + 6;
-      pen.fillStyle = colours.ground;
-      pen.fillRect(x - w / 2, 2, w, 16);
-      pen.fillStyle = colours.dim;
-      pen.fillText(text, x, 15);
-    }
+    const text = axisText(t, width), w = pen.measureText(text).width + 6;
+    const x = Math.min(Math.max(xOf(t, width), w / 2), width - w / 2);
+    pen.fillStyle = colours.ground;
+    pen.fillRect(x - w / 2, 2, w, 16);
+    pen.fillStyle = colours.dim;
+    pen.fillText(text, x, 15);
   }
   drawMarks(pen, width, LANE);
   drawBands(pen, width, 2 * LANE, healthBands, (level) => (LEVELS.indexOf(level) >= 3 ? "failed" : "warn"), (b) => `${b[2].toLowerCase()}: ${b[3]}`);
@@ -55,14 +53,16 @@ function axisText(t, width) {
 
 function drawMarks(pen, width, top) {
   pen.font = "bold 13px system-ui, sans-serif";
-  let last = -99;
-  const first = Math.max(0, lastBefore(marked, view.from) - 1);
-  for (let i = first; i < marked.length && marked[i][0] <= view.to; i++) {
-    const [glyph, colour] = EVENTS.get(marked[i][1]), x = xOf(marked[i][0], width);
-    if (x - last < 5 && marked[i][1] !== "failure") continue;
-    last = x;
+  const first = lastBefore(marked, view.from - 1e-9) + 1, seen = marked.slice(first, lastBefore(marked, view.to) + 1);
+  const failures = seen.filter((line) => line[1] === "failure");
+  const taken = []; // one mark stands for all around it, which the tip tells; failures come first
+  for (const line of [...failures, ...seen]) {
+    const x = Math.min(Math.max(xOf(line[0], width), MARK / 2), width - MARK / 2);
+    if (taken.some((other) => Math.abs(other - x) < MARK)) continue;
+    taken.push(x);
+    const [glyph, colour] = EVENTS.get(line[1]);
     pen.fillStyle = colours[colour];
-    pen.fillText(glyph, Math.min(Math.max(x, 5), width - 6), top + 16);
+    pen.fillText(glyph, x, top + 16);
   }
 }
 
@@ -90,7 +90,7 @@ function drawBands(pen, width, top, bands, colour, text) {
 function laneTip(event) {
   const width = sizes.lane[0], t = tOf(event.offsetX, width), lane = Math.floor(event.offsetY / LANE);
   if (lane === 1) {
-    const near = marked.filter((line) => Math.abs(xOf(line[0], width) - event.offsetX) < 7);
+    const near = marked.filter((line) => Math.abs(xOf(line[0], width) - event.offsetX) < MARK);
     return near.slice(0, 6).map((line) => `${clock(line[0])}  ${line[2]}`).join("\n");
   }
   const bands = lane === 2 ? healthBands : lane === 3 ? modes : [];

@@ -18,6 +18,38 @@ const bounds = (() => {
 })();
 const camera = { scale: 1, x: 0, y: 0 };
 
+/** Texts of the map: each has its place to itself, the first ones the best; for others there may be none. */
+class Labels {
+  constructor(pen, width, height) { Object.assign(this, { pen, width, height, taken: [] }); }
+  /** Keep a place free: its middle, and half its width and height. */
+  keep(x, y, halfWidth, halfHeight) { this.taken.push([x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight]); }
+  /** Write in the first place (the text's middle) that is free and inside; whether there was one. */
+  write(text, places, colour) {
+    const half = this.pen.measureText(text).width / 2 + 2;
+    for (const [x, y] of text ? places(half) : []) {
+      const box = [x - half, y - 7, x + half, y + 7];
+      const inside = box[0] >= 0 && box[1] >= 0 && box[2] <= this.width && box[3] <= this.height;
+      if (!inside || this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
+      this.taken.push(box);
+      this.pen.textAlign = "center";
+      this.pen.lineWidth = 3;
+      this.pen.strokeStyle = colours.ground;
+      this.pen.strokeText(text, x, y + 4);
+      this.pen.fillStyle = colour;
+      this.pen.fillText(text, x, y + 4);
+      return true;
+    }
+    return false;
+  }
+}
+/** Places around a point, beside it first. */
+const around = (x, y, far) => (half) => [
+  [x + far + half, y], [x - far - half, y], [x, y - far - 8], [x, y + far + 8],
+  ...[15, -15, 30, -30].flatMap((dy) => [[x + far + half, y + dy], [x - far - half, y + dy], [x, y + dy]]),
+];
+/** Places on an area: its middle, then above and below that; never beyond the map's edges. */
+const inside = (x, y, width) => (half) => [0, -14, 14].map((dy) => [Math.min(Math.max(x, half), width - half), y + dy]);
+
 function drawMap() {
   const { pen, width, height } = fresh($("map"));
   if (!plan && !poses.length) {
@@ -34,29 +66,35 @@ function drawMap() {
   pen.font = "11px system-ui, sans-serif";
   pen.textAlign = "center";
   for (const room of list(plan?.rooms)) area(pen, room.outline_m.map(at), colours.room, colours.line);
-  const names = [];
+  const names = [], labels = new Labels(pen, width, height);
   for (const spot of list(plan?.spots)) names.push([area(pen, spot.outline_m.map(at), null, colours.line, [3, 3]), spot.name]);
   for (const piece of list(plan?.furniture)) {
     names.push([area(pen, piece.outline_m.map(at), colours.furniture, colours.waiting), piece.name.includes("wall") ? "" : piece.name]);
   }
-  for (const [place, name] of names) named(pen, place, name, width);
   for (const [, outlines] of Object.entries(run.unmapped || {})) {
     const outline = outlines[lastBefore(outlines, now)];
     if (outline && outline[1].length) area(pen, outline[1].map(at), null, colours.warn, [2, 2]);
   }
-  for (const person of list(plan?.people)) someone(pen, person, at, scale);
+  const people = list(plan?.people).map((person) => [person.name, ...someone(pen, person, at, scale)]);
   way(pen, at);
   for (const trouble of troubles) if (trouble.t_s <= now) {
     const pose = poses[lastBefore(poses, trouble.t_s)];
     if (pose) { const [x, y] = at([pose[1], pose[2]]); cross(pen, x, y); }
   }
   const here = robot(pen, at, scale), held = Object.entries(boardAt(now).get("held")?.[0] || {});
-  for (const [id, sights] of Object.entries(run.things || {})) {
+  const seen = Object.entries(run.things || {}).map(([id, sights]) => {
     const hand = held.find(([, name]) => name === id)?.[0];
-    thing(pen, id, sights, at, hand && here ? inHand(here, hand) : null);
-  }
-  ruler(pen, width, height, scale);
+    return thing(pen, id, sights, at, hand && here ? inHand(here, hand) : null);
+  }).filter(Boolean);
+  ruler(pen, labels, scale);
+  if (here) labels.keep(here[0], here[1], here[3], here[3]);
+  for (const [, x, y] of seen) labels.keep(x, y, 5, 5);
+  for (const [text, x, y] of seen) labels.write(cut(text), around(x, y, 5), colours.text);
+  for (const [name, x, y, r] of people) labels.write(cut(name), (half) => [[x, y], ...around(x, y, r)(half)], colours.text);
+  for (const [[x, y, wide], name] of names) labels.write(fitted(pen, name, Math.max(wide - 4, 60)), inside(x, y, width), colours.dim);
 }
+/** A name of at most so many letters. */
+const cut = (name) => (name.length > 24 ? begun(name, 23) : name);
 
 function area(pen, corners, fill, line, dash = []) {
   pen.beginPath();
@@ -73,21 +111,14 @@ function area(pen, corners, fill, line, dash = []) {
   return [mean(0), mean(1), wide];
 }
 
-function named(pen, [x, y, wide], name, width) {
-  const text = fitted(pen, name, Math.max(wide - 4, 60)), half = pen.measureText(text).width / 2 + 3;
-  pen.fillStyle = colours.dim;
-  if (text) pen.fillText(text, Math.min(Math.max(x, half), width - half), y + 4);
-}
-
 function someone(pen, person, at, scale) {
-  const [x, y] = at([person.x_m, person.y_m]);
+  const [x, y] = at([person.x_m, person.y_m]), r = Math.max(5, (person.radius_m || 0.25) * scale);
   pen.beginPath();
-  pen.arc(x, y, Math.max(5, (person.radius_m || 0.25) * scale), 0, 2 * Math.PI);
+  pen.arc(x, y, r, 0, 2 * Math.PI);
   pen.strokeStyle = colours.stopped;
   pen.lineWidth = 2;
   pen.stroke();
-  pen.fillStyle = colours.text;
-  pen.fillText(person.name, x, y + 4);
+  return [x, y, r];
 }
 
 function way(pen, at) {
@@ -119,7 +150,7 @@ function inHand([x, y, yaw, r], hand) {
 
 function thing(pen, id, sights, at, carried) {
   const sight = sights[lastBefore(sights, now)];
-  if (!sight) return;
+  if (!sight) return null;
   const known = things.get(id), [x, y] = carried || at([sight[1], sight[2]]);
   const held = sight[4] || carried, missing = sight[5];
   pen.beginPath();
@@ -133,15 +164,7 @@ function thing(pen, id, sights, at, carried) {
   pen.stroke();
   pen.setLineDash([]);
   pen.globalAlpha = 1;
-  const text = (known?.name || id) + (held ? " (held)" : missing ? " (missing)" : "");
-  const over = x + 9 + pen.measureText(text).width > sizes.map[0], side = over ? x - 7 : x + 7;
-  pen.textAlign = over ? "right" : "left";
-  pen.lineWidth = 3;
-  pen.strokeStyle = colours.ground;
-  pen.strokeText(text, side, y + 4);
-  pen.fillStyle = colours.text;
-  pen.fillText(text, side, y + 4);
-  pen.textAlign = "center";
+  return [(known?.name || id) + (held ? " (held)" : missing ? " (missing)" : ""), x, y];
 }
 
 function robot(pen, at, scale) {
@@ -168,14 +191,19 @@ function robot(pen, at, scale) {
   return [px, py, yaw, r];
 }
 
-function ruler(pen, width, height, scale) {
+/** The scale, and of when and what the map is. */
+function ruler(pen, labels, scale) {
+  const { width, height } = labels;
   const metre = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20].find((m) => m * scale > 50) || 50;
   pen.fillStyle = colours.dim;
   pen.fillRect(width - 14 - metre * scale, height - 12, metre * scale, 2);
   pen.textAlign = "right";
   pen.fillText(`${metre} m`, width - 14, height - 16);
+  labels.keep(width - 14 - (metre * scale) / 2, height - 17, (metre * scale) / 2 + 14, 13);
   pen.textAlign = "left";
-  pen.fillText(`${plan?.name ? `${plan.name}, ` : ""}as the robot believed it at ${clock(now)}`, 8, height - 8);
+  const room = width - metre * scale - 36, text = fitted(pen, `${plan?.name ? `${plan.name}, ` : ""}as the robot believed it at ${clock(now)}`, room);
+  pen.fillText(text, 8, height - 8);
+  labels.keep(8 + room / 2, height - 12, room / 2, 9);
 }
 
 function mapInput() {

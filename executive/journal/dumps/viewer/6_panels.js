@@ -65,7 +65,7 @@ function nowPanel() {
   const pose = poses[lastBefore(poses, now)], wrong = healthAt(now), facts = [];
   const job = list(run.jobs).filter((j) => list(j.states).length && j.states[0][0] <= now);
   for (const j of job.slice(-4)) facts.push([`job ${j.number}`, `${j.text}: ${j.states[lastBefore(j.states, now)][1]}${j.urgent ? " (urgent)" : ""}`]);
-  if (pose) facts.push(["pose", `x ${pose[1].toFixed(2)} m, y ${pose[2].toFixed(2)} m, heading ${(pose[3] * 180 / Math.PI).toFixed(0)}°`]);
+  if (pose) facts.push(["pose", `x ${fixed(pose[1], 2)} m, y ${fixed(pose[2], 2)} m, heading ${fixed(pose[3] * 180 / Math.PI, 0)}°`]);
   const mode = modes[lastBefore(modes, now)];
   if (mode) facts.push(["body", mode[2]]);
   facts.push(["health", wrong.length ? wrong.map((f) => `${f[2].toLowerCase()}: ${f[4] || f[1]}`).join("; ") : "all is well"]);
@@ -88,7 +88,7 @@ function whyPanel() {
 function card(trouble) {
   const ended = trouble.ended || "open", items = [];
   const evidence = Object.entries(trouble.evidence || {});
-  if (evidence.length) items.push(el("div", { class: "dim", textContent: `measured: ${evidence.map(([k, v]) => `${k} ${words(v)}`).join(", ")}` }));
+  if (evidence.length) items.push(el("div", { class: "dim", textContent: `measured: ${evidence.map(([k, v]) => measured(k, v)).join(", ")}` }));
   const around = list(trouble.around).map((text) => el("li", { textContent: text }));
   if (around.length) items.push(el("div", { textContent: "known to be wrong then:" }), el("ul", {}, ...around));
   const tried = list(trouble.tried).map(([t, text]) => el("li", {}, when(t), ` ${text}`));

@@ -172,7 +172,7 @@ function head() {
   badge.textContent = verdict;
   badge.classList.add(!ending ? "open" : ending.code === "done" ? "done" : "failed");
   if (ending?.cause) badge.title = ending.cause;
-  const about = run.about || {}, facts = [about.world, about.runtime, about.seed !== undefined ? `seed ${about.seed}` : "", clock(END - BEGIN)];
+  const about = run.about || {}, facts = [about.world, about.runtime, about.seed !== undefined ? `seed ${words(about.seed)}` : "", clock(END - BEGIN)];
   facts.push(`${order.length} nodes`);
   if (ending?.recoveries) facts.push(ending.recoveries === 1 ? "1 recovery" : `${ending.recoveries} recoveries`);
   if (run.unreadable) facts.push(`${run.unreadable} unreadable lines`);

@@ -1,14 +1,16 @@
 from hypothesis import given
 from hypothesis import strategies as st
 from prompt_toolkit.formatted_text import to_plain_text
+from rich.cells import cell_len
 
 from executive.frontends.prompt.toolbar import toolbar
 from executive.frontends.prompt.view import View, view_of_lost
 from executive.health import Level
 from executive.journal.snapshot import Shown, window
 from robot.failures import failure
+from robot.printable import is_printable
 
-words = st.text(st.characters(codec="ascii", categories=("L", "N", "Zs")), max_size=60)
+words = st.text(st.one_of(st.characters(), st.sampled_from("\x1b\x9b\n\t\u202e杯👋")), max_size=60)
 trees = st.lists(
     st.tuples(
         st.integers(0, 30),
@@ -40,8 +42,9 @@ def test_the_toolbar_fits_any_terminal(tree, goal, phase, unwell, columns, rows)
     )
     lines = to_plain_text(toolbar(view, columns=columns, rows=rows)).split("\n")
     assert len(lines) <= rows + 1
-    assert all(len(line) <= columns for line in lines)
-    assert len(lines[-1]) == columns
+    assert all(cell_len(line) <= columns for line in lines)
+    assert cell_len(lines[-1]) == columns
+    assert all(map(is_printable, lines))
 
 
 @given(tree=trees, rows=st.integers(1, 20))

@@ -9,6 +9,8 @@ from xml.etree import ElementTree
 
 import msgspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from PIL import Image
 
 from executive.journal.dumps import layout, svg
@@ -21,6 +23,7 @@ from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.trees.build import build
 from executive.trees.parts import Always, Branch, Loop, Retry, Series, Timeout
+from robot.printable import is_printable
 from tests.fakes.long_run import LongRun
 from tests.fakes.recorded import Recorded, read
 from tests.fakes.rig import PICK, WAIT, WALK
@@ -81,6 +84,22 @@ def test_no_name_commands_a_terminal():
     assert "\x1b" not in text
     assert "\u202e" not in text
     assert len(text.splitlines()) == 2
+
+
+@pytest.mark.parametrize("kind", ["html", "svg", "dot", "json", "text"])
+@given(name=st.text(st.one_of(st.characters(), st.sampled_from("\x1b\x9b\u202e\x00"))))
+def test_no_format_commands_whoever_looks_at_it(kind, name):
+    name = name.encode(errors="replace").decode()  # no journal holds half a letter
+    run = read([
+        msgspec.json.encode({"n": n, "t_s": 0.0, **event}) + b"\n"
+        for n, event in enumerate([
+            {"event": "run", "text": name},
+            {"event": "tree", "nodes": [[0, -1, "jobs", name], [1, 0, "skill", name]]},
+            {"event": "node", "id": 1, "status": "running", "note": name},
+            {"event": "board", "key": name, "value": {name: [name]}},
+        ])
+    ])  # fmt: skip
+    assert is_printable(render(run, kind).decode())
 
 
 def test_an_svg_is_well_formed_whatever_the_names():

@@ -19,6 +19,7 @@ from executive.journal.dumps.html import Page, embedded, page
 from executive.journal.run import Run
 from executive.journal.snapshot import inner
 from executive.skills.pick import PickParams
+from robot.printable import printable, printable_data
 from tests.fakes.long_run import LongRun
 from tests.fakes.recorded import Recorded, read
 from tests.fakes.rig import PICK, WAIT
@@ -32,6 +33,7 @@ HOSTILE = (
     "]]>\u2028\u2029'\"&amp;&lt;\\u003c",
     "$title ${data} $$",
     "__proto__",
+    "\x1b]0;title\x07\x9b31m\x00\x7fcup\u202egnp",
 )
 REACHING_OUT = (
     "http:", "https:", "fetch(", "XMLHttpRequest", "import(", "eval(", "url(", "innerHTML",
@@ -109,7 +111,7 @@ def test_the_data_in_the_page_is_the_run(recovered):
     for run in (recovered, hostile_run(), read(LongRun(nodes=60, duration_s=60.0).lines)):
         data = Parts(page(run, why=["because"])).script("application/json")
         told = msgspec.json.decode(data, type=Page)
-        assert told.run == msgspec.json.decode(render(run, "json"))
+        assert told.run == printable_data(msgspec.json.decode(render(run, "json")))
         assert (told.inner, told.why) == (sorted(inner(run)), ["because"])
 
 
@@ -202,6 +204,6 @@ def test_hostile_names_are_shown_as_they_are(tmp_path):
     title = re.search("<title>(.*?)</title>", dom, re.DOTALL)
     assert title is not None
     assert html.unescape(title.group(1)) == HOSTILE[0]
-    assert [name for _, name in rows(dom)] == list(HOSTILE)
+    assert [name for _, name in rows(dom)] == [printable(name) for name in HOSTILE]
     assert "<img" not in dom
     assert dom.count("<script") == 2
