@@ -181,12 +181,20 @@ def _cores() -> Finding:
 
 
 def _shared_memory() -> Finding:
-    if os.access("/dev/shm", os.W_OK):
-        return Finding(name="shared memory", verdict="ok", text="/dev/shm")
-    return Finding(
-        name="shared memory", verdict="optional", text="/dev/shm cannot be written: no live runs",
-        cure="mount it, or use --fast",
-    )  # fmt: skip
+    """Whether a live run has a place for what its processes share."""
+    from robot.bringup import private_folder
+
+    try:
+        made = private_folder.create()
+    except RobotError as error:
+        return Finding(
+            name="shared memory", verdict="optional", text=f"no live runs: {error}",
+            cure="mount a tmpfs at /dev/shm, or use --fast",
+        )  # fmt: skip
+    private_folder.remove(made)
+    place = made.path.parent
+    note = "" if place == private_folder.IN_MEMORY else " (/dev/shm cannot be used)"
+    return Finding(name="shared memory", verdict="ok", text=f"{place}{note}")
 
 
 def _disk(folder: Path) -> Finding:
