@@ -16,8 +16,9 @@ import msgspec
 from rich.console import Console
 from rich.markup import escape
 
+from executive.frontends import keys
 from executive.frontends.exit import echo_json
-from robot.errors import RobotError
+from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
 
 MIN_FREE_MB = 200
@@ -66,7 +67,7 @@ def examine(run_folder: Path = Path(), *, robot: str = "juno") -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
         _python, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores, _shared_memory,
-        _microphone, _voice,
+        _microphone, _voice, _model_keys,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -168,6 +169,22 @@ def _voice() -> Finding:
         name="voice", verdict="optional", text="none: answers are printed only",
         cure="sudo apt install espeak-ng",
     )  # fmt: skip
+
+
+def _model_keys() -> Finding:
+    """Whether the keys for language models can be used, each of them."""
+    file = keys.path()
+    try:
+        hosts = sorted(keys.sources(file))
+        for host in hosts:
+            keys.key_for(host, file=file)
+    except ConfigError as error:
+        return Finding(
+            name="model keys", verdict="optional", text=str(error),
+            cure="see docs/intents.md; only --model needs them",
+        )  # fmt: skip
+    text = f"for {', '.join(hosts)}" if hosts else f"none; they are named in {file}"
+    return Finding(name="model keys", verdict="ok", text=text)
 
 
 def _cores() -> Finding:
