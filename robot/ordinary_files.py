@@ -65,7 +65,7 @@ def read_secret(path: Path | str, *, limit: int) -> bytes:
 
 
 def write_ordinary(path: Path | str, data: bytes, *, anew: bool = False) -> None:
-    """Put a file in its place, whole or not at all; its folder is made where it is missing.
+    """Put a file in its place in a folder that is there, whole or not at all.
 
     What stood there before is replaced, if it was an ordinary file of this user.
 
@@ -78,7 +78,6 @@ def write_ordinary(path: Path | str, data: bytes, *, anew: bool = False) -> None
         OSError: it cannot be written, or that is no place to write to; `strerror` says which.
     """
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     _check_place(path, anew=anew)
     fresh = path.with_name(f".{secrets.token_hex(8)}.new")
     file = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
@@ -102,10 +101,15 @@ def open_to_append(path: Path | str) -> int:
         OSError: it cannot be written, or that is no place to write to; `strerror` says which.
     """
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     _check_place(path, anew=False)
     flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-    return os.open(path, flags, 0o666)
+    return os.open(path, flags, 0o644)
+
+
+def is_within(folder: Path | str, path: Path | str) -> bool:
+    """Whether a path stays inside a folder, wherever its links and `..` lead."""
+    inner, outer = os.path.realpath(path), os.path.realpath(folder)
+    return os.path.commonpath((inner, outer)) == outer
 
 
 def _check_place(path: Path, *, anew: bool) -> None:

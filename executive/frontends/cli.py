@@ -30,6 +30,7 @@ from executive.frontends.options import (
 from executive.frontends.past_runs import cli as history
 from robot import exit_status
 from robot.errors import ConfigError
+from robot.ordinary_files import write_ordinary
 
 app = typer.Typer(
     name="humanoid",
@@ -226,7 +227,7 @@ def export(
 
     text = writer.urdf(description.load(robot))
     try:
-        urdf.write_text(text, encoding="utf-8")
+        write_ordinary(urdf, text.encode())
     except OSError as error:
         raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
     typer.echo(f"Done: {urdf}")

@@ -27,6 +27,7 @@ from robot.failures import Failure, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
+from robot.ordinary_files import write_ordinary
 from robot.reality.contract import World
 from robot.reality.faults import FAULT, Fault, Kill
 
@@ -222,7 +223,7 @@ class LiveRuntime(Closing):
         if self.timing:
             with suppress(OSError):  # the last words told it; a full disk is no mistake of ours
                 self._folder.mkdir(parents=True, exist_ok=True)
-                (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
+                write_ordinary(self._folder / "timing.json", msgspec.json.encode(self.timing))
 
     def _wait_for_body(self) -> None:
         until_s = self._wall.now_s() + START_S

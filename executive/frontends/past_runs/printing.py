@@ -135,7 +135,7 @@ def _table(shown: Iterable[Past]) -> Table:
             stamp[0] if stamp else name,
             f"{one.took_s:.0f} s",
             one.runtime,
-            f"[{_STYLES.get(one.ending, 'dim')}]{one.code or one.ending}[/]",
+            f"[{_STYLES.get(one.ending, 'dim')}]{escape(one.code or one.ending)}[/]",
             escape(one.text),
         )
     return table
