@@ -16,7 +16,7 @@ import msgspec
 from rich.console import Console
 from rich.markup import escape
 
-from executive.frontends import keys
+from executive.frontends import keys, namesakes
 from executive.frontends.exit import echo_json
 from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
@@ -66,8 +66,8 @@ def doctor(*, robot: str = "juno", as_json: bool) -> int:
 def examine(run_folder: Path = Path(), *, robot: str = "juno") -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
-        _python, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores, _shared_memory,
-        _microphone, _voice, _model_keys,
+        _python, _names, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores,
+        _shared_memory, _microphone, _voice, _model_keys,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -80,6 +80,14 @@ def _python() -> Finding:
         name="Python", verdict="missing", text=f"{version}; 3.11 to 3.13 are supported",
         cure="make clean && make PYTHON=python3.12 test",
     )  # fmt: skip
+
+
+def _names() -> Finding:
+    """Whether the names of our packages are ours alone."""
+    wrong = [*namesakes.elsewhere(), *namesakes.owners()]
+    if wrong:
+        return Finding(name="names", verdict="missing", text="; ".join(wrong), cure=namesakes.CURE)
+    return Finding(name="names", verdict="ok", text=f"{', '.join(namesakes.NAMES)} are ours alone")
 
 
 def _libraries() -> Finding:
