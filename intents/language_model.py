@@ -4,17 +4,16 @@ Its answer is data: goals of the closed set, checked by type, name and range lik
 read back to the person before anything moves (:mod:`intents.dialogue`). It can call nothing. What
 goes wrong with it is a value in :attr:`LanguageModel.trouble`; the robot then goes on without it.
 
-    model = LanguageModel(Endpoint.load(Path("model.toml")))
+    model = LanguageModel(Endpoint.parse(text_of_a_toml_file), key=Key(secret))
     dialogue = Dialogue(vocabulary, fallback=model)
 """
 
-import os
+import ipaddress
+import math
 import time
 import tomllib
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, cast
-from urllib.parse import urlsplit
 
 import httpx
 import msgspec
@@ -35,11 +34,22 @@ class Key:
 
     __slots__ = ("_secret",)
 
-    def __init__(self, secret: str) -> None:
+    def __init__(self, secret: str = "") -> None:
+        """Keep a secret; an empty one stands for none.
+
+        Raises:
+            ValueError: No header could carry it; the message does not show it.
+        """
+        if not (secret.isascii() and secret.isprintable()):
+            raise ValueError("it holds more than one line of plain characters")
         self._secret = secret
 
     def __repr__(self) -> str:
         return "Key(...)"
+
+    def __bool__(self) -> bool:
+        """Whether there is one."""
+        return bool(self._secret)
 
     def header(self) -> dict[str, str]:
         """The header of a request, empty without a key."""
@@ -47,13 +57,14 @@ class Key:
 
 
 class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Where the model is and what it may cost.
+    """Where the model is and what it may cost; a stranger may have written it.
+
+    So it names no key: the user's own configuration says which host gets one.
 
     Attributes:
-        base_url: Up to and without "/chat/completions"; no other host is ever spoken to.
+        base_url: Up to and without "/chat/completions"; no other host is ever spoken to. In the
+            clear (http) on this machine only.
         model: Its name there.
-        key_file: File that holds nothing but the key.
-        key_variable: Environment variable that holds the key, if no file is given.
         deadline_s: Time for one request, repairs included [s].
         max_calls: Calls in one mission.
         max_tokens: Tokens in one mission, prompts included.
@@ -62,8 +73,6 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
     base_url: str
     model: str
-    key_file: str = ""
-    key_variable: str = ""
     deadline_s: float = 15.0
     max_calls: int = 20
     max_tokens: int = 60_000
@@ -73,33 +82,53 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         """Check what can be checked.
 
         Raises:
-            ValueError: The address is none, or a limit is not positive.
+            ValueError: The address is none, or not a safe one, or a limit is not positive.
         """
-        if urlsplit(self.base_url).scheme not in ("http", "https"):
-            raise ValueError(f"base_url {self.base_url!r} is no http address")
+        url = _address(self.base_url)
+        if url.scheme != "https" and not _is_this_machine(url.host):
+            raise ValueError(f"base_url {self.base_url!r}: only https leaves this machine")
         if min(self.deadline_s, self.max_calls, self.max_tokens, self.answer_tokens) <= 0:
             raise ValueError("deadline_s and the limits have to be more than 0")
+        if not math.isfinite(self.deadline_s):
+            raise ValueError("deadline_s has to be a number of seconds")
+
+    @property
+    def host(self) -> str:
+        """Who is spoken to, as keys are kept for it: "host", or "host:port" for an odd port."""
+        return _address(self.base_url).netloc.decode("ascii").lower()
 
     @classmethod
-    def load(cls, path: Path) -> "Endpoint":
-        """An endpoint from a TOML file.
+    def parse(cls, text: str) -> "Endpoint":
+        """An endpoint from the text of a TOML file.
 
         Raises:
-            OSError: It cannot be read.
-            tomllib.TOMLDecodeError: It is no TOML.
-            msgspec.ValidationError: It has other keys or values.
+            ValueError: It is no TOML (TOMLDecodeError), or has other keys or values
+                (msgspec.ValidationError).
         """
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), cls)
+        try:
+            return msgspec.convert(tomllib.loads(text), cls)
+        except RecursionError:
+            raise ValueError("it is nested too deep") from None
 
-    def key(self) -> Key:
-        """The key, read when it is needed and kept nowhere else.
 
-        Raises:
-            OSError: The file cannot be read.
-        """
-        if self.key_file:
-            return Key(Path(self.key_file).expanduser().read_text(encoding="utf-8").strip())
-        return Key(os.environ.get(self.key_variable, "") if self.key_variable else "")
+def _address(base_url: str) -> httpx.URL:
+    """The address as the client understands it; raises ValueError if it is none to send to."""
+    try:
+        url = httpx.URL(base_url)
+    except (httpx.InvalidURL, UnicodeError):
+        raise ValueError(f"base_url {base_url!r} is no http address") from None
+    if url.scheme not in ("http", "https") or not url.host or (url.port or 0) > 65535:
+        raise ValueError(f"base_url {base_url!r} is no http address")
+    if url.userinfo or url.query or url.fragment:
+        raise ValueError(f"base_url {base_url!r} may not hold more than a host and a path")
+    return url
+
+
+def _is_this_machine(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
 
 
 class _Answer(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -127,6 +156,7 @@ class LanguageModel:
         self,
         endpoint: Endpoint,
         *,
+        key: Key | None = None,
         clock: Callable[[], float] = time.monotonic,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
@@ -134,10 +164,12 @@ class LanguageModel:
 
         Args:
             endpoint: Where it is.
+            key: What its host knows us by; none by default.
             clock: The time for deadlines [s].
             transport: In place of the network.
         """
         self._endpoint = endpoint
+        self._key = key or Key()
         self._clock = clock
         self._client = httpx.Client(
             transport=transport, follow_redirects=False, trust_env=False,
@@ -209,21 +241,28 @@ class LanguageModel:
 
     def _may_ask(self, until_s: float) -> None:
         if self._barred:
-            raise _Unusable("the language model does not accept the key")
+            raise self._unwelcome()
         if self.calls >= self._endpoint.max_calls or self.tokens >= self._endpoint.max_tokens:
             raise _Unusable("the language model's budget for this mission is spent")
         if self._clock() >= until_s:
             raise _Unusable("the language model did not answer in time")
 
+    def _unwelcome(self) -> _Unusable:
+        host = self._endpoint.host
+        if self._key:
+            return _Unusable(f"the language model at {host} does not accept the key")
+        return _Unusable(f"the language model wants a key, and none is kept for {host!r}")
+
     def _post(self, body: dict[str, Any], until_s: float) -> bytes:
         """The body of the reply, within the deadline and a limit of size."""
         url = self._endpoint.base_url.rstrip("/") + "/chat/completions"
         timeout = httpx.Timeout(max(until_s - self._clock(), 0.001))
-        headers = self._endpoint.key().header()
+        headers = self._key.header()
         received = bytearray()
         with self._client.stream("POST", url, json=body, headers=headers, timeout=timeout) as reply:
             if reply.status_code in _FORBIDDEN:
                 self._barred = True
+                raise self._unwelcome()
             if not reply.is_success:
                 raise _Unusable(f"the language model answered {reply.status_code}")
             for chunk in reply.iter_bytes():

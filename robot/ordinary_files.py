@@ -1,13 +1,14 @@
 """Files that may be a stranger's: ordinary ones only, opened without waiting, read within a bound.
 
 A pipe in place of a file would make its reader wait for ever, a device would feed it for ever, and
-a link would lead it out of the folder it was told to stay in.
+a link would lead it out of the folder it was told to stay in; a writer likewise.
 """
 
 from __future__ import annotations
 
 import errno
 import os
+import secrets
 import stat
 from pathlib import Path
 from typing import BinaryIO
@@ -44,6 +45,94 @@ def read_ordinary(path: Path | str, *, limit: int, follow_links: bool = True) ->
     """
     with open_ordinary(path, follow_links=follow_links) as file:
         data = file.read(limit + 1)
+    return _bounded(data, limit, path)
+
+
+def read_secret(path: Path | str, *, limit: int) -> bytes:
+    """All of a file that is this user's, and that nobody else may read or change.
+
+    Raises:
+        OSError: as `read_ordinary`, or it is not such a file.
+    """
+    with open_ordinary(path) as file:
+        found = os.fstat(file.fileno())
+        if found.st_uid != os.geteuid():
+            raise OSError(errno.EPERM, "the file belongs to another user", str(path))
+        if found.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
+            raise OSError(errno.EPERM, f"others may use the file: chmod 600 {path}", str(path))
+        data = file.read(limit + 1)
+    return _bounded(data, limit, path)
+
+
+def write_ordinary(path: Path | str, data: bytes, *, anew: bool = False) -> None:
+    """Put a file in its place in a folder that is there, whole or not at all.
+
+    What stood there before is replaced, if it was an ordinary file of this user.
+
+    Args:
+        path: where it is to be.
+        data: what it is to hold.
+        anew: whether nothing may have that name yet.
+
+    Raises:
+        OSError: it cannot be written, or that is no place to write to; `strerror` says which.
+    """
+    path = Path(path)
+    _check_place(path, anew=anew)
+    fresh = path.with_name(f".{secrets.token_hex(8)}.new")
+    file = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    try:
+        with os.fdopen(file, "wb") as opened:
+            opened.write(data)
+        if anew:
+            os.link(fresh, path)  # unlike a renaming it replaces nothing
+            fresh.unlink()
+        else:
+            fresh.replace(path)
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
+
+
+def open_to_append(path: Path | str) -> int:
+    """A descriptor of an ordinary file of this user, made where it is missing, to append to.
+
+    Raises:
+        OSError: it cannot be written, or that is no place to write to; `strerror` says which.
+    """
+    path = Path(path)
+    _check_place(path, anew=False)
+    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    return os.open(path, flags, 0o644)
+
+
+def is_within(folder: Path | str, path: Path | str) -> bool:
+    """Whether a path stays inside a folder, wherever its links and `..` lead."""
+    inner, outer = os.path.realpath(path), os.path.realpath(folder)
+    return os.path.commonpath((inner, outer)) == outer
+
+
+def _check_place(path: Path, *, anew: bool) -> None:
+    """Refuse to write where something else is than a file of this user."""
+    try:
+        found = path.stat(follow_symlinks=False)
+    except FileNotFoundError:
+        return
+    if anew:
+        raise FileExistsError(errno.EEXIST, "something of that name is there already", str(path))
+    if stat.S_ISLNK(found.st_mode):
+        raise OSError(errno.ELOOP, "this is a link; name what it points to", str(path))
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(errno.EINVAL, "this is no ordinary file", str(path))
+    if found.st_uid != os.geteuid():
+        raise OSError(errno.EPERM, "the file there belongs to another user", str(path))
+
+
+def _bounded(data: bytes, limit: int, path: Path | str) -> bytes:
     if len(data) > limit:
-        raise OSError(errno.EFBIG, f"the file is larger than {limit / 1e6:g} MB", str(path))
+        raise OSError(errno.EFBIG, f"the file is larger than {_size(limit)}", str(path))
     return data
+
+
+def _size(limit: int) -> str:
+    return f"{limit / 1e6:g} MB" if limit >= 1e5 else f"{limit / 1e3:g} kB"

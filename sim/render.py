@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from robot.closing import Closing
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import write_ordinary
 from robot.se3 import Vector3
 from sim.plant import Plant
 from sim.rays import UNSENSED
@@ -149,7 +150,7 @@ def save_png(path: Path | str, image: Image) -> None:
         chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)),
         chunk(b"IEND", b""),
     )
-    Path(path).write_bytes(b"".join(parts))
+    write_ordinary(path, b"".join(parts))
 
 
 def _context(width: int, height: int) -> Any:

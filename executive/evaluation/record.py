@@ -11,6 +11,11 @@ from typing import TypeVar
 import msgspec
 
 from executive.evaluation.campaign import Run
+from robot.errors import ConfigError
+from robot.ordinary_files import open_to_append, read_ordinary
+
+MAX_BYTES = 200_000_000
+"""Of a campaign's records: one of them has about 1 kB."""
 
 FILE = "results.jsonl"
 S = TypeVar("S", bound=msgspec.Struct)
@@ -69,11 +74,14 @@ class Results:
     """
 
     def __init__(self, folder: Path, *, fingerprint: str) -> None:
-        """Open the file in `folder`, or begin one."""
-        folder.mkdir(parents=True, exist_ok=True)
+        """Open the file in `folder`, or begin one. Raises ConfigError if that cannot be done."""
         self.path = folder / FILE
         self.records: dict[str, Record] = {}
-        data = self.path.read_bytes() if self.path.exists() else b""
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ConfigError(f"{folder} cannot be made: {error.strerror}") from None
+        data = self._read()
         lines = data.splitlines()
         header = _decode(lines[0], Header) if lines else None
         self.stale = header is not None and header.code != fingerprint
@@ -96,10 +104,21 @@ class Results:
         self._write(_line(record))
 
     def _write(self, data: bytes) -> None:
-        with self.path.open("ab") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
+        try:
+            with os.fdopen(open_to_append(self.path), "ab") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise ConfigError(f"{self.path} cannot be written: {error.strerror}") from None
+
+    def _read(self) -> bytes:
+        try:
+            return read_ordinary(self.path, limit=MAX_BYTES)
+        except FileNotFoundError:
+            return b""
+        except OSError as error:
+            raise ConfigError(f"{self.path} cannot be read: {error.strerror}") from None
 
 
 def fingerprint(root: Path) -> str:

@@ -31,6 +31,7 @@ from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
 from robot import exit_status
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import write_ordinary
 from robot.printable import is_printable, printable
 
 app = typer.Typer(
@@ -228,7 +229,7 @@ def export(
 
     text = writer.urdf(description.load(robot))
     try:
-        urdf.write_text(text, encoding="utf-8")
+        write_ordinary(urdf, text.encode())
     except OSError as error:
         raise ConfigError(f"{urdf} cannot be written: {error.strerror}") from None
     say(f"Done: {urdf}")

@@ -14,8 +14,9 @@ from typing import Literal
 
 import msgspec
 
+from executive.frontends import keys, namesakes
 from executive.frontends.output import say, write_json
-from robot.errors import RobotError
+from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
 
 MIN_FREE_MB = 200
@@ -65,8 +66,8 @@ def doctor(*, robot: str = "juno", as_json: bool) -> int:
 def examine(run_folder: Path = Path(), *, robot: str = "juno") -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
-        _python, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores, _shared_memory,
-        _microphone, _voice,
+        _python, _names, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores,
+        _shared_memory, _microphone, _voice, _model_keys,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -79,6 +80,14 @@ def _python() -> Finding:
         name="Python", verdict="missing", text=f"{version}; 3.11 to 3.13 are supported",
         cure="make clean && make PYTHON=python3.12 test",
     )  # fmt: skip
+
+
+def _names() -> Finding:
+    """Whether the names of our packages are ours alone."""
+    wrong = [*namesakes.elsewhere(), *namesakes.owners()]
+    if wrong:
+        return Finding(name="names", verdict="missing", text="; ".join(wrong), cure=namesakes.CURE)
+    return Finding(name="names", verdict="ok", text=f"{', '.join(namesakes.NAMES)} are ours alone")
 
 
 def _libraries() -> Finding:
@@ -170,6 +179,22 @@ def _voice() -> Finding:
     )  # fmt: skip
 
 
+def _model_keys() -> Finding:
+    """Whether the keys for language models can be used, each of them."""
+    file = keys.path()
+    try:
+        hosts = sorted(keys.sources(file))
+        for host in hosts:
+            keys.key_for(host, file=file)
+    except ConfigError as error:
+        return Finding(
+            name="model keys", verdict="optional", text=str(error),
+            cure="see docs/intents.md; only --model needs them",
+        )  # fmt: skip
+    text = f"for {', '.join(hosts)}" if hosts else f"none; they are named in {file}"
+    return Finding(name="model keys", verdict="ok", text=text)
+
+
 def _cores() -> Finding:
     count = len(os.sched_getaffinity(0))
     if count >= 2:
@@ -181,12 +206,20 @@ def _cores() -> Finding:
 
 
 def _shared_memory() -> Finding:
-    if os.access("/dev/shm", os.W_OK):
-        return Finding(name="shared memory", verdict="ok", text="/dev/shm")
-    return Finding(
-        name="shared memory", verdict="optional", text="/dev/shm cannot be written: no live runs",
-        cure="mount it, or use --fast",
-    )  # fmt: skip
+    """Whether a live run has a place for what its processes share."""
+    from robot.bringup import private_folder
+
+    try:
+        made = private_folder.create()
+    except RobotError as error:
+        return Finding(
+            name="shared memory", verdict="optional", text=f"no live runs: {error}",
+            cure="mount a tmpfs at /dev/shm, or use --fast",
+        )  # fmt: skip
+    private_folder.remove(made)
+    place = made.path.parent
+    note = "" if place == private_folder.IN_MEMORY else " (/dev/shm cannot be used)"
+    return Finding(name="shared memory", verdict="ok", text=f"{place}{note}")
 
 
 def _disk(folder: Path) -> Finding:

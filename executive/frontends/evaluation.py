@@ -15,9 +15,11 @@ from executive.evaluation.record import Record, Results, fingerprint
 from executive.frontends.options import Eval
 from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
+from executive.runs import run_folder
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.ordinary_files import write_ordinary
 
 MAX_WIDTH = 1000
 """Of any table: how wide it would be is asked without a bound of the terminal."""
@@ -35,6 +37,7 @@ def evaluate(options: Eval) -> int:
     )
     folder = options.resume or Path("runs") / f"{datetime.now().astimezone():%Y%m%d-%H%M%S}-eval"
     root = Path(executive.__file__).parent.parent
+    run_folder.claim(folder)
     results = Results(folder, fingerprint=fingerprint(root))
     console = Screen(err=True, quiet=options.as_json)
     if results.stale:
@@ -64,8 +67,14 @@ def show(found: report.Report) -> None:
 def save(folder: Path, found: report.Report) -> None:
     """Keep the table beside the results, for machines and for people."""
     data = msgspec.json.format(msgspec.json.encode(found, order="deterministic"))
-    (folder / "report.json").write_bytes(data + b"\n")
-    (folder / "report.md").write_text(report.markdown(found), encoding="utf-8")
+    try:
+        write_ordinary(folder / "report.json", data + b"\n")
+        write_ordinary(folder / "report.md", report.markdown(found).encode())
+    except OSError as error:
+        text = f"the report in {folder} cannot be written: {error.strerror}"
+        raise ConfigError(
+            [Problem(text, suggestion="the records are there: --resume it")]
+        ) from None
 
 
 def chosen(options: Eval) -> tuple[Case, ...]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from executive.frontends import namesakes
 from executive.frontends.output import say, write_json
 from executive.journal import failures
 from robot.errors import ConfigError, RobotError
@@ -27,6 +28,9 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, KeyboardInterrupt):
         return last_words("Stopped on request.", [], "", status=ExitStatus.FAILED, as_json=as_json)
+    if wrong := namesakes.explained(error):
+        status = ExitStatus.BROKEN
+        return last_words("Broken:", wrong, namesakes.CURE, status=status, as_json=as_json)
     lines = "".join(traceback.format_exception(error)).splitlines()
     cure = "that is a mistake in this software: report the lines above, with the run folder"
     return last_words("Broken:", lines, cure, status=ExitStatus.BROKEN, as_json=as_json)

@@ -2,26 +2,38 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from robot.errors import ConfigError, Problem
+from robot.yaml_nodes import read_text
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
+
+MAX_BYTES = 64_000
+_NAMES_A_KEY = re.compile(r"^\s*[\"']?key_(file|variable)[\"']?\s*=", re.MULTILINE)
 
 
 def language_model(file: Path | None) -> LanguageModel | None:
     """The model to ask where the grammar gives up; None without a file. Nothing is sent yet.
 
     Raises:
-        ConfigError: the file cannot be read or is no endpoint.
+        ConfigError: the file cannot be read or is no endpoint, or the key for it is not usable.
     """
     if file is None:
         return None
+    from executive.frontends import keys
     from intents.language_model import Endpoint, LanguageModel  # httpx takes long to load
 
+    text = read_text(file, limit=MAX_BYTES)
+    if _NAMES_A_KEY.search(text):
+        cure = f"name it in {keys.path()}, under the host it is for (docs/intents.md)"
+        problem = "an endpoint's file names no key: it could send any file to any host"
+        raise ConfigError([Problem(problem, str(file), suggestion=cure)])
     try:
-        return LanguageModel(Endpoint.load(file))
-    except (OSError, ValueError) as error:  # TOML and msgspec errors are ValueErrors
+        endpoint = Endpoint.parse(text)
+    except ValueError as error:  # TOML and msgspec errors are ValueErrors
         raise ConfigError([Problem(str(error), str(file))]) from None
+    return LanguageModel(endpoint, key=keys.key_for(endpoint.host))

@@ -94,13 +94,15 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
     """The folder of a run: of the one that is under way, the one wanted, or a new one.
 
     Raises:
-        ConfigError: if the one wanted holds a run already.
+        ConfigError: if the one wanted holds a run already, or another one uses it.
     """
     from executive.runs import run_folder
 
     there = under_way(handle)
     if there is not None:
+        run_folder.claim(Path(there.folder))
         return Path(there.folder)
     folder = wanted or run_folder.folder_for(text, stamp=now_stamp())
+    run_folder.claim(folder)
     run_folder.check_free(folder)
     return folder

@@ -39,7 +39,8 @@ Model = Annotated[
     typer.Option(
         "--model",
         envvar="HUMANOID_MODEL",
-        help="Language model (an endpoint's TOML file) to ask what the grammar cannot read.",
+        help="Language model (an endpoint's TOML file) to ask what the grammar cannot read; "
+        "its key is named in ~/.config/humanoid/keys.toml (docs/intents.md).",
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]

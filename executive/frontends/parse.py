@@ -20,7 +20,11 @@ from intents.parser import hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
 from robot.printable import is_printable, printable
+
+MAX_BYTES = 20_000_000
+"""Of a file of names, or of sentences: some hundred thousand of them."""
 
 
 def parse_all(
@@ -65,8 +69,11 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
         knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
     try:
-        vocabulary = Vocabulary.from_json(file.read_bytes())
-    except (OSError, msgspec.DecodeError) as error:
+        vocabulary = Vocabulary.from_json(read_ordinary(file, limit=MAX_BYTES))
+    except OSError as error:
+        text = f"cannot be read: {error.strerror}"
+        raise ConfigError([Problem(text, str(file))]) from None
+    except (ValueError, RecursionError) as error:  # what is no UTF-8, JSON, or vocabulary
         raise ConfigError([Problem(str(error), str(file))]) from None
     for name in _texts(msgspec.to_builtins(vocabulary)):
         if not is_printable(name):
@@ -91,8 +98,11 @@ def _lines(file: Path) -> Iterable[str]:
     if str(file) == "-":
         return (line.rstrip("\n") for line in sys.stdin)
     try:
-        return file.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        return read_ordinary(file, limit=MAX_BYTES).decode().splitlines()
+    except OSError as error:
+        text = f"cannot be read: {error.strerror}"
+        raise ConfigError([Problem(text, str(file))]) from None
+    except UnicodeDecodeError as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 

@@ -210,7 +210,8 @@ def opened(path: Path) -> int:
         OSError: if it cannot be opened.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o644)
+    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_CLOEXEC
+    file = os.open(path, flags, 0o644)
     try:
         fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         size = os.fstat(file).st_size
@@ -237,7 +238,8 @@ def whole_bytes(file: int, size: int, *, step: int = 65_536) -> int:
 def is_open(path: Path) -> bool:
     """Whether a process has the file open to append to: it lives, wherever it is stuck."""
     try:
-        file = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+        # Without O_NONBLOCK a pipe in its place would be waited at.
+        file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError:
         return False
     try:

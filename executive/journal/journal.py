@@ -24,6 +24,7 @@ import msgspec
 from executive.journal.files import BackgroundFile, LineFile, Lines, is_open
 from robot.closing import Closing
 from robot.errors import ConfigError
+from robot.ordinary_files import open_ordinary
 
 FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
 CAPACITY = 20_000
@@ -170,7 +171,8 @@ def read(path: Path) -> list[Event]:
     """
     file = path / FILE if path.is_dir() else path
     try:
-        lines = file.read_bytes().split(b"\n")
+        with open_ordinary(file) as opened:
+            lines = opened.read().split(b"\n")
     except OSError as error:
         raise ConfigError(f"{path} holds no journal: {error.strerror}") from error
     found = (decode(line) for line in lines if line)

@@ -2,22 +2,49 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal, TypeVar
 
 import msgspec
 
 from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
+from executive.journal.run import Run
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import open_ordinary, read_ordinary
+
+T = TypeVar("T")
 
 BASE = Path("runs")
 
 Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
+
+
+MAX_BYTES = 10_000_000
+MOST_OF_A_LINE = 1_000
+LAST_S = 2.5e11
+"""The year 9892: what is later is no time of day that can be shown."""
+
+
+class About(msgspec.Struct, frozen=True):
+    """What is shown of `run.json`."""
+
+    text: str = ""
+    runtime: str = ""
+    world: str = ""
+    seed: int = 0
+
+
+class End(msgspec.Struct, frozen=True):
+    """What is shown of `summary.json`."""
+
+    code: str
+    simulated_s: float = 0.0
 
 
 class Past(msgspec.Struct, frozen=True, kw_only=True):
@@ -71,28 +98,29 @@ def history(base: Path = BASE) -> Iterator[Past]:
 
 def look(folder: Path) -> Past:
     """What is known of a run: by its summary where it has one, else by its journal."""
-    header, summary = _table(folder / "run.json"), _table(folder / "summary.json")
-    if summary and not journal.is_written(folder):
-        code, took_s = str(summary.get("code", "")), float(summary.get("simulated_s", 0.0))
+    header, summary = _table(folder / "run.json", About), _table(folder / "summary.json", End)
+    if summary is not None and not journal.is_written(folder):
+        code, took_s = summary.code, summary.simulated_s
         ending = _ending(code, "done" if code == "done" else "failed")
     else:
-        run = reader.read(folder)
+        run = _read(folder)
         task = run.task
-        header = header or {**run.about, "text": run.text}
+        header = header or _about(run)
         code = task.reason.code if task.reason else "done" if task.state == "done" else ""
         took_s = run.end_s
         if journal.is_written(folder):
             code, ending = "", "under way"
         else:
             ending = "idle" if run.idle else _ending(code, task.state)
+    header = header or About()
     began = datetime.fromtimestamp(_began_s(folder)).astimezone()
     return Past(
         folder=str(folder),
         began=began.isoformat(timespec="seconds"),
-        text=str(header.get("text", "")),
-        runtime=str(header.get("runtime", "")),
-        world=str(header.get("world", "")),
-        seed=int(header.get("seed", 0)),
+        text=header.text,
+        runtime=header.runtime,
+        world=header.world,
+        seed=header.seed,
         ending=ending,
         code=code,
         took_s=round(took_s, 2),
@@ -105,18 +133,36 @@ def _ending(code: str, state: str) -> Ending:
     return "done" if state == "done" else "failed" if state == "failed" else "cut off"
 
 
+def _read(folder: Path) -> Run:
+    """What the journal says; nothing where it cannot be read, which must not hide the others."""
+    try:
+        return reader.read(folder)
+    except ConfigError:
+        return Run()
+
+
+def _about(run: Run) -> About:
+    try:
+        return msgspec.convert({**run.about, "text": run.text}, About)
+    except msgspec.ValidationError:
+        return About(text=run.text)
+
+
 def _began_s(folder: Path) -> float:
     """Time of day of the first event; of the folder itself where nothing says so."""
+    found = None
+    with contextlib.suppress(OSError), open_ordinary(folder / WALL_FILE) as file:
+        found = re.search(rb'"wall_s":([0-9]{1,12}(\.[0-9]{1,6})?)', file.readline(MOST_OF_A_LINE))
     try:
-        with (folder / WALL_FILE).open("rb") as file:
-            found = re.search(rb'"wall_s":([0-9.]+)', file.readline())
-        return float(found[1]) if found else folder.stat().st_mtime
-    except (OSError, ValueError):
-        return folder.stat().st_mtime
+        wall_s = float(found[1]) if found else folder.stat().st_mtime
+    except OSError:  # it was removed just now
+        return 0.0
+    return min(max(wall_s, 0.0), LAST_S)
 
 
-def _table(path: Path) -> dict[str, Any]:
+def _table(path: Path, kind: type[T]) -> T | None:
+    """What a file of a run says; None where there is none, or it says nothing of the kind."""
     try:
-        return msgspec.json.decode(path.read_bytes(), type=dict[str, Any])
-    except (OSError, msgspec.DecodeError, UnicodeDecodeError):
-        return {}
+        return msgspec.json.decode(read_ordinary(path, limit=MAX_BYTES), type=kind)
+    except (OSError, ValueError, RecursionError):  # msgspec's errors are ValueErrors
+        return None

@@ -28,6 +28,7 @@ from executive.journal.run import (
 from executive.journal.step_reader import StepReader
 from executive.journal.tree_reader import TreeReader
 from robot.errors import ConfigError
+from robot.ordinary_files import open_ordinary
 
 Handler = Callable[[float, Mapping[str, Any]], None]
 """Takes the events of a kind: whole, or it raises and changes nothing."""
@@ -50,7 +51,7 @@ def read(path: Path) -> Run:
     file = path / FILE if path.is_dir() else path
     reader = Reader()
     try:
-        with file.open("rb") as lines:
+        with open_ordinary(file) as lines:
             for line in lines:
                 reader.line(line)
     except OSError as error:

@@ -22,6 +22,8 @@ from executive.missions.fault_plans import FaultPlan
 from executive.runs.run_folder import MISSIONS
 from executive.runs.task_run import Assignment
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import is_within, read_ordinary, write_ordinary
+from robot.yaml_nodes import MAX_BYTES
 
 
 def assignment(checked: Checked, options: Options, *, path: str) -> Assignment:
@@ -70,7 +72,7 @@ def digest(checked: Checked) -> str:
     """Hash (SHA-256, the first 16 digits) of the mission's file and those that it calls."""
     found = hashlib.sha256()
     for path in checked.files:
-        found.update(path.read_bytes() + b"\0")
+        found.update(read_ordinary(path, limit=MAX_BYTES) + b"\0")
     return found.hexdigest()[:16]
 
 
@@ -89,7 +91,7 @@ def keep(checked: Checked, folder: Path) -> Path:
         for path, below in zip(checked.files, _below(checked.files), strict=True):
             copy = base / below
             copy.parent.mkdir(parents=True, exist_ok=True)
-            copy.write_bytes(path.read_bytes())
+            write_ordinary(copy, read_ordinary(path, limit=MAX_BYTES))
     except OSError:
         return checked.mission.path
     return folder / kept(checked)
@@ -124,12 +126,16 @@ def faults(made_from: dict[str, Any], folder: Path, where: Setting) -> tuple[Fau
     return _checked(made_from, folder, where).faults
 
 
+def _copy_in(folder: Path, kept: str) -> Path | None:
+    """The copy that a run keeps of its mission, if it is there; a journal may name any path."""
+    path = folder / kept
+    return path if path.is_file() and is_within(folder / MISSIONS, path) else None
+
+
 def _checked(made_from: dict[str, Any], folder: Path, where: Setting) -> Checked:
     if "mission" not in made_from:
         raise ConfigError(f"{folder}: it is not known what the job was made from")
-    path = folder / str(made_from.get("kept", ""))
-    if not path.is_file():
-        path = Path(str(made_from["mission"]))
+    path = _copy_in(folder, str(made_from.get("kept", ""))) or Path(str(made_from["mission"]))
     options = Options(
         params=made_from.get("params", {}),
         world=where.world.name,

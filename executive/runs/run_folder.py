@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import fcntl
+import os
 import re
-import shutil
 from pathlib import Path
 
 import msgspec
 
+from executive.journal.journal import FILE
 from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import is_within, read_ordinary, write_ordinary
+from robot.yaml_nodes import MAX_BYTES
 
 MISSIONS = "missions"
 """Folder in that of a run: the mission files that its jobs are made from."""
@@ -53,10 +57,17 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
 def carry_missions_over(left_by: Path, folder: Path) -> None:
     """Keep the mission files of a run that is gone on with in another folder there, too."""
     with contextlib.suppress(OSError):  # then they are read where they come from
-        shutil.copytree(left_by / MISSIONS, folder / MISSIONS, dirs_exist_ok=True)
+        for path in sorted((left_by / MISSIONS).rglob("*")):
+            if path.is_file() and is_within(left_by, path):
+                data = read_ordinary(path, limit=MAX_BYTES)
+                copy = folder / path.relative_to(left_by)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                write_ordinary(copy, data)
 
 
 MOST_AT_ONCE = 100
+PRIVATE = 0o700
+"""Mode of a run's folder: it says what was said, by whom, and where people and things were."""
 
 
 def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
@@ -71,7 +82,8 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
     first = base / f"{stamp}-{slug or 'run'}"
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
         try:
-            folder.mkdir(parents=True)
+            base.mkdir(parents=True, exist_ok=True)
+            folder.mkdir(mode=PRIVATE)
         except FileExistsError:
             continue
         except OSError:
@@ -86,17 +98,67 @@ def check_free(folder: Path) -> None:
     Raises:
         ConfigError: if it does.
     """
-    if (folder / "journal.jsonl").exists():
-        cure = "choose another --run-dir"
-        raise ConfigError([Problem(f"{folder} already holds a run", suggestion=cure)])
+    if os.path.lexists(folder / FILE):
+        raise _taken(folder, "already holds a run")
+
+
+_claimed: dict[tuple[int, int], int] = {}
+"""By device and inode, the descriptors that hold this process's folders until it ends."""
+
+
+def claim(folder: Path) -> None:
+    """Make a folder for this process's run, and keep all others out of it until it ends.
+
+    One that cannot be made, on a disk that is full, say, is no obstacle: the journal tells of it.
+
+    Raises:
+        ConfigError: if it is in use, of another user, or no folder.
+    """
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(FileExistsError):
+            folder.mkdir(mode=PRIVATE)
+        opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    except (NotADirectoryError, FileExistsError):
+        raise _taken(folder, "is no folder") from None
+    except OSError as error:
+        if os.path.lexists(folder):
+            raise _taken(folder, f"cannot be used: {error.strerror}") from None
+        return
+    try:
+        _lock(folder, opened)
+    except BaseException:
+        os.close(opened)
+        raise
+
+
+def _lock(folder: Path, opened: int) -> None:
+    found = os.fstat(opened)
+    if found.st_uid != os.geteuid():
+        raise _taken(folder, "belongs to another user")
+    identity = (found.st_dev, found.st_ino)
+    if identity in _claimed:
+        os.close(opened)
+        return
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise _taken(folder, "is used by another run just now") from None
+    except OSError:  # a file system without locks: good enough to write to
+        pass
+    _claimed[identity] = opened
+
+
+def _taken(folder: Path, why: str) -> ConfigError:
+    return ConfigError([Problem(f"{folder} {why}", suggestion="choose another --run-dir")])
 
 
 def save(folder: Path, name: str, value: msgspec.Struct) -> str:
     """Write a struct as JSON; returns what went wrong, or an empty text."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         data = msgspec.json.format(msgspec.json.encode(value, order="deterministic"))
-        (folder / name).write_bytes(data + b"\n")
+        folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
+        write_ordinary(folder / name, data + b"\n")
     except OSError as error:
         return f"{folder / name} cannot be written: {error.strerror}"
     return ""

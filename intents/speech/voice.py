@@ -121,6 +121,8 @@ class _PiperVoice(msgspec.Struct, frozen=True):
 
 def _rate_hz(described: Path) -> int:
     """The rate that a piper voice speaks with."""
+    if not described.is_file():  # a pipe or a device would never end
+        raise AudioError(f"{described} is no file", "keep it beside the voice that it belongs to")
     try:
         return msgspec.json.decode(described.read_bytes(), type=_PiperVoice).audio.sample_rate
     except (OSError, msgspec.DecodeError) as error:

@@ -13,6 +13,7 @@ from pathlib import Path
 import robot
 from robot.bringup.processes import Process
 from robot.clock import Clock
+from robot.ordinary_files import open_to_append
 
 POLL_S = 0.01
 # Deaths come in groups, and until the next spare is loaded one more lets the robot fall. Not at
@@ -118,7 +119,7 @@ class Child:
             number = str(len(self._starts_s))  # by which a spare knows its turn
             with _held_back(signal.SIGINT):
                 return subprocess.Popen([*command, number], env=_environment())
-        with self._log.open("ab") as output:
+        with os.fdopen(open_to_append(self._log), "ab") as output:
             return subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,

@@ -61,13 +61,18 @@ def launch(
         clock: the wall's; another one in tests.
         executive: its row of the table.
         processes: of the robot.
+
+    Raises:
+        ProcessError: if there is no place for what the processes share.
     """
     clock = clock or WallClock()
     private = private_folder.create()
-    child = Child(executive, private, log=None, clock=clock)
+    child = Child(executive, private.path, log=None, clock=clock)
     front = Front(entry=entry, options=options)
     try:
-        return Launcher(front, private, child, tell=tell, clock=clock, processes=processes).run()
+        return Launcher(
+            front, private.path, child, tell=tell, clock=clock, processes=processes
+        ).run()
     finally:
         private_folder.remove(private)
 

@@ -14,6 +14,7 @@ import msgspec
 from robot.bringup import private_folder
 from robot.bringup.body_clock import BodyClock
 from robot.bringup.mailbox import RUN_FILE, Handle
+from robot.bringup.private_folder import PrivateFolder
 from robot.bringup.supervisor import Supervisor
 from robot.bus import topics
 from robot.bus.run import Run
@@ -26,6 +27,7 @@ from robot.failures import Failure, failure
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
+from robot.ordinary_files import write_ordinary
 from robot.reality.contract import World
 from robot.reality.faults import FAULT, Fault, Kill
 
@@ -107,7 +109,7 @@ class LiveRuntime(Closing):
         self._handle = handle
         self._crew: Crew | None = None
         self._bus: ZenohBus | None = None
-        self._private: Path | None = None
+        self._private: PrivateFolder | None = None
         self._wall = wall or WallClock()
         self._waker = Waker()
         self._folder = folder
@@ -137,7 +139,8 @@ class LiveRuntime(Closing):
             self._join(private)
             self._crew = self._handle
             return
-        private = self._private = private_folder.create()
+        self._private = private_folder.create()
+        private = self._private.path
         self.run = msgspec.structs.replace(self._plan, sockets=str(private))
         self.run.save(private / RUN_FILE)
         self._join(private)
@@ -216,10 +219,11 @@ class LiveRuntime(Closing):
             self._bus.close()
         if self._private is not None:
             private_folder.remove(self._private)
+            self._private = None
         if self.timing:
             with suppress(OSError):  # the last words told it; a full disk is no mistake of ours
                 self._folder.mkdir(parents=True, exist_ok=True)
-                (self._folder / "timing.json").write_bytes(msgspec.json.encode(self.timing))
+                write_ordinary(self._folder / "timing.json", msgspec.json.encode(self.timing))
 
     def _wait_for_body(self) -> None:
         until_s = self._wall.now_s() + START_S

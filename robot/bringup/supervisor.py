@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import suppress
 from pathlib import Path
 from typing import Self
@@ -12,6 +13,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.errors import ProcessError
 from robot.failures import Failure, failure
+from robot.ordinary_files import open_ordinary, write_ordinary
 
 LOG_TAIL_BYTES = 4096
 
@@ -97,7 +99,7 @@ class Supervisor(Closing):
     def _start(self, child: Child) -> None:
         child.start()
         with suppress(OSError):  # it is for people; a full disk keeps no robot from starting
-            (self._logs / f"{child.row.name}.pid").write_text(f"{child.pid}\n")
+            write_ordinary(self._logs / f"{child.row.name}.pid", f"{child.pid}\n".encode())
 
     def _mended(self, child: Child, status: int) -> bool:
         """Start it again if its row still allows that."""
@@ -128,8 +130,8 @@ class Supervisor(Closing):
 def last_line(log: Path) -> str:
     """The last line that a process said, for people."""
     try:
-        with log.open("rb") as file:
-            file.seek(max(0, log.stat().st_size - LOG_TAIL_BYTES))
+        with open_ordinary(log) as file:
+            file.seek(max(0, os.fstat(file.fileno()).st_size - LOG_TAIL_BYTES))
             lines = file.read().decode(errors="replace").split("\n")
     except OSError:
         return ""

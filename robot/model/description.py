@@ -227,7 +227,10 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Where the model comes from."""
         overlay = None if self.overlay is None else str(Path(self.folder) / self.overlay)
         without = () if self.published is None else self.published.without
-        return mjcf.Source(str(self.mjcf_path()), overlay, without)
+        folder = self.mjcf_folder or self.folder
+        return mjcf.Source(
+            str(self.mjcf_path()), folder, overlay, overlay_folder=self.folder, without=without
+        )
 
     def digest(self) -> bytes:
         """SHA-256 of the description and its MJCF, wherever they lie, 32 bytes."""

@@ -15,22 +15,30 @@ import msgspec
 import mujoco
 
 from robot.errors import DescriptionError, Problem
+from robot.model import mjcf_files
+from robot.model.mjcf_files import MAX_XML_BYTES
+from robot.ordinary_files import read_ordinary
 
 SETTINGS = frozenset({"option", "compiler", "inertial"})
 """Elements that an overlay changes rather than repeats."""
 
 
 class Source(msgspec.Struct, frozen=True):
-    """Where a model comes from: its file, what is laid over it, meshes that are left out."""
+    """Where a model comes from: its file, what is laid over it, meshes that are left out.
+
+    `folder` holds the file and all that it draws in; `overlay_folder` the overlay likewise.
+    """
 
     path: str
+    folder: str
     overlay: str | None = None
+    overlay_folder: str = ""
     without: tuple[str, ...] = ()
 
     def content(self) -> bytes:
         """What is in the files."""
         files = (self.path,) if self.overlay is None else (self.path, self.overlay)
-        return b"".join(Path(file).read_bytes() for file in files)
+        return b"".join(read_ordinary(file, limit=MAX_XML_BYTES) for file in files)
 
 
 def spec(source: Source) -> mujoco.MjSpec:
@@ -41,10 +49,15 @@ def spec(source: Source) -> mujoco.MjSpec:
     """
     try:
         if source.overlay is None:
+            model = mjcf_files.read(Path(source.path))
+            mjcf_files.check(model, Path(source.path), [Path(source.folder)])
             return mujoco.MjSpec.from_file(source.path)
         return mujoco.MjSpec.from_string(_laid_over(source, Path(source.overlay)))
     except (ValueError, ET.ParseError) as error:
         raise DescriptionError([_broken(source, error)]) from None
+    except OSError as error:
+        text = f"the MJCF cannot be read: {error.strerror}"
+        raise DescriptionError([Problem(text, str(error.filename or source.path))]) from None
 
 
 def compiled(source: Source) -> mujoco.MjModel:
@@ -61,7 +74,7 @@ def _broken(source: Source, error: Exception) -> Problem:
 
 def _laid_over(source: Source, overlay_path: Path) -> str:
     """The published model with the overlay, as MJCF; meshes by their full path."""
-    base, overlay = ET.parse(source.path).getroot(), ET.parse(overlay_path).getroot()
+    base, overlay = mjcf_files.read(Path(source.path)), mjcf_files.read(overlay_path)
     _full_paths(base, Path(source.path).resolve().parent)
     _robot_alone(base)
     _leave_out(base, source.without)
@@ -78,6 +91,9 @@ def _laid_over(source: Source, overlay_path: Path) -> str:
             _bodies(own, section, bodies)
         else:
             own.extend(section)
+    folders = [Path(source.folder), Path(source.overlay_folder)]
+    mjcf_files.check(base, Path(source.path), folders)
+    mjcf_files.check(base, overlay_path, folders)
     return ET.tostring(base, encoding="unicode")
 
 

@@ -18,6 +18,7 @@ from executive.journal.journal import FILE
 from executive.journal.run import Run
 from executive.journal.why import why
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import write_ordinary
 
 TO_TERMINAL = frozenset({"text", "dot", "json"})
 """Formats that go to standard output where no file is named."""
@@ -104,6 +105,6 @@ def _write(path: Path, data: bytes) -> None:
     """Write a file. Raises ConfigError."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
+        write_ordinary(path, data)
     except OSError as error:
         raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

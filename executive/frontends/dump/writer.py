@@ -25,6 +25,7 @@ from executive.runs.task_run import Progress, Show
 from robot.closing import Closing
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import write_ordinary
 
 On = Literal["tick", "change", "failure", "end"]
 MOST_FILES = 20_000
@@ -97,7 +98,7 @@ class Dumper(Closing):
             path = self._directory / f"{name}.{FORMATS[kind][0]}"
             try:
                 lines = why(self._run, live=True).lines if kind == "html" else ()
-                path.write_bytes(render(self._run, kind, Wish(why=lines)))
+                write_ordinary(path, render(self._run, kind, Wish(why=lines)))
             except OSError as error:
                 self.problem = f"{path} cannot be written: {error.strerror}"
             except Exception as error:  # a picture must never stop a robot

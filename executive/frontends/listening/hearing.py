@@ -26,6 +26,7 @@ from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.ordinary_files import open_ordinary
 
 
 class Block(msgspec.Struct, frozen=True, kw_only=True):
@@ -78,11 +79,11 @@ def sound(options: Listen) -> Generator[Iterator[Block]]:
         AudioError: there is no such file, it is no sound, or there is no microphone.
     """
     if options.file is not None:
-        found = wav.form(options.file)
+        found = wav.form(options.file, open_ordinary)
         if found.missing:
             lost_s = found.missing / found.rate_hz
             say(f"{options.file} is cut off: {lost_s:.1f} s are missing", err=True)
-        yield (Block(sound=one) for one in wav.blocks(options.file))
+        yield (Block(sound=one) for one in wav.blocks(options.file, open_ordinary))
         return
     with microphone.opened(options.device) as source:
         blocks = source.blocks()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from executive.missions.template import template
 from executive.trees.parts import errands
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.ordinary_files import write_ordinary
 
 SCHEMA = load.FOLDER / "mission.schema.json"
 
@@ -114,7 +116,7 @@ def write_schema(output: Path | None) -> int:
 def new(name: str) -> int:
     """Write a mission to begin with. Raises ConfigError if there is one already."""
     path = Path(name if name.endswith(load.SUFFIX) else f"{name}{load.SUFFIX}")
-    if path.exists():
+    if os.path.lexists(path):
         raise ConfigError([Problem("the file is there already", str(path), suggestion="rename")])
     text = template(path.stem.replace("_", " "), file=str(path), schema=SCHEMA.as_uri())
     return _write(text, path)
@@ -142,7 +144,7 @@ def _write(text: str, output: Path | None) -> int:
         write(text)
         return ExitStatus.DONE
     try:
-        output.write_text(text, encoding="utf-8")
+        write_ordinary(output, text.encode())
     except OSError as error:
         raise ConfigError(f"{output} cannot be written: {error.strerror}") from None
     say(f"Done: {output}")

@@ -8,6 +8,7 @@ from typing import Any
 from executive.meaning.request import Setting
 from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.ordinary_files import write_ordinary
 
 HEAD = "# What was done at the prompt. `humanoid mission check` says whether it still fits.\n"
 
@@ -21,10 +22,11 @@ def save(path: Path, sentences: list[str], where: Setting) -> Path:
     if not sentences:
         raise ConfigError("nothing was done yet that could be saved")
     path = path if path.suffix else path.with_suffix(".yaml")
-    if path.exists():
-        raise ConfigError(f"{path} is there already; choose another name")
+    mission = HEAD + text(path.stem, sentences, where)
     try:
-        path.write_text(HEAD + text(path.stem, sentences, where), encoding="utf-8")
+        write_ordinary(path, mission.encode(), anew=True)
+    except FileExistsError:
+        raise ConfigError(f"{path} is there already; choose another name") from None
     except OSError as error:
         raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
     return path

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import msgspec
 
@@ -21,6 +20,7 @@ from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.trees.build import finished
 from executive.trees.parts import Errand, Part, of_any_attempt, walk
+from robot.errors import ConfigError
 from robot.link import BodyLink
 from robot.messages import BodyState, ObjectInfo, Side, WorldState
 from robot.model.description import RobotDescription
@@ -89,9 +89,12 @@ def _journalled(events: list[Event]) -> dict[Side, Held]:
     """The newest grips in the journal, by hand."""
     for event in reversed(events):
         if event.event == "held":
-            plain: Mapping[str, Any] = event.data.get("hands", {})
-            held = [msgspec.convert(one, Held) for one in plain.values()]
-            return {one.side: one for one in held}
+            try:
+                held = msgspec.convert(event.data.get("hands", {}), dict[str, Held])
+            except msgspec.ValidationError as error:
+                text = f"event {event.n} of the journal holds no grips: {error}"
+                raise ConfigError(text) from None
+            return {one.side: one for one in held.values()}
     return {}
 
 

@@ -17,7 +17,7 @@ from executive.journal import journal
 from executive.journal.files import LineFile
 from executive.journal.journal import CAPACITY, FILE, Journal
 from executive.meaning.request import Setting
-from executive.runs import runtimes
+from executive.runs import run_folder, runtimes
 from executive.runs.again import recording, replay
 from executive.runs.again.comparison import Checked, Difference
 from executive.runs.again.recording import Recording
@@ -73,8 +73,10 @@ def go_on(recorded: Recording, where: Setting, screen: Screen) -> Summary:
 
     Raises:
         CannotGoOn: if it does not repeat.
+        ConfigError: if its folder is another user's, or somebody goes on with it just now.
     """
     assert recorded.submitted is not None
+    run_folder.claim(recorded.folder)
     assignment = recording.assigned(recorded.submitted, recorded.folder, where)
     setup = Setup(where=where, seed=recorded.header.seed, folder=recorded.folder)
     onward = LineFile(recorded.folder / FILE, capacity=CAPACITY)

@@ -166,8 +166,8 @@ def unfinished(events: list[Event]) -> list[list[Event]]:
             submitted, over = [], set()
         elif _submits(event):
             submitted.append(at)
-        elif event.event == "job" and event.data["state"] in OVER:
-            over.add(int(event.data["job"]))
+        elif event.event == "job" and event.data.get("state") in OVER:
+            over.add(_of(event) or 0)
     open_ = [(number, at) for number, at in enumerate(submitted, start=1) if number not in over]
     return [
         [event for event in events[at:] if event.event == "held" or _of(event) in (number, None)]
@@ -177,4 +177,5 @@ def unfinished(events: list[Event]) -> list[list[Event]]:
 
 def _of(event: Event) -> int | None:
     """The job that an event belongs to; None for those of no job."""
-    return event.data.get("job")
+    number = event.data.get("job")
+    return number if isinstance(number, int) else None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from executive.engine.jobs import Limits
 from executive.journal import journal
 from executive.journal.journal import FILE, Event
 from executive.meaning import request
@@ -15,10 +16,13 @@ from executive.meaning.request import Refused, Setting, Understood
 from executive.meaning.whereabouts import Whereabouts, recalled
 from executive.missions.fault_plans import FaultPlan
 from executive.runs import mission_task, provenance
+from executive.runs.again import requests
+from executive.runs.again.requests import Submit
 from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import is_within, open_ordinary
 from robot.reality.contract import Reality
 
 
@@ -71,7 +75,8 @@ def load(folder: Path) -> Recording:
         ConfigError: if it has no whole journal of this version.
     """
     try:
-        *lines, rest = (folder / FILE).read_bytes().split(b"\n")
+        with open_ordinary(folder / FILE, follow_links=False) as file:
+            *lines, rest = file.read().split(b"\n")
     except OSError as error:
         raise ConfigError(f"{folder} holds no journal: {error.strerror}") from error
     events = [journal.decode(line) for line in lines]
@@ -97,12 +102,42 @@ def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]
         ConfigError: if a file is gone or wrong.
     """
     header = recording.header
-    vary_seed = header.seed if header.varied else None
-    where = request.setting(reality, header.world, robot=header.robot, vary_seed=vary_seed)
+    with discreet(recording.folder):
+        where = _where(header, reality)
     assert header.origin is not None
     return where, provenance.differences(
         header.origin, provenance.of(where.world, where.description)
     )
+
+
+def _where(header: Header, reality: Reality) -> Setting:
+    vary_seed = header.seed if header.varied else None
+    return request.setting(reality, header.world, robot=header.robot, vary_seed=vary_seed)
+
+
+@contextmanager
+def discreet(folder: Path) -> Generator[None]:
+    """Say of files outside a run's folder no more than that they are not what they were.
+
+    A stranger's journal may name any file as its world, its robot or its mission; what is wrong
+    with that one, as such, would show what is in it.
+
+    Raises:
+        ConfigError: as the block does, without what is in such files.
+    """
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(
+            [_without_content(problem, folder) for problem in error.problems]
+        ) from None
+
+
+def _without_content(problem: Problem, folder: Path) -> Problem:
+    if problem.file is None or is_within(folder, problem.file):
+        return problem
+    cure = "put it back as it was, or do it anew with this one"
+    return Problem("this is not what the run was recorded with", problem.file, suggestion=cure)
 
 
 def assigned(submitted: Event, folder: Path, where: Setting) -> Assignment:
@@ -111,13 +146,34 @@ def assigned(submitted: Event, folder: Path, where: Setting) -> Assignment:
     Raises:
         ConfigError: if it cannot be made here and now.
     """
-    made_from: dict[str, Any] = dict(submitted.data["origin"])
+    asked = requests.read(submitted)
+    if not isinstance(asked, Submit):
+        raise ConfigError(f"{folder}: event {submitted.n} submits nothing")
+    made_from = {key: value for key, value in asked.origin.items() if key != "done"}
     return Assignment(
         understood=restore(submitted, folder, where),
-        limits=Limits(**submitted.data["limits"]),
-        done=frozenset(made_from.pop("done", ())),
+        limits=asked.limits,
+        done=_made_from(asked.origin, folder).done,
         origin=made_from,
     )
+
+
+class MadeFrom(msgspec.Struct, frozen=True, kw_only=True):
+    """The plain parts of what a job was made from: of sentences, or of a mission."""
+
+    done: frozenset[str] = frozenset()
+    held: tuple[str, ...] = ()
+    mission: str = ""
+    kept: str = ""
+    digest: str = ""
+    params: dict[str, str] = {}
+
+
+def _made_from(origin: object, folder: Path) -> MadeFrom:
+    try:
+        return msgspec.convert(origin, MadeFrom)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{folder}: what a job was made from cannot be read: {error}") from None
 
 
 def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
@@ -127,17 +183,18 @@ def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
         ConfigError: if it cannot be made here and now.
     """
     made_from: dict[str, Any] = submitted.data.get("origin", {})
+    plain = _made_from(made_from, folder)
     text = str(submitted.data.get("text", ""))
     if "goals" not in made_from:
-        return mission_task.restore(made_from, folder, where)
+        with discreet(folder):
+            return mission_task.restore(made_from, folder, where)
     try:
         asked = goals.from_builtins(made_from["goals"])
         then = msgspec.convert(made_from.get("whereabouts"), Whereabouts | None)
-    except (msgspec.ValidationError, ValueError) as error:
+    except (ValueError, RecursionError) as error:
         raise ConfigError(f"{folder}: the goals of {text!r} cannot be read: {error}") from None
     state = recalled(then, where.knowledge) if then is not None else None
-    held = tuple(made_from.get("held", ()))
-    meant = request.meant(text, asked, where, held=held, state=state)
+    meant = request.meant(text, asked, where, held=plain.held, state=state)
     if isinstance(meant, Refused):
         raise ConfigError([Problem(f"{text!r}: {meant.reason}", suggestion=meant.suggestion)])
     return meant
@@ -151,6 +208,7 @@ def planned_faults(recording: Recording, where: Setting) -> tuple[FaultPlan, ...
     """
     submitted = recording.submitted
     made_from: dict[str, Any] = submitted.data.get("origin", {}) if submitted is not None else {}
-    if "mission" not in made_from:
+    if not _made_from(made_from, recording.folder).mission:
         return ()
-    return mission_task.faults(made_from, recording.folder, where)
+    with discreet(recording.folder):
+        return mission_task.faults(made_from, recording.folder, where)

@@ -1,4 +1,8 @@
-"""Asks for what was asked for in a recorded run, each thing at the tick at which it was."""
+"""Asks for what was asked for in a recorded run, each thing at the tick at which it was.
+
+A journal may be a stranger's. What it can ask for is the closed set of `Request`: plain values,
+each handed to the one method of the executive that it stands for.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +10,108 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import msgspec
+
+from executive.behaviours.ask import Answer
+from executive.engine.executive import Executive
+from executive.engine.jobs import Limits
 from executive.engine.loop import PERIOD_S
 from executive.journal.journal import Event
+from executive.missions import fault_plans
 from executive.runs.session import Session
 from executive.runs.task_run import Assignment
+from robot.errors import ConfigError
 
 EPSILON_S = 1e-3
 
 Restore = Callable[[Event], Assignment]
+
+
+class Submit(msgspec.Struct, frozen=True, tag_field="request", tag="submit"):
+    """A job; what it is made of, `Restore` reads out of the same event."""
+
+    text: str
+    urgent: bool
+    limits: Limits
+    origin: dict[str, Any]
+
+
+class Abandon(msgspec.Struct, frozen=True, tag_field="request", tag="abandon"):
+    """Everything is to end at once."""
+
+
+class _Simple(msgspec.Struct, frozen=True, tag_field="request", forbid_unknown_fields=True):
+    """One call of one method of the executive."""
+
+
+class Pause(_Simple, frozen=True, tag="pause"):
+    """`Executive.pause`."""
+
+    why: str
+
+
+class Resume(_Simple, frozen=True, tag="resume"):
+    """`Executive.resume`."""
+
+
+class Stop(_Simple, frozen=True, tag="stop"):
+    """`Executive.stop`."""
+
+    why: str
+
+
+class Cancel(_Simple, frozen=True, tag="cancel"):
+    """`Executive.cancel`, and what `Executive.drop` makes of it."""
+
+    number: int
+    why: str
+
+
+class Move(_Simple, frozen=True, tag="move"):
+    """`Executive.move`."""
+
+    number: int
+    place: int
+
+
+class BreakAt(_Simple, frozen=True, tag="break_at"):
+    """`Executive.break_at`."""
+
+    pattern: str
+
+
+class ClearBreaks(_Simple, frozen=True, tag="clear_breaks"):
+    """`Executive.clear_breaks`."""
+
+    pattern: str | None = None
+
+
+class StepOnce(_Simple, frozen=True, tag="step_once"):
+    """`Executive.step_once`."""
+
+
+class GoOn(_Simple, frozen=True, tag="go_on"):
+    """`Executive.go_on`."""
+
+
+class GiveAnswer(_Simple, frozen=True, tag="answer"):
+    """`Executive.answer`."""
+
+    text: Answer
+
+
+Simple = (
+    Pause | Resume | Stop | Cancel | Move | BreakAt | ClearBreaks | StepOnce | GoOn | GiveAnswer
+)
+Request = Submit | Abandon | Simple
+
+
+def read(event: Event) -> Request:
+    """What a recorded event asked for. Raises ConfigError if that is none of the set."""
+    try:
+        return msgspec.convert(event.data, Request)  # pyright: ignore[reportArgumentType, reportReturnType]
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"event {event.n} of the journal is no request: {error}") from None
 
 
 class Feeder:
@@ -32,9 +130,12 @@ class Feeder:
             session: that begins anew.
             inputs: events of what came from outside, in order.
             restore: makes what was submitted again.
+
+        Raises:
+            ConfigError: if one of them is none that a person can ask for, or no fault.
         """
         self._session = session
-        self._left = deque(inputs)
+        self._left = deque((event, _checked(event)) for event in inputs)
         self._restore = restore
 
     @property
@@ -46,34 +147,60 @@ class Feeder:
         """Ask for what the next tick carries out; inject what came after this one."""
         now_s = self._session.now_s
         while self._left:
-            event = self._left[0]
-            ahead_s = 0.0 if event.event == "fault" else PERIOD_S
+            event, request = self._left[0]
+            ahead_s = 0.0 if request is None else PERIOD_S
             if event.t_s > now_s + ahead_s + EPSILON_S:
                 return
             self._left.popleft()
-            if event.event == "fault":
+            if request is None:
                 self._session.faults.strike(dict(event.data), now_s)
             else:
-                self._ask(dict(event.data), event)
+                self._ask(request, event)
 
-    def _ask(self, asked: dict[str, Any], event: Event) -> None:
-        executive = self._session.executive
-        name = asked.pop("request")
-        match name:
-            case "submit":
+    def _ask(self, request: Request, event: Event) -> None:
+        match request:
+            case Submit():
                 assigned = self._restore(event)
                 self._session.submit(
                     assigned.understood,
-                    urgent=bool(asked["urgent"]),
+                    urgent=request.urgent,
                     limits=assigned.limits,
                     origin=assigned.origin,
                     done=assigned.done,
                 )
-            case "abandon":
+            case Abandon():
                 self._session.interrupts.count = 2
-            case "cancel":
-                executive.cancel(int(asked["number"]), str(asked["why"]))
-            case "move":
-                executive.move(int(asked["number"]), int(asked["place"]))
             case _:
-                getattr(executive, name)(**asked)
+                _pass_on(request, self._session.executive)
+
+
+def _checked(event: Event) -> Request | None:
+    """The request of an event; None for a fault."""
+    if event.event == "fault":
+        fault_plans.plan(event.data)
+        return None
+    return read(event)
+
+
+def _pass_on(request: Simple, executive: Executive) -> None:
+    match request:
+        case Pause():
+            executive.pause(request.why)
+        case Resume():
+            executive.resume()
+        case Stop():
+            executive.stop(request.why)
+        case Cancel():
+            executive.cancel(request.number, request.why)
+        case Move():
+            executive.move(request.number, request.place)
+        case BreakAt():
+            executive.break_at(request.pattern)
+        case ClearBreaks():
+            executive.clear_breaks(request.pattern)
+        case StepOnce():
+            executive.step_once()
+        case GoOn():
+            executive.go_on()
+        case GiveAnswer():
+            executive.answer(request.text)

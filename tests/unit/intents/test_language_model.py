@@ -2,9 +2,7 @@
 
 import json
 import time
-from collections.abc import Callable
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -193,41 +191,80 @@ def test_the_budget_of_a_mission_ends_and_begins_anew(limit: dict[str, int], cal
         assert isinstance(model("tidy up", WORDS, Context()), Goals)
 
 
-def _in_file(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
-    del monkeypatch
-    (folder / "key").write_text("s3cret\n")
-    return {"key_file": str(folder / "key")}
-
-
-def _in_environment(folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
-    del folder
-    monkeypatch.setenv("ROBOT_MODEL_KEY", "s3cret")
-    return {"key_variable": "ROBOT_MODEL_KEY"}
-
-
-@pytest.mark.parametrize("place", [_in_file, _in_environment])
-def test_the_key_is_sent_and_shown_nowhere(
-    place: Callable[..., dict[str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    caplog: pytest.LogCaptureFixture,
-) -> None:  # fmt: skip
+def test_the_key_is_sent_and_shown_nowhere(caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(0)
     with serving(Reply(status=500)) as server:
-        where = endpoint(server.url, **place(tmp_path, monkeypatch))
-        model = LanguageModel(where)
+        model = LanguageModel(endpoint(server.url), key=Key("s3cret"))
         model("tidy up", WORDS, Context())
     assert server.headers[0]["Authorization"] == "Bearer s3cret"
-    shown = f"{where!r} {model!r} {vars(model)} {where.key()!r} {model.trouble} {caplog.text}"
+    shown = f"{model!r} {vars(model)} {Key('s3cret')!r} {model.trouble} {caplog.text}"
     assert "s3cret" not in shown
-    assert "s3cret" not in repr(Key("s3cret"))
 
 
-def test_an_endpoint_is_read_from_a_file(tmp_path: Path) -> None:
-    path = tmp_path / "model.toml"
-    path.write_text('base_url = "http://localhost:8080/v1"\nmodel = "small"\ndeadline_s = 3\n')
-    assert Endpoint.load(path).deadline_s == 3
-    path.write_text('base_url = "ftp://localhost"\nmodel = "small"\n')
+@pytest.mark.parametrize("secret", ["s3cret\nX-Other: 1", "s3cret\0", "s3crét"])
+def test_what_no_header_can_carry_is_no_key_and_not_shown(secret: str) -> None:
+    with pytest.raises(ValueError, match="plain characters") as error:
+        Key(secret)
+    assert "s3cr" not in str(error.value)
+
+
+def test_an_endpoint_that_wants_a_key_says_so() -> None:
+    with serving(Reply(status=401)) as server:
+        model = LanguageModel(endpoint(server.url))
+        model("tidy up", WORDS, Context())
+    assert f"wants a key, and none is kept for '{model._endpoint.host}'" in model.trouble
+
+
+def test_an_endpoint_is_read_from_toml() -> None:
+    text = 'base_url = "http://localhost:8080/v1"\nmodel = "small"\ndeadline_s = 3\n'
+    assert Endpoint.parse(text).deadline_s == 3
+    assert Endpoint.parse(text).host == "localhost:8080"
+
+
+@pytest.mark.parametrize(
+    "base_url",
+    [
+        "ftp://localhost",
+        "http://api.example.com/v1",
+        "http://192.168.0.7:8080/v1",
+        "http://localhost.example.com/v1",
+        "http://localhost@example.com/v1",
+        "http://localhost\\@example.com/v1",
+        "http://example.com#@localhost",
+        "http://2130706433/v1",
+        "https://user:word@api.example.com/v1",
+        "https://api.example.com/v1?to=other",
+        "https://",
+        "https://[::1",
+        "https://a:99999/",
+        "file:///etc/passwd",
+        "",
+    ],
+)
+def test_only_https_leaves_this_machine(base_url: str) -> None:
     with pytest.raises(ValueError, match="base_url"):
-        Endpoint.load(path)
+        Endpoint(base_url=base_url, model="m")
+
+
+@pytest.mark.parametrize(
+    ("base_url", "host"),
+    [
+        ("https://API.Example.com/v1", "api.example.com"),
+        ("https://api.example.com:443/v1", "api.example.com"),
+        ("https://api.example.com:8443/v1", "api.example.com:8443"),
+        ("http://127.0.0.1:8080/v1", "127.0.0.1:8080"),
+        ("http://[::1]:8080/v1", "[::1]:8080"),
+        ("https://ex\xe4mple.com/v1", "xn--exmple-cua.com"),
+    ],
+)
+def test_the_host_is_the_one_that_is_spoken_to(base_url: str, host: str) -> None:
+    assert Endpoint(base_url=base_url, model="m").host == host
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = " + "9" * 5001, "\0", "model = 1"])
+def test_what_is_no_endpoint_is_refused(text: str) -> None:
+    with pytest.raises(ValueError):
+        Endpoint.parse(text)
 
 
 @pytest.mark.parametrize(

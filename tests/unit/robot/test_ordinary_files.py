@@ -6,7 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from robot.ordinary_files import open_ordinary, read_ordinary
+from robot.ordinary_files import (
+    is_within,
+    open_ordinary,
+    open_to_append,
+    read_ordinary,
+    write_ordinary,
+)
 
 LIMIT = 10
 
@@ -46,3 +52,62 @@ def test_a_link_is_followed_only_where_it_may_be(tmp_path: Path) -> None:
     assert read_ordinary(tmp_path / "link", limit=LIMIT) == b"text"
     with pytest.raises(OSError, match="symbolic links"):
         read_ordinary(tmp_path / "link", limit=LIMIT, follow_links=False)
+
+
+@pytest.mark.parametrize("anew", [False, True])
+def test_what_is_written_is_there_and_nothing_else(tmp_path, anew):
+    path = tmp_path / "file"
+    write_ordinary(path, b"one", anew=anew)
+    assert (path.read_bytes(), list(tmp_path.iterdir())) == (b"one", [path])
+
+
+def test_a_file_is_replaced_but_not_where_it_is_to_be_new(tmp_path):
+    path = tmp_path / "file"
+    write_ordinary(path, b"one")
+    write_ordinary(path, b"two")
+    with pytest.raises(FileExistsError):
+        write_ordinary(path, b"three", anew=True)
+    assert (path.read_bytes(), list(tmp_path.iterdir())) == (b"two", [path])
+
+
+@pytest.mark.parametrize("write", [lambda path: write_ordinary(path, b"x"), open_to_append])
+@pytest.mark.parametrize("kind", ["link", "dangling", "pipe", "device", "folder"])
+def test_nothing_is_written_to_what_is_no_file(tmp_path, write, kind):
+    other, path = tmp_path / "other", tmp_path / "path"
+    other.write_text("kept")
+    match kind:
+        case "link":
+            path.symlink_to(other)
+        case "dangling":
+            path.symlink_to(tmp_path / "nowhere")
+        case "pipe":
+            os.mkfifo(path)
+        case "device":
+            path.symlink_to("/dev/full")
+        case _:
+            path.mkdir()
+    before = sorted(tmp_path.iterdir())
+    with pytest.raises(OSError, match=r"link|ordinary"):
+        write(path)
+    assert (sorted(tmp_path.iterdir()), other.read_text()) == (before, "kept")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a file away")
+@pytest.mark.parametrize("write", [lambda path: write_ordinary(path, b"x"), open_to_append])
+def test_nothing_is_written_over_what_is_another_users(tmp_path, write):
+    path = tmp_path / "theirs"
+    path.write_text("kept")
+    os.chown(path, 65534, 65534)
+    with pytest.raises(OSError, match="another user"):
+        write(path)
+    assert path.read_text() == "kept"
+
+
+def test_what_leads_out_of_a_folder_is_not_within_it(tmp_path):
+    folder = tmp_path / "folder"
+    (folder / "in").mkdir(parents=True)
+    (folder / "out").symlink_to(tmp_path)
+    (folder / "round").symlink_to(folder / "in")
+    inside = [folder, folder / "a", folder / "in" / ".." / "b", folder / "round" / "c"]
+    outside = [tmp_path, folder / "..", folder / "out" / "a", tmp_path / "folder2", Path("/")]
+    assert [is_within(folder, path) for path in inside + outside] == [True] * 4 + [False] * 5

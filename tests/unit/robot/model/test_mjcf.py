@@ -46,8 +46,12 @@ OVERLAY = """
 def model(tmp_path):
     (tmp_path / "base.xml").write_text(BASE)
     (tmp_path / "overlay.xml").write_text(OVERLAY)
-    source = mjcf.Source(str(tmp_path / "base.xml"), str(tmp_path / "overlay.xml"), ("cube",))
-    return mjcf.compiled(source)
+    return mjcf.compiled(laid_over(tmp_path, "cube"))
+
+
+def laid_over(folder, *without):
+    base, overlay = str(folder / "base.xml"), str(folder / "overlay.xml")
+    return mjcf.Source(base, str(folder), overlay, overlay_folder=str(folder), without=without)
 
 
 def test_an_overlay_adds_to_the_bodies_of_the_same_name(model):
@@ -71,7 +75,7 @@ def test_a_body_of_the_overlay_that_does_not_compile_is_named(tmp_path):
     (tmp_path / "base.xml").write_text(BASE)
     (tmp_path / "overlay.xml").write_text("<mujoco><sensor><force site='none'/></sensor></mujoco>")
     with pytest.raises(DescriptionError, match=r"overlay\.xml"):
-        mjcf.compiled(mjcf.Source(str(tmp_path / "base.xml"), str(tmp_path / "overlay.xml")))
+        mjcf.compiled(laid_over(tmp_path))
 
 
 def test_a_published_model_is_taken_from_the_first_place_that_has_it(tmp_path):

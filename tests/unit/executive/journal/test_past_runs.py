@@ -1,0 +1,69 @@
+"""The runs of the past: one folder that makes no sense must not hide the others."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from executive.journal import past_runs
+
+JOURNAL = b'{"n":0,"t_s":0.0,"event":"run","text":"squat","world":"kitchen","seed":3}\n'
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Path:
+    folder = tmp_path / "20260101-120000-squat"
+    folder.mkdir()
+    (folder / "journal.jsonl").write_bytes(JOURNAL)
+    return folder
+
+
+ODD = [
+    b"",
+    b"{",
+    b"[]",
+    b"null",
+    b"\xff\xfe",
+    b"[" * 100_000,
+    b'{"code": 1, "simulated_s": "abc", "text": [], "seed": "x", "wall_s": "9"}',
+    b'{"code": "done", "simulated_s": 1e999, "text": "a", "seed": 1e99}',
+    b'{"code": null, "seed": ' + b"9" * 5001 + b"}",
+    b'{"wall_s":99999999999.9}',
+    b'{"wall_s":9999999999999999999999}',
+    b'{"wall_s":1.2.3}',
+]
+
+
+@pytest.mark.parametrize("name", ["run.json", "summary.json", "wall.jsonl", "journal.jsonl"])
+@pytest.mark.parametrize("content", ODD, ids=range(len(ODD)))
+def test_a_file_that_makes_no_sense_hides_no_run(run, name, content):
+    (run / name).write_bytes(content)
+    assert [Path(one.folder).name for one in past_runs.history(run.parent)] == [run.name]
+
+
+@pytest.mark.parametrize("name", ["run.json", "summary.json", "wall.jsonl", "journal.jsonl"])
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder", "loop"])
+def test_nor_does_one_that_is_no_file(run, name, kind):
+    path = run / name
+    path.unlink(missing_ok=True)
+    match kind:
+        case "pipe":
+            os.mkfifo(path)
+        case "device":
+            path.symlink_to("/dev/zero")
+        case "folder":
+            path.mkdir()
+        case _:
+            path.symlink_to(path.name)
+    assert len(list(past_runs.history(run.parent))) == len(past_runs.runs(run.parent))
+
+
+def test_a_folder_of_another_age_hides_no_run(run):
+    os.utime(run, (0, 4e13))
+    assert len(list(past_runs.history(run.parent))) == 1
+
+
+def test_the_header_says_what_a_run_was_about(run):
+    (run / "run.json").write_text('{"text": "wave", "seed": 7}')
+    (one,) = past_runs.history(run.parent)
+    assert (one.text, one.seed, one.ending) == ("wave", 7, "cut off")

@@ -1,0 +1,191 @@
+"""A run folder may be a stranger's: it asks for a closed set of things, and stays inside itself."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from executive.journal.journal import Event
+from executive.missions.check import Options
+from executive.runs import mission_task, run_folder
+from executive.runs.again import recording, requests
+from executive.runs.mission_task import keep, origin
+from robot.errors import ConfigError, Problem
+from tests.fakes.missions import check, known
+
+WHERE = known("empty", robot="juno")
+SUBMIT: dict[str, Any] = {"request": "submit", "text": "x", "urgent": False, "limits": {},
+                          "origin": {"goals": []}}  # fmt: skip
+
+
+def event(**data: Any) -> Event:
+    return Event(1, 0.1, "request", data)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        {"request": "__reduce_ex__", "protocol": 2},
+        {"request": "tick", "now_s": 1.0},
+        {"request": "on_request"},
+        {"request": "abandon_all"},
+        {"request": "pause"},
+        {"request": "pause", "why": 3},
+        {"request": "pause", "why": "x", "more": 1},
+        {"request": "cancel", "number": "1", "why": "x"},
+        {"request": "move", "number": 1, "place": None},
+        {"request": "answer", "text": "perhaps"},
+        {"request": ["pause"]},
+        {"request": None},
+        {},
+        {**SUBMIT, "urgent": "no"},
+        {**SUBMIT, "limits": {"speed_m_s": "fast"}},
+        {**SUBMIT, "origin": []},
+    ],
+)
+def test_what_is_not_of_the_set_is_refused(data):
+    with pytest.raises(ConfigError, match=r"event 1 of the journal is no request"):
+        requests.read(event(**data))
+
+
+def test_what_an_executive_writes_is_of_the_set():
+    assert requests.read(event(**SUBMIT, job=1)) == requests.Submit(
+        text="x", urgent=False, limits=requests.Limits(), origin={"goals": []}
+    )
+    assert requests.read(event(request="pause", why="tea")) == requests.Pause(why="tea")
+    assert requests.read(event(request="abandon")) == requests.Abandon()
+
+
+@pytest.mark.parametrize(
+    "made_from",
+    [
+        {"goals": [], "held": [[1]]},
+        {"goals": [], "done": 3},
+        {"goals": [], "done": [["x"]]},
+        {"goals": [], "whereabouts": "here"},
+        {"goals": "all"},
+        {"goals": [{"goal": "nothing"}]},
+        {"mission": ["x"]},
+        {"mission": "x", "params": {"a": [1]}},
+        {"mission": "x", "kept": 1},
+        {},
+    ],
+)
+def test_a_job_that_is_made_from_nonsense_is_refused(tmp_path, made_from):
+    with pytest.raises(ConfigError):
+        recording.assigned(event(**{**SUBMIT, "origin": made_from}), tmp_path, WHERE)
+
+
+# --- files outside ---
+
+
+@pytest.fixture
+def kept(tmp_path: Path) -> tuple[Path, dict[str, Any]]:
+    """A run's folder with the copy of a mission, and what its journal says of that."""
+    mission = tmp_path / "mission.yaml"
+    mission.write_text("name: m\nworld: empty\nsteps:\n  - wave\n")
+    checked = check(mission)
+    folder = tmp_path / "run"
+    keep(checked, folder)
+    made_from = origin(checked, Options(), path=str(mission))
+    mission.unlink()
+    return folder, made_from
+
+
+def test_a_copy_inside_the_folder_is_taken(kept):
+    folder, made_from = kept
+    assert mission_task.restore(made_from, folder, WHERE).text == "m"
+
+
+@pytest.mark.parametrize("lead", ["up", "root", "link"])
+def test_a_copy_outside_the_folder_is_not_read_and_not_shown(kept, tmp_path, lead):
+    folder, made_from = kept
+    secret = tmp_path / "secret.yaml"
+    secret.write_text("top secret: [1\n")
+    (folder / "missions" / "link.yaml").symlink_to(secret)
+    way = {"up": "../secret.yaml", "root": str(secret), "link": "missions/link.yaml"}[lead]
+    for named in ({"kept": way}, {"kept": "", "mission": str(secret)}):
+        data = {**SUBMIT, "origin": {**made_from, **named}}
+        with pytest.raises(ConfigError) as error:
+            recording.assigned(event(**data), folder, WHERE)
+        assert "top secret" not in str(error.value)
+
+
+def test_what_is_wrong_with_a_file_elsewhere_is_not_told(tmp_path):
+    inside = Problem("line of it", str(tmp_path / "a"))
+    with pytest.raises(ConfigError) as error, recording.discreet(tmp_path):
+        raise ConfigError([inside, Problem("root:x:0:0", "/etc/passwd", 1, 2)])
+    assert error.value.problems[0] == inside
+    assert "root:x" not in str(error.value)
+    assert "/etc/passwd: this is not what the run was recorded with" in str(error.value)
+
+
+def test_only_what_lies_inside_is_carried_over(kept, tmp_path):
+    folder, made_from = kept
+    (tmp_path / "secret.yaml").write_text("x")
+    (folder / "missions" / "link.yaml").symlink_to(tmp_path / "secret.yaml")
+    (folder / "missions" / "zero.yaml").symlink_to("/dev/zero")
+    os.mkfifo(folder / "missions" / "pipe.yaml")
+    run_folder.carry_missions_over(folder, tmp_path / "new")
+    files = {path.name for path in (tmp_path / "new").rglob("*") if path.is_file()}
+    assert files == {Path(made_from["kept"]).name}
+
+
+# --- whose folder it is ---
+
+
+HOLDS = """
+import sys
+from pathlib import Path
+from executive.runs import run_folder
+run_folder.claim(Path(sys.argv[1]))
+print("held", flush=True)
+sys.stdin.read()
+"""
+
+
+def test_a_folder_is_one_runs_at_a_time(tmp_path):
+    folder = tmp_path / "run"
+    command = [sys.executable, "-c", HOLDS, str(folder)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
+        assert other.stdin and other.stdout
+        assert other.stdout.readline() == b"held\n"
+        with pytest.raises(ConfigError, match="used by another run just now"):
+            run_folder.claim(folder)
+        other.stdin.close()
+    run_folder.claim(folder)
+    run_folder.claim(folder)  # it is this process's
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+@pytest.mark.parametrize("kind", ["file", "pipe", "dangling", "below a file"])
+def test_what_is_no_folder_is_refused(tmp_path, kind):
+    path = tmp_path / "run"
+    match kind:
+        case "file":
+            path.write_text("")
+        case "pipe":
+            os.mkfifo(path)
+        case "dangling":
+            path.symlink_to(tmp_path / "nowhere")
+        case _:
+            path.write_text("")
+            path /= "below"
+    with pytest.raises(ConfigError, match=r"no folder|cannot be used"):
+        run_folder.claim(path)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
+def test_a_folder_of_another_user_is_refused(tmp_path):
+    os.chown(tmp_path, 65534, 65534)
+    with pytest.raises(ConfigError, match="another user"):
+        run_folder.claim(tmp_path)
+
+
+def test_a_link_in_the_place_of_a_journal_is_one_that_is_there(tmp_path):
+    (tmp_path / "journal.jsonl").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(ConfigError, match="holds a run"):
+        run_folder.check_free(tmp_path)
