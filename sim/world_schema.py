@@ -10,7 +10,7 @@ from typing import Literal
 
 import msgspec
 
-from robot.se3 import Vector3
+from robot import quantities as q
 
 Side = Literal["north", "east", "south", "west"]
 
@@ -32,26 +32,26 @@ class Door(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     """A gap in a wall; `at_m` is its middle along the wall, from the room's centre."""
 
     wall: Side
-    at_m: float = 0.0
-    width_m: float = 1.0
+    at_m: q.Place = 0.0
+    width_m: q.Size = 1.0
 
 
 class Room(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A rectangle of floor around `at_m`, x by y; north is +y, east is +x."""
 
-    at_m: tuple[float, float]
-    size_m: tuple[float, float]
+    at_m: tuple[q.Place, q.Place]
+    size_m: tuple[q.Size, q.Size]
     walls: tuple[Side, ...] = ()
     doors: tuple[Door, ...] = ()
-    wall_height_m: float = 2.2
+    wall_height_m: q.Size = 2.2
     floor: str = "tiles"
 
 
 class Spot(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A named point of the floor to walk to."""
 
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
 
 
 class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -62,13 +62,13 @@ class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """
 
     kind: str
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
-    size_m: Vector3 | None = None
-    boards_m: tuple[float, ...] = ()
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
+    size_m: tuple[q.Size, q.Size, q.Size] | None = None
+    boards_m: tuple[q.Size, ...] = ()
     color: str = ""
     movable: bool | None = None
-    mass_kg: float = 5.0
+    mass_kg: q.Load = 5.0
 
 
 class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -80,27 +80,27 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     category: str
     color: str
     shape: str
-    size_m: Vector3
-    mass_kg: float
+    size_m: tuple[q.Size, q.Size, q.Size]
+    mass_kg: q.Load
     on: str
-    at_m: tuple[float, float] | None = None
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place] | None = None
+    yaw_deg: q.Heading = 0.0
 
 
 class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Somebody who stands there."""
 
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
-    height_m: float = 1.70
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
+    height_m: q.Height = 1.70
     color: str = "blue"
 
 
 class Start(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Where the robot stands when the world begins."""
 
-    at_m: tuple[float, float] = (0.0, 0.0)
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place] = (0.0, 0.0)
+    yaw_deg: q.Heading = 0.0
 
 
 class World(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
