@@ -15,6 +15,10 @@ import msgspec
 import mujoco
 
 from robot.errors import DescriptionError, Problem
+from robot.ordinary_files import read_ordinary
+
+MAX_BYTES = 10_000_000
+"""Of an MJCF, without its meshes: Juno's has 26 kB."""
 
 SETTINGS = frozenset({"option", "compiler", "inertial"})
 """Elements that an overlay changes rather than repeats."""
@@ -28,9 +32,20 @@ class Source(msgspec.Struct, frozen=True):
     without: tuple[str, ...] = ()
 
     def content(self) -> bytes:
-        """What is in the files."""
+        """What is in the files.
+
+        Raises:
+            DescriptionError: one cannot be read, or is too large to be a robot's.
+        """
         files = (self.path,) if self.overlay is None else (self.path, self.overlay)
-        return b"".join(Path(file).read_bytes() for file in files)
+        return b"".join(map(_content, files))
+
+
+def _content(file: str) -> bytes:
+    try:
+        return read_ordinary(file, limit=MAX_BYTES)
+    except OSError as error:
+        raise DescriptionError([Problem(f"cannot be read: {error.strerror}", file)]) from None
 
 
 def spec(source: Source) -> mujoco.MjSpec:
