@@ -11,11 +11,15 @@ from typing import Any, Literal
 import msgspec
 
 from executive.journal import journal, reader
-from executive.journal.journal import FILE, WALL_FILE
+from executive.journal.journal import FILE, MOST_S, WALL_FILE
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
 
 BASE = Path("runs")
+
+MAX_TABLE = 1_000_000
+"""Bytes of a summary or a header; a mission's is 3 kB."""
 
 Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
 
@@ -73,7 +77,7 @@ def look(folder: Path) -> Past:
     """What is known of a run: by its summary where it has one, else by its journal."""
     header, summary = _table(folder / "run.json"), _table(folder / "summary.json")
     if summary and not journal.is_written(folder):
-        code, took_s = str(summary.get("code", "")), float(summary.get("simulated_s", 0.0))
+        code, took_s = str(summary.get("code", "")), _number(summary, "simulated_s")
         ending = _ending(code, "done" if code == "done" else "failed")
     else:
         run = reader.read(folder)
@@ -92,7 +96,7 @@ def look(folder: Path) -> Past:
         text=str(header.get("text", "")),
         runtime=str(header.get("runtime", "")),
         world=str(header.get("world", "")),
-        seed=int(header.get("seed", 0)),
+        seed=int(_number(header, "seed")),
         ending=ending,
         code=code,
         took_s=round(took_s, 2),
@@ -109,7 +113,7 @@ def _began_s(folder: Path) -> float:
     """Time of day of the first event; of the folder itself where nothing says so."""
     try:
         with (folder / WALL_FILE).open("rb") as file:
-            found = re.search(rb'"wall_s":([0-9.]+)', file.readline())
+            found = re.search(rb'"wall_s":([0-9.]{1,20})', file.readline(200))
         return float(found[1]) if found else folder.stat().st_mtime
     except (OSError, ValueError):
         return folder.stat().st_mtime
@@ -117,6 +121,14 @@ def _began_s(folder: Path) -> float:
 
 def _table(path: Path) -> dict[str, Any]:
     try:
-        return msgspec.json.decode(path.read_bytes(), type=dict[str, Any])
-    except (OSError, msgspec.DecodeError, UnicodeDecodeError):
+        data = read_ordinary(path, limit=MAX_TABLE)
+        return msgspec.json.decode(data, type=dict[str, Any])
+    except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return {}
+
+
+def _number(table: dict[str, Any], key: str) -> float:
+    """A number of a table, 0 where there is none: one odd file must not hide all other runs."""
+    value = table.get(key)
+    sane = isinstance(value, int | float) and abs(value) < MOST_S
+    return float(value) if sane else 0.0

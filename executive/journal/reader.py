@@ -126,6 +126,9 @@ class Reader:
         try:
             if handler is not None:
                 handler(t_s, data)
+            if kind in words.DRAWN:  # most of a journal
+                self.run.events += 1
+                return
             text, note = words.sentence(kind, data), words.in_hindsight(kind, data)
         except Exception:  # whatever a line holds: who only looks on must never stop a robot
             self._lost()

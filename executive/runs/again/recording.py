@@ -19,6 +19,7 @@ from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
 from robot.reality.contract import Reality
 
 
@@ -70,10 +71,12 @@ def load(folder: Path) -> Recording:
     Raises:
         ConfigError: if it has no whole journal of this version.
     """
+    journal.check_size(folder)
     try:
-        *lines, rest = (folder / FILE).read_bytes().split(b"\n")
+        data = read_ordinary(folder / FILE, limit=journal.MAX_BYTES)
     except OSError as error:
         raise ConfigError(f"{folder} holds no journal: {error.strerror}") from error
+    *lines, rest = data.split(b"\n")
     events = [journal.decode(line) for line in lines]
     whole = [event for event in events if event is not None]
     if not whole or len(whole) < len(lines) or [e.n for e in whole] != list(range(len(whole))):
