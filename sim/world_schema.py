@@ -6,13 +6,18 @@ front looks along its +x: `size_m` is depth (front to back), width, height.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import msgspec
+from msgspec import Meta
 
 from robot import quantities as q
 
 Side = Literal["north", "east", "south", "west"]
+
+
+MOST_ROOMS, MOST_SPOTS, MOST_FURNITURE, MOST_OBJECTS, MOST_PEOPLE = 300, 500, 1000, 500, 100
+"""A world of 300 rooms, 1000 tables, 500 cups is read in 0.3 s, compiled in 0.5 s; a step: 1 ms."""
 
 
 class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -20,7 +25,7 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
     id: str
     name: str = ""
-    synonyms: tuple[str, ...] = ()
+    synonyms: q.Several[str] = ()
 
     @property
     def title(self) -> str:
@@ -42,7 +47,7 @@ class Room(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     at_m: tuple[q.Place, q.Place]
     size_m: tuple[q.Size, q.Size]
     walls: tuple[Side, ...] = ()
-    doors: tuple[Door, ...] = ()
+    doors: Annotated[tuple[Door, ...], Meta(max_length=32)] = ()
     wall_height_m: q.Size = 2.2
     floor: str = "tiles"
 
@@ -65,7 +70,7 @@ class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     at_m: tuple[q.Place, q.Place]
     yaw_deg: q.Heading = 0.0
     size_m: tuple[q.Size, q.Size, q.Size] | None = None
-    boards_m: tuple[q.Size, ...] = ()
+    boards_m: q.Several[q.Size] = ()
     color: str = ""
     movable: bool | None = None
     mass_kg: q.Load = 5.0
@@ -107,12 +112,12 @@ class World(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """A world file. `categories` maps the singular of a kind of object to its plural."""
 
     name: str
-    rooms: tuple[Room, ...]
-    spots: tuple[Spot, ...] = ()
-    furniture: tuple[Furniture, ...] = ()
-    objects: tuple[Object, ...] = ()
-    people: tuple[Person, ...] = ()
-    categories: dict[str, str] = {}
+    rooms: Annotated[tuple[Room, ...], Meta(max_length=MOST_ROOMS)]
+    spots: Annotated[tuple[Spot, ...], Meta(max_length=MOST_SPOTS)] = ()
+    furniture: Annotated[tuple[Furniture, ...], Meta(max_length=MOST_FURNITURE)] = ()
+    objects: Annotated[tuple[Object, ...], Meta(max_length=MOST_OBJECTS)] = ()
+    people: Annotated[tuple[Person, ...], Meta(max_length=MOST_PEOPLE)] = ()
+    categories: Annotated[dict[str, str], Meta(max_length=MOST_OBJECTS)] = {}
     start: Start = Start()
 
     @property

@@ -19,6 +19,12 @@ from intents.parser import hear
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
+
+MAX_NAMES = 200_000
+"""Bytes of a vocabulary: some thousand names, more than any one world has."""
+MAX_SENTENCES = 10_000_000
+"""Bytes of a file of sentences: some 100 000."""
 
 
 def parse_all(
@@ -60,8 +66,10 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
         knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
     try:
-        return Vocabulary.from_json(file.read_bytes()), Context()
-    except (OSError, msgspec.DecodeError) as error:
+        return Vocabulary.from_json(read_ordinary(file, limit=MAX_NAMES)), Context()
+    except OSError as error:
+        raise ConfigError([Problem(error.strerror or str(error), str(file))]) from None
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 
@@ -70,8 +78,10 @@ def _lines(file: Path) -> Iterable[str]:
     if str(file) == "-":
         return (line.rstrip("\n") for line in sys.stdin)
     try:
-        return file.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        return read_ordinary(file, limit=MAX_SENTENCES).decode().splitlines()
+    except OSError as error:
+        raise ConfigError([Problem(error.strerror or str(error), str(file))]) from None
+    except UnicodeDecodeError as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
 
 

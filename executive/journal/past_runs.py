@@ -11,13 +11,14 @@ from typing import Any, Literal
 import msgspec
 
 from executive.journal import journal, reader
-from executive.journal.journal import FILE, MOST_S, WALL_FILE
+from executive.journal.journal import FILE, WALL_FILE
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_ordinary
 
 BASE = Path("runs")
 
+MOST_NUMBER = 2**53
 MAX_TABLE = 1_000_000
 """Bytes of a summary or a header; a mission's is 3 kB."""
 
@@ -130,5 +131,5 @@ def _table(path: Path) -> dict[str, Any]:
 def _number(table: dict[str, Any], key: str) -> float:
     """A number of a table, 0 where there is none: one odd file must not hide all other runs."""
     value = table.get(key)
-    sane = isinstance(value, int | float) and abs(value) < MOST_S
+    sane = isinstance(value, int | float) and abs(value) < MOST_NUMBER
     return float(value) if sane else 0.0
