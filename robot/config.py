@@ -2,43 +2,62 @@
 
 from __future__ import annotations
 
-import difflib
 import re
+from itertools import islice
 from pathlib import Path
-from types import UnionType
-from typing import Any, TypeVar, Union, get_args, get_origin
+from typing import TypeVar
 
 import msgspec
 
-from robot import yaml_nodes
+from robot import misfits, yaml_nodes
 from robot.errors import ConfigError, Problem
+from robot.misfits import nearest
 from robot.yaml_nodes import Node
 
+__all__ = ["convert", "load", "nearest", "place"]
+
 T = TypeVar("T")
+
+MOST_PROBLEMS = 30
+"""More would scroll the first of them away; a file that is all wrong is not this kind of file."""
 
 
 def load(path: Path | str, kind: type[T]) -> T:
     """Read a YAML file into a msgspec type.
 
     Raises:
-        ConfigError: with every unknown key, or the first wrong type, each with its place.
+        ConfigError: with what is wrong, each with its place: keys, types, ranges.
     """
     return convert(yaml_nodes.read(path), kind)
 
 
 def convert(node: Node, kind: type[T]) -> T:
     """Turn a node into a msgspec type; raises ConfigError as `load` does."""
-    problems: list[Problem] = []
-    _find_unknown(node, kind, problems)
+    data = node.plain_data
+    found = islice(misfits.misfits(data, kind), MOST_PROBLEMS + 1)
+    problems = [_problem(node, misfit) for misfit in found]
+    if len(problems) > MOST_PROBLEMS:
+        problems[-1] = Problem("and more that does not fit", node.file)
     if problems:
         raise ConfigError(problems)
     try:
-        return msgspec.convert(node.plain_data, kind)
+        return msgspec.convert(data, kind)
     except msgspec.ValidationError as error:
         message, _, where = str(error).partition(" - at `")
         where = where.rstrip("`")
         said = f" at {where.removeprefix('$.')}" if where else ""
         raise ConfigError([place(node, where).problem(message + said)]) from None
+
+
+def _problem(node: Node, misfit: misfits.Misfit) -> Problem:
+    """A misfit at its key, or at the item of a list."""
+    found = node
+    for part in misfit.path:
+        if isinstance(part, int):
+            found = node = node.items[part]
+        else:
+            found, node = node.entries[part]
+    return found.problem(misfit.message, misfit.cure)
 
 
 def place(node: Node, where: str) -> Node:
@@ -52,51 +71,3 @@ def place(node: Node, where: str) -> Node:
         else:
             break
     return found
-
-
-def nearest(name: str, valid: list[str]) -> str:
-    """`did you mean 'x'?`, or the list of what is valid."""
-    close = difflib.get_close_matches(name, valid, n=1, cutoff=0.5)
-    if close:
-        return f"did you mean {close[0]!r}?"
-    return "valid: " + ", ".join(sorted(valid)[:12])
-
-
-def _find_unknown(node: Node, kind: Any, problems: list[Problem]) -> None:
-    """Collect every key that its struct does not have."""
-    fields, value_kind = _fields_of(kind), _value_kind(kind)
-    for name, (key, value) in node.entries.items():
-        if fields is not None and name not in fields:
-            hint = nearest(name, list(fields))
-            problems.append(key.problem(f"unknown key {name!r}", hint))
-            continue
-        _find_unknown(value, fields[name] if fields else value_kind, problems)
-    for item in node.items:
-        _find_unknown(item, _item_kind(kind), problems)
-
-
-def _alternatives(kind: Any) -> tuple[Any, ...]:
-    """The members of a union, or the type alone."""
-    return get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
-
-
-def _fields_of(kind: Any) -> dict[str, Any] | None:
-    for candidate in _alternatives(kind):
-        if isinstance(candidate, type) and issubclass(candidate, msgspec.Struct):
-            info = msgspec.structs.fields(candidate)
-            return {field.encode_name: field.type for field in info}
-    return None
-
-
-def _value_kind(kind: Any) -> Any:
-    for candidate in _alternatives(kind):
-        if get_origin(candidate) is dict:
-            return get_args(candidate)[1]
-    return Any
-
-
-def _item_kind(kind: Any) -> Any:
-    for candidate in _alternatives(kind):
-        if get_origin(candidate) in (list, tuple):
-            return get_args(candidate)[0]
-    return Any

@@ -10,6 +10,7 @@ judged before anything is built of them.
 from __future__ import annotations
 
 import errno
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +25,8 @@ from robot.printable import is_printable, printable
 MAX_BYTES = 2_000_000
 MAX_DEPTH = 60
 MAX_NODES = 150_000
+MAX_TEXT = 10_000
+"""Characters of one text or key: more is no name and no sentence, and every message repeats it."""
 
 Kind = Literal["text", "list", "map"]
 Scalar = str | int | float | bool | None
@@ -95,6 +98,14 @@ def resolve(text: str) -> Scalar:
     if _INTEGER.fullmatch(text):
         return int(text)
     return float(text) if _NUMBER.fullmatch(text) else text
+
+
+def _is_infinite(text: str) -> bool:
+    """Whether it looks like a number and has become infinite; only an exponent or length can."""
+    return (len(text) > 300 or "e" in text or "E" in text) and resolve(text) in (
+        math.inf,
+        -math.inf,
+    )
 
 
 def text_node(text: str, like: Node, *, plain: bool = False) -> Node:
@@ -208,6 +219,12 @@ class _Builder:
                 if not is_printable(node.text):
                     text = f"a text holds what cannot be printed: {printable(node.text)[:60]}"
                     self._refuse(event, text, "leave it out")
+                if len(node.text) > MAX_TEXT:
+                    text = f"a text of {len(node.text)} characters, at most {MAX_TEXT} are taken"
+                    self._refuse(event, text, "shorten it, or check the quotes")
+                if node.plain and _is_infinite(node.text):
+                    text = f"{node.text[:40]} is no number that can be held"
+                    self._refuse(event, text, "it is larger than 1.8e308: write a smaller one")
                 self._put(node)
             elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
                 self._open(event, "map" if kind is yaml.MappingStartEvent else "list")

@@ -125,6 +125,13 @@ def obstacles(world: World) -> list[Obstacle]:
     return found
 
 
+def near_walls(room: Room, point: tuple[float, float], distance_m: float) -> bool:
+    """Whether a point may be that near a room's walls: not far outside, nor deep inside."""
+    u, v = (abs(a - b) for a, b in zip(point, room.at_m, strict=True))
+    beyond = max(u - room.size_m[0] / 2, v - room.size_m[1] / 2)
+    return -distance_m <= beyond <= distance_m + WALL_M
+
+
 def walls(room: Room) -> list[Obstacle]:
     """One obstacle a wall, outside the room's rectangle, open where the doors are."""
     found: list[Obstacle] = []

@@ -3,10 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
 import msgspec
+import numpy as np
 
 Point = tuple[float, float]
+
+
+def overlapping(footprints: Sequence[Footprint]) -> Iterator[tuple[int, int]]:
+    """Pairs (i, j), i > j, of those that share more than a touch, in the order of i, then of j.
+
+    The exact test is made only where the boxes around two of them meet.
+    """
+    if not footprints:
+        return
+    x_min, y_min, x_max, y_max = np.array([footprint.box_m for footprint in footprints]).T
+    for i, footprint in enumerate(footprints):
+        meets = (
+            (x_min[:i] <= x_max[i]) & (x_max[:i] >= x_min[i])
+            & (y_min[:i] <= y_max[i]) & (y_max[:i] >= y_min[i])
+        )  # fmt: skip
+        for j in np.flatnonzero(meets).tolist():
+            if footprint.overlaps(footprints[j]):
+                yield i, j
 
 
 class Footprint(msgspec.Struct, frozen=True):
@@ -29,6 +49,15 @@ class Footprint(msgspec.Struct, frozen=True):
         signs = ((a, b), (-a, b), (-a, -b), (a, -b))
         x, y = self.middle
         return [(x + c * u - s * v, y + s * u + c * v) for u, v in signs]
+
+    @property
+    def box_m(self) -> tuple[float, float, float, float]:
+        """The smallest rectangle along the axes around it: x_min, y_min, x_max, y_max."""
+        c, s = abs(math.cos(self.yaw_rad)), abs(math.sin(self.yaw_rad))
+        a, b = self.half_m
+        x, y = self.middle
+        dx, dy = c * a + s * b, s * a + c * b
+        return (x - dx, y - dy, x + dx, y + dy)
 
     def distance_m(self, point: Point) -> float:
         """From a point to the rectangle, 0 inside."""

@@ -111,6 +111,8 @@ def clear_of(world: World, point: Point, radius_m: float) -> str | None:
         if math.dist(person.at_m, point) < radius_m + atlas.PERSON_RADIUS_M:
             return person.title
     for room in world.rooms:
+        if not atlas.near_walls(room, point, radius_m):
+            continue
         for wall in atlas.walls(room):
             for shape in wall.shapes:
                 middle = wall.X_WO.apply(shape.X_BodyShape.p)

@@ -6,20 +6,19 @@ import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator
-from typing import Any, cast
+from itertools import islice
+from typing import Any
 
 import msgspec
 
-from robot.config import nearest
+from robot.config import MOST_PROBLEMS, nearest
 from robot.messages import Place
 from sim import atlas, furniture
-from sim.footprint import Footprint
+from sim.footprint import Footprint, overlapping
 from sim.palette import COLORS, FLOORS
 from sim.placing import clear_of, radius_m
 from sim.world_schema import Furniture, Object, Room, World
 
-MAX_M = 100.0
-MAX_OBJECT_KG = 50.0
 ROBOT_M = 0.20  # the feet; a start needs at least this much free floor
 
 
@@ -32,10 +31,11 @@ class Finding(msgspec.Struct, frozen=True):
 
 
 def check(world: World) -> list[Finding]:
-    """Everything that is wrong, shallow first: geometry is only looked at when names are right."""
-    found = [*_numbers(world), *_words(world)]
+    """What is wrong, shallow first: geometry is only looked at when names are right."""
+    found = list(islice(_words(world), MOST_PROBLEMS))
     if not found:
-        found = [*_rooms(world), *_standing(world), *_objects(world)]
+        geometry = itertools.chain(_rooms(world), _standing(world), _objects(world))
+        found = list(islice(geometry, MOST_PROBLEMS))
     return found
 
 
@@ -43,31 +43,6 @@ def _entries(world: World) -> Iterator[tuple[str, Any]]:
     for group in ("rooms", "spots", "furniture", "objects", "people"):
         for index, item in enumerate(getattr(world, group)):
             yield f"$.{group}[{index}]", item
-
-
-def _numbers(world: World) -> Iterator[Finding]:
-    """Finite, plausible, positive where sizes and masses."""
-    entries = list(_entries(world))
-    for index, room in enumerate(world.rooms):
-        entries += [(f"$.rooms[{index}].doors[{k}]", door) for k, door in enumerate(room.doors)]
-    for where, item in [*entries, ("$.start", world.start)]:
-        for key in item.__struct_fields__:
-            value = getattr(item, key)
-            numbers = _numbers_in(value)
-            if not all(map(math.isfinite, numbers)):
-                yield Finding(f"{where}.{key}", f"{key} is not a finite number")
-            elif key.endswith("_kg") and not all(0.0 < v <= MAX_OBJECT_KG for v in numbers):
-                yield Finding(f"{where}.{key}", f"{key} must be above 0, up to {MAX_OBJECT_KG:g}")
-            elif key in ("size_m", "height_m", "wall_height_m", "width_m", "boards_m"):
-                if not all(0.0 < v <= MAX_M for v in numbers):
-                    yield Finding(f"{where}.{key}", f"{key} must be above 0, up to {MAX_M:g} m")
-            elif key == "at_m" and not all(abs(v) <= MAX_M for v in numbers):
-                yield Finding(f"{where}.{key}", f"{key} is farther away than {MAX_M:g} m")
-
-
-def _numbers_in(value: object) -> list[float]:
-    values = cast("tuple[object, ...]", value) if isinstance(value, tuple) else (value,)
-    return [v for v in values if isinstance(v, float | int) and not isinstance(v, bool)]
 
 
 def _words(world: World) -> Iterator[Finding]:
@@ -107,12 +82,12 @@ def _known(where: str, what: str, name: str, valid: Iterable[str]) -> Iterator[F
 
 
 def _rooms(world: World) -> Iterator[Finding]:
-    for index, room in enumerate(world.rooms):
-        where = f"$.rooms[{index}]"
-        for other in world.rooms[:index]:
-            if atlas.room_footprint(room).overlaps(atlas.room_footprint(other)):
-                yield Finding(f"{where}.at_m", f"{room.title} overlaps {other.title}")
-        yield from _doors(room, where)
+    rooms = world.rooms
+    for index, other in overlapping([atlas.room_footprint(room) for room in rooms]):
+        text = f"{rooms[index].title} overlaps {rooms[other].title}"
+        yield Finding(f"$.rooms[{index}].at_m", text)
+    for index, room in enumerate(rooms):
+        yield from _doors(room, f"$.rooms[{index}]")
 
 
 def _doors(room: Room, where: str) -> Iterator[Finding]:
@@ -140,10 +115,10 @@ def _standing(world: World) -> Iterator[Finding]:
         where, own = f"$.furniture[{index}]", atlas.footprint(item)
         if not bounds.contains(own):
             yield Finding(f"{where}.at_m", f"the {item.title} reaches outside the rooms", limits)
-        for other in world.furniture[:index]:
-            if own.overlaps(atlas.footprint(other)):
-                yield Finding(f"{where}.at_m", f"the {item.title} overlaps the {other.title}")
         yield from _boards(item, where)
+    for index, other in overlapping([atlas.footprint(item) for item in world.furniture]):
+        text = f"the {world.furniture[index].title} overlaps the {world.furniture[other].title}"
+        yield Finding(f"$.furniture[{index}].at_m", text)
     points = [(f"$.people[{k}]", p.title, p.at_m, 0.2) for k, p in enumerate(world.people)]
     points += [(f"$.spots[{k}]", s.title, s.at_m, 0.0) for k, s in enumerate(world.spots)]
     bare = msgspec.structs.replace(world, people=())
@@ -172,6 +147,7 @@ def _boards(item: Furniture, where: str) -> Iterator[Finding]:
 
 def _objects(world: World) -> Iterator[Finding]:
     places = atlas.places(world)
+    there: dict[str, list[Object]] = {}
     for index, item in enumerate(world.objects):
         where = f"$.objects[{index}]"
         if item.on not in places:
@@ -179,12 +155,14 @@ def _objects(world: World) -> Iterator[Finding]:
             yield Finding(f"{where}.on", f"{item.title} is on unknown place {item.on!r}", hint)
             continue
         yield from _fits(item, places[item.on], where)
-        for other in world.objects[:index]:
-            if item.at_m and other.at_m and item.on == other.on:
+        beside = there.setdefault(item.on, [])
+        for other in beside:
+            if item.at_m and other.at_m:
                 gap = math.dist(item.at_m, other.at_m) - radius_m(item) - radius_m(other)
                 if gap < 0.0:
                     hint = f"they are {-gap * 100:.1f} cm too close"
                     yield Finding(f"{where}.at_m", f"{item.title} overlaps {other.title}", hint)
+        beside.append(item)
 
 
 def _fits(item: Object, place: Place, where: str) -> Iterator[Finding]:

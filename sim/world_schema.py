@@ -6,13 +6,18 @@ front looks along its +x: `size_m` is depth (front to back), width, height.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import msgspec
+from msgspec import Meta
 
-from robot.se3 import Vector3
+from robot import quantities as q
 
 Side = Literal["north", "east", "south", "west"]
+
+
+MOST_ROOMS, MOST_SPOTS, MOST_FURNITURE, MOST_OBJECTS, MOST_PEOPLE = 300, 500, 1000, 500, 100
+"""A world of 300 rooms, 1000 tables, 500 cups is read in 0.3 s, compiled in 0.5 s; a step: 1 ms."""
 
 
 class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -20,7 +25,7 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
     id: str
     name: str = ""
-    synonyms: tuple[str, ...] = ()
+    synonyms: q.Several[str] = ()
 
     @property
     def title(self) -> str:
@@ -32,26 +37,26 @@ class Door(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     """A gap in a wall; `at_m` is its middle along the wall, from the room's centre."""
 
     wall: Side
-    at_m: float = 0.0
-    width_m: float = 1.0
+    at_m: q.Place = 0.0
+    width_m: q.Size = 1.0
 
 
 class Room(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A rectangle of floor around `at_m`, x by y; north is +y, east is +x."""
 
-    at_m: tuple[float, float]
-    size_m: tuple[float, float]
+    at_m: tuple[q.Place, q.Place]
+    size_m: tuple[q.Size, q.Size]
     walls: tuple[Side, ...] = ()
-    doors: tuple[Door, ...] = ()
-    wall_height_m: float = 2.2
+    doors: Annotated[tuple[Door, ...], Meta(max_length=32)] = ()
+    wall_height_m: q.Size = 2.2
     floor: str = "tiles"
 
 
 class Spot(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A named point of the floor to walk to."""
 
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
 
 
 class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -62,13 +67,13 @@ class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """
 
     kind: str
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
-    size_m: Vector3 | None = None
-    boards_m: tuple[float, ...] = ()
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
+    size_m: tuple[q.Size, q.Size, q.Size] | None = None
+    boards_m: q.Several[q.Size] = ()
     color: str = ""
     movable: bool | None = None
-    mass_kg: float = 5.0
+    mass_kg: q.Load = 5.0
 
 
 class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -80,39 +85,39 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     category: str
     color: str
     shape: str
-    size_m: Vector3
-    mass_kg: float
+    size_m: tuple[q.Size, q.Size, q.Size]
+    mass_kg: q.Load
     on: str
-    at_m: tuple[float, float] | None = None
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place] | None = None
+    yaw_deg: q.Heading = 0.0
 
 
 class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Somebody who stands there."""
 
-    at_m: tuple[float, float]
-    yaw_deg: float = 0.0
-    height_m: float = 1.70
+    at_m: tuple[q.Place, q.Place]
+    yaw_deg: q.Heading = 0.0
+    height_m: q.Height = 1.70
     color: str = "blue"
 
 
 class Start(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Where the robot stands when the world begins."""
 
-    at_m: tuple[float, float] = (0.0, 0.0)
-    yaw_deg: float = 0.0
+    at_m: tuple[q.Place, q.Place] = (0.0, 0.0)
+    yaw_deg: q.Heading = 0.0
 
 
 class World(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A world file. `categories` maps the singular of a kind of object to its plural."""
 
     name: str
-    rooms: tuple[Room, ...]
-    spots: tuple[Spot, ...] = ()
-    furniture: tuple[Furniture, ...] = ()
-    objects: tuple[Object, ...] = ()
-    people: tuple[Person, ...] = ()
-    categories: dict[str, str] = {}
+    rooms: Annotated[tuple[Room, ...], Meta(max_length=MOST_ROOMS)]
+    spots: Annotated[tuple[Spot, ...], Meta(max_length=MOST_SPOTS)] = ()
+    furniture: Annotated[tuple[Furniture, ...], Meta(max_length=MOST_FURNITURE)] = ()
+    objects: Annotated[tuple[Object, ...], Meta(max_length=MOST_OBJECTS)] = ()
+    people: Annotated[tuple[Person, ...], Meta(max_length=MOST_PEOPLE)] = ()
+    categories: Annotated[dict[str, str], Meta(max_length=MOST_OBJECTS)] = {}
     start: Start = Start()
 
     @property

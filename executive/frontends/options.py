@@ -33,7 +33,11 @@ World = Annotated[
 Robot = Annotated[
     str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
 ]
-Seed = Annotated[int, typer.Option("--seed", "-s", min=0, help="Of everything random.")]
+MOST_SEED = 2**53 - 1
+"""The largest whole number that every reader of JSON takes for the same."""
+Seed = Annotated[
+    int, typer.Option("--seed", "-s", min=0, max=MOST_SEED, help="Of everything random.")
+]
 Model = Annotated[
     Path | None,
     typer.Option(
@@ -164,13 +168,15 @@ class Eval:
         list[str] | None,
         typer.Argument(help="Sentences or mission files; none: those of the cases themselves."),
     ] = None
-    seeds: Annotated[int, typer.Option("--seeds", "-n", min=1, help="Runs of each case.")] = 3
+    seeds: Annotated[
+        int, typer.Option("--seeds", "-n", min=1, max=10_000, help="Runs of each case.")
+    ] = 3
     faults: Annotated[
         str,
         typer.Option("--faults", "-f", help="Cases by name, or campaign files; commas between."),
     ] = ""
     processes: Annotated[
-        int, typer.Option("--processes", "-j", min=1, help="Runs at the same time.")
+        int, typer.Option("--processes", "-j", min=1, max=256, help="Runs at the same time.")
     ] = max(1, os.cpu_count() or 1)
     no_recovery: Annotated[
         bool,

@@ -23,8 +23,10 @@ from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_ordinary
 from robot.printable import is_printable, printable
 
-MAX_BYTES = 20_000_000
-"""Of a file of names, or of sentences: some hundred thousand of them."""
+MAX_NAMES = 200_000
+"""Bytes of a vocabulary: some thousand names, more than any one world has."""
+MAX_SENTENCES = 10_000_000
+"""Bytes of a file of sentences: some 100 000."""
 
 
 def parse_all(
@@ -69,7 +71,7 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
         knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
     try:
-        vocabulary = Vocabulary.from_json(read_ordinary(file, limit=MAX_BYTES))
+        vocabulary = Vocabulary.from_json(read_ordinary(file, limit=MAX_NAMES))
     except OSError as error:
         text = f"cannot be read: {error.strerror}"
         raise ConfigError([Problem(text, str(file))]) from None
@@ -98,7 +100,7 @@ def _lines(file: Path) -> Iterable[str]:
     if str(file) == "-":
         return (line.rstrip("\n") for line in sys.stdin)
     try:
-        return read_ordinary(file, limit=MAX_BYTES).decode().splitlines()
+        return read_ordinary(file, limit=MAX_SENTENCES).decode().splitlines()
     except OSError as error:
         text = f"cannot be read: {error.strerror}"
         raise ConfigError([Problem(text, str(file))]) from None

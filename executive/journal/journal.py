@@ -15,7 +15,8 @@ that is possible again (`executive.journal.files`).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +24,17 @@ import msgspec
 
 from executive.journal.files import BackgroundFile, LineFile, Lines, is_open
 from robot.closing import Closing
-from robot.errors import ConfigError
+from robot.errors import ConfigError, Problem
 from robot.ordinary_files import open_ordinary
 
 FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
 CAPACITY = 20_000
+MAX_LINE = 256_000
+"""Bytes of a line; the longest are those of a tree and of a map, of 5 kB in a furnished flat."""
+MAX_BYTES = 50_000_000
+"""Of a journal that is gone on with or repeated: a day and a night of work."""
+MOST_EVENTS, MOST_S = 2**53, 1e9
+"""Numbers and times beyond are none."""
 STALLED_S = 0.5
 
 Listener = Callable[["Event"], None]
@@ -155,13 +162,17 @@ def decode(line: bytes) -> Event | None:
     """The event of a line; None if it is none, such as a line that was cut."""
     try:
         flat = msgspec.json.decode(line, type=dict[str, Any])
-        return Event(int(flat.pop("n")), float(flat.pop("t_s")), str(flat.pop("event")), flat)
-    except (msgspec.DecodeError, UnicodeDecodeError, KeyError, TypeError, ValueError):
+        n, t_s, kind = flat.pop("n"), flat.pop("t_s"), flat.pop("event")
+    except (msgspec.DecodeError, UnicodeDecodeError, KeyError, RecursionError):
         return None
+    if not (isinstance(n, int) and isinstance(t_s, int | float) and isinstance(kind, str)):
+        return None
+    sane = 0 <= n < MOST_EVENTS and abs(t_s) < MOST_S
+    return Event(n, float(t_s), kind, flat) if sane else None
 
 
-def read(path: Path) -> list[Event]:
-    """Every event of a journal that is finished, still written, or was cut off.
+def lines(path: Path) -> Iterator[bytes]:
+    """The lines of a journal, with their ends, one at a time; one that is too long is cut.
 
     Args:
         path: a run's folder, or the file itself.
@@ -171,12 +182,45 @@ def read(path: Path) -> list[Event]:
     """
     file = path / FILE if path.is_dir() else path
     try:
-        with open_ordinary(file) as opened:
-            lines = opened.read().split(b"\n")
+        with open_ordinary(file) as source:
+            while line := source.readline(MAX_LINE):
+                end = line
+                while len(end) == MAX_LINE and not end.endswith(b"\n"):  # more of the same line
+                    end = source.readline(MAX_LINE)
+                yield line if end is line else line[:-1] + b"\n"
     except OSError as error:
         raise ConfigError(f"{path} holds no journal: {error.strerror}") from error
-    found = (decode(line) for line in lines if line)
-    return [event for event in found if event is not None]
+
+
+def read(path: Path, *, without: Container[str] = ()) -> list[Event]:
+    """The events of a journal that is finished, still written, or was cut off.
+
+    Args:
+        path: a run's folder, or the file itself.
+        without: kinds of events that are left out; the last event stays, of whatever kind it is.
+
+    Raises:
+        ConfigError: if there is no journal, or it is too large to be held in memory.
+    """
+    check_size(path)
+    found: list[Event] = []
+    last: Event | None = None
+    for line in lines(path):
+        event = decode(line)
+        last = event or last
+        if event is not None and event.event not in without:
+            found.append(event)
+    return found if last is None or last in found[-1:] else [*found, last]
+
+
+def check_size(path: Path) -> None:
+    """Refuse a journal that is too large to be gone on with. Raises ConfigError."""
+    file = path / FILE if path.is_dir() else path
+    with suppress(OSError):
+        if file.stat().st_size > MAX_BYTES:
+            text = f"{file} is larger than {MAX_BYTES / 1e6:g} MB"
+            cure = "it can be looked at with humanoid why, but neither repeated nor gone on with"
+            raise ConfigError([Problem(text, suggestion=cure)])
 
 
 def is_written(folder: Path) -> bool:

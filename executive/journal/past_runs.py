@@ -24,8 +24,8 @@ BASE = Path("runs")
 
 Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
 
-
-MAX_BYTES = 10_000_000
+MAX_BYTES = 1_000_000
+"""Of a summary or a header; a mission's has 3 kB."""
 MOST_OF_A_LINE = 1_000
 LAST_S = 2.5e11
 """The year 9892: what is later is no time of day that can be shown."""

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
 from executive.journal import words
 from executive.journal.failures import suggestion
 from executive.journal.floor_plan import Outline, Plan, Pose, Sight
-from executive.journal.journal import FILE, Event, decode
+from executive.journal.journal import Event, decode, lines
+from executive.journal.keeping import MOST_TEXT, clipped, keep_ends, keep_evenly
 from executive.journal.run import (
     BoardChange,
     Ending,
@@ -27,13 +28,18 @@ from executive.journal.run import (
 )
 from executive.journal.step_reader import StepReader
 from executive.journal.tree_reader import TreeReader
-from robot.errors import ConfigError
-from robot.ordinary_files import open_ordinary
+
+T = TypeVar("T")
 
 Handler = Callable[[float, Mapping[str, Any]], None]
 """Takes the events of a kind: whole, or it raises and changes nothing."""
 
 OVER = frozenset({"done", "failed", "cancelled"})
+
+MOST_LOGGED, MOST_CHANGES, MOST_FINDINGS = 20_000, 20_000, 5000
+MOST_POSES, MOST_SIGHTS, MOST_THINGS, MOST_CORNERS = 20_000, 200, 500, 16
+MOST_JOBS, MOST_STATES, MOST_TASKS, MOST_NOTES = 2000, 100, 20, 1000
+"""What a run holds of each: a long day's work whole, a page of at most some 20 MB."""
 
 CLOCK_RESET_S = 1.0
 """A step back in time by more than that is a clock that began anew."""
@@ -48,14 +54,9 @@ def read(path: Path) -> Run:
     Raises:
         ConfigError: if there is no journal.
     """
-    file = path / FILE if path.is_dir() else path
     reader = Reader()
-    try:
-        with open_ordinary(file) as lines:
-            for line in lines:
-                reader.line(line)
-    except OSError as error:
-        raise ConfigError(f"{path} holds no journal: {error.strerror}") from None
+    for line in lines(path):
+        reader.line(line)
     return reader.run
 
 
@@ -78,6 +79,7 @@ class Reader:
         self._lines = 0
         self._number = -1
         self._job: int | None = None
+        self._jobs: dict[int, Job] = {}
         self._shift_s = 0.0
         self._handlers: dict[str, Handler] = {
             "run": self._run,
@@ -106,10 +108,7 @@ class Reader:
         self.run.cut = not line.endswith(b"\n")
         if not line.strip():
             return
-        try:
-            event = decode(line)
-        except RecursionError:
-            event = None
+        event = decode(line)
         if event is not None:
             self.event(event)
         elif not self.run.cut:
@@ -127,15 +126,24 @@ class Reader:
         try:
             if handler is not None:
                 handler(t_s, data)
+            if kind in words.DRAWN:  # most of a journal
+                self.run.events += 1
+                return
             text, note = words.sentence(kind, data), words.in_hindsight(kind, data)
         except Exception:  # whatever a line holds: who only looks on must never stop a robot
             self._lost()
             return
         self.run.events += 1
         if text:
-            self.run.log.append(LogLine(t_s, kind, text))
+            self._tell(self.run.log, LogLine(t_s, kind, clipped(text)), MOST_LOGGED)
         if note:
-            self.run.task.notes.append(LogLine(t_s, kind, note))
+            self._tell(self.run.task.notes, LogLine(t_s, kind, clipped(note)), MOST_NOTES)
+
+    def _tell(self, items: list[T], item: T, most: int) -> None:
+        self.run.left_out += keep_ends(items, item, most)
+
+    def _draw(self, items: list[T], item: T, most: int) -> None:
+        self.run.left_out += keep_evenly(items, item, most)
 
     def _in_order(self, t_s: float) -> float:
         """Time goes on: a run that was gone on with may count it from the beginning again."""
@@ -160,13 +168,16 @@ class Reader:
 
     def _job_state(self, t_s: float, data: Mapping[str, Any]) -> None:
         told, reason = msgspec.convert(data, _Job), msgspec.convert(data, Reason)
-        job = next((job for job in self.run.jobs if job.number == told.job), None)
+        job = self._jobs.get(told.job)
         if job is None:
-            job = Job(number=told.job, text=told.text, urgent=told.urgent)
-            self.run.jobs.append(job)
+            job = Job(number=told.job, text=clipped(told.text), urgent=told.urgent)
+            self._tell(self.run.jobs, job, MOST_JOBS)
+            if len(self._jobs) > MOST_JOBS:
+                self._jobs = {job.number: job for job in self.run.jobs}
+            self._jobs[told.job] = job
         if told.state == "running" and all(state != "running" for _, state in job.states):
             self._trees.begin(told.text)
-        job.states.append((t_s, told.state))
+        self._tell(job.states, (t_s, told.state), MOST_STATES)
         if told.state == "running" and told.job != self._job:
             self._begin_task(t_s, told)
         if told.job == self._job:
@@ -179,6 +190,7 @@ class Reader:
         before = self.run.task
         if before.attempts or before.state:
             self.run.tasks.append(Task())
+            del self.run.tasks[:-MOST_TASKS]
             self._steps.begin_task()
         self.run.task.text = told.text or before.text
         self.run.task.began_s = t_s
@@ -188,7 +200,8 @@ class Reader:
         ending = msgspec.convert({"t_s": t_s, **data}, Ending)
         reason = msgspec.convert(data, Reason)
         advice = suggestion(ending.code, ending.suggestion)
-        self.run.endings.append(msgspec.structs.replace(ending, suggestion=advice))
+        told = msgspec.structs.replace(ending, suggestion=advice)
+        self._tell(self.run.endings, told, MOST_JOBS)
         self._steps.outcome(t_s, done=ending.code == "done")
         task = self.run.task
         task.took_s = ending.took_s if "took_s" in data else None
@@ -216,25 +229,39 @@ class Reader:
         self._trees.remedied(t_s)
 
     def _board(self, t_s: float, data: Mapping[str, Any]) -> None:
-        self.run.board.append(BoardChange(t_s, str(data["key"]), data["value"]))
+        key, value = clipped(str(data["key"])), _brief(data["value"])
+        self._tell(self.run.board, BoardChange(t_s, key, value), MOST_CHANGES)
 
     def _health(self, t_s: float, data: Mapping[str, Any]) -> None:
         found = msgspec.convert({"t_s": t_s, **data}, _Finding)
-        self.run.health.append(Finding(t_s, found.name, found.level, found.code, found.cause))
+        finding = Finding(t_s, found.name, found.level, found.code, found.cause)
+        self._tell(self.run.health, finding, MOST_FINDINGS)
+        self._steps.health(finding)
 
     def _map(self, _t_s: float, data: Mapping[str, Any]) -> None:
         self.run.plan = msgspec.convert(data, Plan)
 
     def _pose(self, t_s: float, data: Mapping[str, Any]) -> None:
         told = msgspec.convert(data, _Pose)
-        self.run.path.append(Pose(t_s, told.x_m, told.y_m, told.yaw_rad))
+        self._draw(self.run.path, Pose(t_s, told.x_m, told.y_m, told.yaw_rad), MOST_POSES)
         if told.mode:
-            self.run.modes.append((t_s, told.mode))
+            self._tell(self.run.modes, (t_s, told.mode), MOST_CHANGES)
         for name, seen in told.objects.items():
             sight = Sight(t_s, seen.x_m, seen.y_m, seen.z_m, seen.held, seen.missing)
-            self.run.things.setdefault(name, []).append(sight)
+            if name in self.run.things or len(self.run.things) < MOST_THINGS:
+                self._draw(self.run.things.setdefault(name, []), sight, MOST_SIGHTS)
         for name, corners in told.unmapped.items():
-            self.run.unmapped.setdefault(name, []).append(Outline(t_s, corners))
+            outline = Outline(t_s, corners[:MOST_CORNERS])
+            if name in self.run.unmapped or len(self.run.unmapped) < MOST_THINGS:
+                self._draw(self.run.unmapped.setdefault(name, []), outline, MOST_SIGHTS)
+
+
+def _brief(value: Any) -> Any:
+    """A value of the blackboard; one that nobody would read through, as its first characters."""
+    if isinstance(value, str | list | dict):
+        text = msgspec.json.encode(value)
+        return value if len(text) <= MOST_TEXT else clipped(text.decode())
+    return value
 
 
 class _Finding(msgspec.Struct):

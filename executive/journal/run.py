@@ -167,7 +167,8 @@ class Run(msgspec.Struct, kw_only=True):
     """All of it. Times are the runtime's; lists are in their order.
 
     `unreadable` lines could not be understood, the first of them in line `unreadable_line`; `cut`
-    says that the last line was half written; `missing` events were never written. `tasks` are one
+    says that the last line was half written; `missing` events were never written. Of a very long
+    run only so much is held: `left_out` counts what was let go of. `tasks` are the newest ones, one
     or more, the newest last.
     """
 
@@ -180,6 +181,7 @@ class Run(msgspec.Struct, kw_only=True):
     unreadable: int = 0
     unreadable_line: int = 0
     cut: bool = False
+    left_out: int = 0
     roots: list[int] = []
     nodes: dict[int, Node] = {}
     board: list[BoardChange] = []
@@ -233,9 +235,3 @@ class Run(msgspec.Struct, kw_only=True):
         """What of it is given to other programs, by name."""
         every = msgspec.structs.asdict(self)
         return {name: value for name, value in every.items() if name not in _NOT_DUMPED}
-
-
-def still_wrong(changes: Sequence[Finding]) -> list[Finding]:
-    """What remains wrong after some changes."""
-    last = {finding.name: finding for finding in changes}
-    return [finding for finding in last.values() if finding.level != "OK"]

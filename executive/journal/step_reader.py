@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from typing import Any, Literal
 
 import msgspec
 
 from executive.journal.failures import suggestion
-from executive.journal.run import Attempt, Result, Run, Trouble, still_wrong
+from executive.journal.keeping import clipped, keep_ends
+from executive.journal.run import Attempt, Finding, Result, Run, Trouble
 from executive.journal.words import sentence
 
 FAULT_MEMORY_S = 30.0
 """How long before a failure an injected fault is worth telling with it."""
+MOST_ATTEMPTS, MOST_TRIED, MOST_AT_WORK = 2000, 50, 200
+MOST_TROUBLES, MOST_OPEN, MOST_AROUND = 2000, 200, 20
+"""What is held of each; a task of an hour has a hundred attempts."""
 REST = "come to a stand"
 """The step by which the robot as a whole comes to rest; it belongs to no task and has no id."""
 
@@ -46,7 +51,8 @@ class StepReader:
         """Tell of the steps of `run`."""
         self._run = run
         self._troubles: list[Trouble] = []  # those that have not ended
-        self._faults: list[tuple[float, str]] = []
+        self._faults: deque[tuple[float, str]] = deque(maxlen=MOST_AROUND)
+        self._wrong: dict[str, Finding] = {}
         self.begin_task()
 
     def begin_task(self) -> None:
@@ -63,11 +69,13 @@ class StepReader:
         if told.key == (REST, ""):
             return
         self._at_work[told.key] = go
+        if len(self._at_work) > MOST_AT_WORK:
+            del self._at_work[next(iter(self._at_work))]
         if self._recovering is not None and not go.same_step(self._recovering):
-            self._recovering.remedies.append(go)
+            self._run.left_out += keep_ends(self._recovering.remedies, go, MOST_TRIED)
             return
         self._recovering = None
-        self._run.task.attempts.append(go)
+        self._run.left_out += keep_ends(self._run.task.attempts, go, MOST_ATTEMPTS)
 
     def phase(self, t_s: float, data: Data) -> None:
         """It does something else."""
@@ -93,15 +101,15 @@ class StepReader:
     def failure(self, t_s: float, data: Data) -> None:
         """It failed, maybe before it began."""
         trouble = self._trouble(t_s, data)
-        self._run.troubles.append(trouble)
-        self._troubles.append(trouble)
+        self._run.left_out += keep_ends(self._run.troubles, trouble, MOST_TROUBLES)
+        keep_ends(self._troubles, trouble, MOST_OPEN)
         told = msgspec.convert(data, _Step)
         go = self._end(t_s, told, "failed")
         if go is None and told.key != (REST, ""):
             go = Attempt(
                 step=told.step, id=told.id or "", began_s=t_s, ended_s=t_s, result="failed"
             )
-            self._run.task.attempts.append(go)
+            self._run.left_out += keep_ends(self._run.task.attempts, go, MOST_ATTEMPTS)
         if go is not None:
             go.trouble = trouble
 
@@ -120,12 +128,19 @@ class StepReader:
         told = {key: data[key] for key in _FAILURE if key in data}
         trouble = msgspec.convert({"t_s": t_s, **told}, Trouble)
         trouble.suggestion = suggestion(trouble.code, trouble.suggestion)
-        wrong = still_wrong(self._run.health)
-        trouble.around = [f"{found.level.lower()}: {found.cause}" for found in wrong]
-        for when_s, text in self._faults:
-            if t_s - when_s <= FAULT_MEMORY_S:
-                trouble.around.append(f"{text}, at {when_s:.2f} s")
+        wrong = self._wrong.values()
+        trouble.around = [f"{found.level.lower()}: {clipped(found.cause)}" for found in wrong]
+        while self._faults and t_s - self._faults[0][0] > FAULT_MEMORY_S:
+            self._faults.popleft()
+        trouble.around += [f"{text}, at {when_s:.2f} s" for when_s, text in self._faults]
         return trouble
+
+    def health(self, finding: Finding) -> None:
+        """Something came up, or went away."""
+        if finding.level == "OK":
+            self._wrong.pop(finding.name, None)
+        elif finding.name in self._wrong or len(self._wrong) < MOST_AROUND:
+            self._wrong[finding.name] = finding
 
     def node_failed(self, t_s: float, number: int) -> None:
         """A node failed: it may be the one whose step failed in the same tick."""
@@ -161,7 +176,7 @@ class StepReader:
         alike = [trouble for trouble in self._troubles if told.code in ("", trouble.code)]
         own = [trouble for trouble in alike if trouble.step == told.step]
         for trouble in (own or alike)[-1:]:
-            trouble.tried.append((t_s, what))
+            self._run.left_out += keep_ends(trouble.tried, (t_s, clipped(what)), MOST_TRIED)
         goes = reversed(self._run.task.attempts)
         return next((go for go in goes if go.step == told.step and go.trouble is not None), None)
 
@@ -172,7 +187,7 @@ class StepReader:
 
     def fault(self, t_s: float, data: Data) -> None:
         """Somebody injected a fault."""
-        self._faults.append((t_s, sentence("fault", data)))
+        self._faults.append((t_s, clipped(sentence("fault", data))))
 
 
 def _close(

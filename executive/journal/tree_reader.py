@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import deque
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import msgspec
 
+from executive.journal.keeping import clipped, keep_ends
 from executive.journal.run import Run
 from executive.journal.tree import Change, Node, State
 
 Status = Literal["invalid", "running", "success", "failure"]
+
+MOST_NODES, MOST_CHANGES, MOST_OF_ONE, MOST_TITLES = 10_000, 200_000, 1000, 100
+"""What is held of trees: a job has some hundred nodes, which change ten times each."""
 
 INTERRUPTED = "interrupted"
 _STATES: dict[Status, State] = {"running": "running", "success": "done", "failure": "failed"}
@@ -44,12 +49,16 @@ class TreeReader:
 
     def __init__(self, run: Run) -> None:
         """Tell of the trees of `run`."""
+        self._run = run
         self._nodes = run.nodes
         self._roots = run.roots
         self._offset = 0
         self._statuses: dict[int, Status] = {}
         self._renewed: dict[int, float] = {}
-        self._titles: list[str] = []
+        self._titles: deque[str] = deque(maxlen=MOST_TITLES)
+        self._gone: dict[int, dict[int, None]] = {}  # in view still, by parent
+        self._changes = 0
+        self._room_at = MOST_CHANGES
         self._remedied_s = -1.0
         self._at_work: dict[str, dict[int, None]] = {}  # running skills by name
 
@@ -59,13 +68,14 @@ class TreeReader:
 
     def begin(self, title: str) -> None:
         """A job is about to get its part of the tree: the next one under a node of kind `jobs`."""
-        self._titles.append(title)
+        self._titles.append(clipped(title))
 
     def tree(self, t_s: float, data: Mapping[str, Any]) -> None:
         """Take a ``tree`` event. Raises ValueError if it does not fit what was told before."""
         told = msgspec.convert(data, _Tree)
         if any(born.parent < 0 for born in told.nodes):
             self._replant(t_s)
+        self._make_space(len(told.nodes))
         known = {born.id + self._offset for born in told.nodes} | self._nodes.keys()
         if any(child + self._offset not in known for _, line in told.order for child in line):
             raise ValueError("a child that nobody knows")
@@ -91,22 +101,22 @@ class TreeReader:
             node.changes.pop()  # for good: what it is now says more
         state = self._state(t_s, node, told.status)
         if state is not None:
-            node.changes.append(Change(t_s, state, told.note))
+            self._change(node, Change(t_s, state, told.note))
         return node.id
 
     def _answer(self, t_s: float, node: Node, status: Status) -> None:
         """A question that is answered with no has not failed, nor has what asked it first."""
         if status == "success":
-            node.changes.append(Change(t_s, "done", "yes"))
+            self._change(node, Change(t_s, "done", "yes"))
             return
-        node.changes.append(Change(t_s, "waiting", "no"))
+        self._change(node, Change(t_s, "waiting", "no"))
         asks = self._nodes.get(node.parent)
         if asks is None or asks.children[0] != node.id or not asks.changes:
             return
         if asks.changes[-1].state == "failed" and asks.changes[-1].t_s == t_s:
             asks.changes.pop()
             if _past(asks):
-                asks.changes.append(Change(t_s, "waiting"))
+                self._change(asks, Change(t_s, "waiting"))
 
     def phase(self, t_s: float, data: Mapping[str, Any]) -> None:
         """Take a ``phase`` event: a running skill says something else of itself."""
@@ -121,7 +131,7 @@ class TreeReader:
         for number in self._at_work.get(str(data["step"]), ()):
             node = self._nodes[number]
             if not path or not node.step or node.step == path:
-                node.changes.append(Change(t_s, "running", text))
+                self._change(node, Change(t_s, "running", text))
 
     def _note_work(self, node: Node, status: Status) -> None:
         at_work = self._at_work.setdefault(node.name, {})
@@ -151,14 +161,14 @@ class TreeReader:
             raise ValueError(f"node {born.id} cannot stand there")
         self._nodes[number] = node
         if self._titles and parent >= 0 and self._nodes[parent].kind == "jobs":
-            node.title = self._titles.pop(0)
+            node.title = self._titles.popleft()
         siblings = self._nodes[parent].children if parent >= 0 else self._roots
-        self._make_room(t_s, siblings)
+        self._make_room(t_s, parent)
         siblings.append(number)
 
-    def _make_room(self, t_s: float, siblings: Iterable[int]) -> None:
+    def _make_room(self, t_s: float, parent: int) -> None:
         """Something new among nodes of which some are gone: those are not shown any more."""
-        stack = [number for number in siblings if self._nodes[number].gone_s is not None]
+        stack = list(self._gone.pop(parent, ()))
         while stack:
             node = self._nodes[stack.pop()]
             if node.hidden_s is None:
@@ -172,7 +182,7 @@ class TreeReader:
         for number in gone:
             self._remove(t_s, number)
         if any(self._nodes[number].born_s == t_s for number in line):
-            self._make_room(t_s, gone)
+            self._make_room(t_s, parent.id)
         after: dict[int, list[int]] = {}
         last = -1
         for number in parent.children:
@@ -191,9 +201,59 @@ class TreeReader:
             node = self._nodes[stack.pop()]
             if node.gone_s is None:
                 node.gone_s = t_s
+                self._gone.setdefault(node.parent, {})[node.id] = None
                 self._note_work(node, "invalid")
                 if self._statuses.pop(node.id, "invalid") == "running":
-                    node.changes.append(Change(t_s, "stopped"))
+                    self._change(node, Change(t_s, "stopped"))
+            stack.extend(node.children)
+
+    def _change(self, node: Node, change: Change) -> None:
+        gone = keep_ends(node.changes, change, MOST_OF_ONE)
+        self._run.left_out += gone
+        self._changes += 1 - gone
+        if self._changes > MOST_CHANGES:
+            self._make_space(0)
+
+    def _make_space(self, coming: int) -> None:
+        """Let go of the oldest parts that are gone, when there is too much of a tree to hold.
+
+        Raises:
+            ValueError: if what is there now is too large already.
+        """
+        if len(self._nodes) + coming <= MOST_NODES and self._changes <= MOST_CHANGES:
+            return
+        past = [node.id for node in self._nodes.values() if self._begins_past(node)]
+        for number in past:
+            if len(self._nodes) + coming <= 0.75 * MOST_NODES:
+                break
+            self._forget(number)
+        share = max(4, MOST_CHANGES // (2 * max(1, len(self._nodes))))
+        for node in self._nodes.values():
+            if len(node.changes) > share:
+                self._run.left_out += len(node.changes) - share
+                del node.changes[share // 2 : share // 2 - share]
+        self._changes = sum(len(node.changes) for node in self._nodes.values())
+        for trouble in self._run.troubles:
+            if trouble.node not in self._nodes:
+                trouble.node = -1
+        if len(self._nodes) + coming > MOST_NODES:
+            raise ValueError(f"a tree of more than {MOST_NODES} nodes")
+
+    def _begins_past(self, node: Node) -> bool:
+        above = self._nodes.get(node.parent)
+        return node.gone_s is not None and (above is None or above.gone_s is None)
+
+    def _forget(self, number: int) -> None:
+        """Leave out a node that is gone, and all below it, as if they had never been."""
+        parent = self._nodes.get(self._nodes[number].parent)
+        (parent.children if parent is not None else self._roots).remove(number)
+        self._gone.get(self._nodes[number].parent, {}).pop(number, None)
+        stack = [number]
+        while stack:
+            node = self._nodes.pop(stack.pop())
+            self._gone.pop(node.id, None)
+            self._renewed.pop(node.id, None)
+            self._run.left_out += 1
             stack.extend(node.children)
 
     def _renew(self, t_s: float, node: Node) -> None:
@@ -206,7 +266,7 @@ class TreeReader:
             stack.extend(below.children)
             self._renewed[below.id] = t_s
             if self._statuses.get(below.id, "invalid") == "invalid" and _past(below):
-                below.changes.append(Change(t_s, "waiting"))
+                self._change(below, Change(t_s, "waiting"))
 
     def _state(self, t_s: float, node: Node, status: Status) -> State | None:
         """What a new status is for people; None when it is nothing new."""

@@ -18,19 +18,20 @@ from typing import Any, cast
 import msgspec
 import numpy as np
 
+from robot import misfits
+from robot import quantities as q
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.model.description import RobotDescription
 from robot.reality import faults
 from robot.reality.contract import World
 
-OWN: dict[str, dict[str, type]] = {
-    "fill_disk": {"duration_s": float},
-    "slow_planner": {"requests": int},
+OWN: dict[str, dict[str, Any]] = {
+    "fill_disk": {"duration_s": q.Span},
+    "slow_planner": {"requests": q.Times},
     "kill_executive": {},
 }
-
-"""Faults of this software: name to keys. All of them may be left out."""
+"""Faults of this software: name to keys with their types. All of them may be left out."""
 
 TRIGGER = ("at_s", "step", "phase", "after_s", "times")
 
@@ -48,11 +49,11 @@ class FaultPlan(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     fault: dict[str, Any]
-    at_s: float = 0.0
+    at_s: q.Moment = 0.0
     step: str = ""
     phase: str = ""
-    after_s: float = 0.0
-    times: int = 1
+    after_s: q.Moment = 0.0
+    times: q.Times = 1
 
 
 def names() -> list[str]:
@@ -69,12 +70,11 @@ def plan(data: Mapping[str, Any]) -> FaultPlan:
     when = {key: value for key, value in data.items() if key in TRIGGER}
     fault = {str(key): value for key, value in data.items() if key not in TRIGGER}
     _parse(drawn(fault, np.random.default_rng(0)))
-    try:
-        made = msgspec.convert({**when, "fault": fault}, FaultPlan)
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"the trigger of the fault {fault['fault']!r}: {error}") from None
-    if made.times < 1 or made.after_s < 0.0 or made.at_s < 0.0:
-        raise ConfigError("a trigger has times from 1, and at_s and after_s from 0")
+    wrong = list(misfits.misfits({**when, "fault": fault}, FaultPlan))
+    if wrong:
+        head = f"the trigger of the fault {fault['fault']!r}"
+        raise ConfigError([Problem(f"{head}: {one.message}") for one in wrong])
+    made = msgspec.convert({**when, "fault": fault}, FaultPlan)
     if "at_s" in when and (made.step or made.phase):
         raise ConfigError("a trigger has either at_s, or step and phase")
     return made
@@ -122,8 +122,8 @@ def _parse(fault: dict[str, Any]) -> None:
         if key != "fault" and kind is None:
             hint = nearest(key, list(OWN[name]))
             raise ConfigError([Problem(f"unknown key {key!r} of {name!r}", suggestion=hint)])
-        if kind is not None and not isinstance(value, int | kind):
-            raise ConfigError(f"{key} of {name!r} is a number, not {value!r}")
+        for wrong in misfits.misfits({key: value}, dict[str, kind]) if kind is not None else ():
+            raise ConfigError(f"the fault {name!r}: {wrong.message}")
 
 
 def _draw(value: Any, rng: np.random.Generator) -> Any:

@@ -10,13 +10,17 @@ from pathlib import Path
 import msgspec
 
 from robot import config
+from robot import quantities as q
 from robot.errors import ConfigError, DescriptionError, Problem
 from robot.messages import Side
-from robot.model import measures, mjcf
+from robot.model import measures, mjcf, trial
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs
 from robot.model.keyframes import GettingUp
 from robot.model.published import Published
+
+SHIPPED = Path(str(resources.files("robot.model"))).resolve()
+"""Where the robots are that come with the project."""
 
 
 class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -27,10 +31,10 @@ class Motor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """
 
     joint: str
-    torque_limit_nm: float
-    velocity_limit_rad_s: float
-    kp: float
-    kd: float
+    torque_limit_nm: q.Torque
+    velocity_limit_rad_s: q.TurnRate
+    kp: q.PositionGain
+    kd: q.VelocityGain
     source: str
 
 
@@ -39,8 +43,8 @@ class Foot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
     body: str
     sole_site: str
-    half_length_m: float
-    half_width_m: float
+    half_length_m: q.Length
+    half_width_m: q.Length
     force_sensor: str
     torque_sensor: str
 
@@ -55,10 +59,10 @@ class Hand(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     body: str
     grasp_site: str
     motor: str
-    opening_per_motor: float
-    max_opening_m: float
-    max_force_n: float
-    mass_kg: float
+    opening_per_motor: q.Ratio
+    max_opening_m: q.Length
+    max_force_n: q.Force
+    mass_kg: q.Mass
     force_sensor: str
     torque_sensor: str
     finger_bodies: tuple[str, ...]
@@ -70,8 +74,8 @@ class Imu(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     site: str
     gyro: str
     accelerometer: str
-    gyro_noise_rad_s: float
-    accel_noise_m_s2: float
+    gyro_noise_rad_s: q.TurnNoise
+    accel_noise_m_s2: q.AccelerationNoise
 
 
 class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -79,18 +83,18 @@ class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
 
     camera: str
     site: str
-    width: int
-    height: int
-    fovy_rad: float
-    range_m: float
+    width: q.Pixels
+    height: q.Pixels
+    fovy_rad: q.View
+    range_m: q.Sight
 
 
 class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The planar lidar; beams in its site's x-y plane."""
 
     site: str
-    beams: int
-    range_m: float
+    beams: q.Beams
+    range_m: q.Sight
 
 
 class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -103,10 +107,10 @@ class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         waist_pitch_rad: the same, backward (negative) and forward.
     """
 
-    rate_rad_s: float
-    done_rad: float
-    waist_yaw_rad: float = 0.0
-    waist_pitch_rad: tuple[float, float] = (0.0, 0.0)
+    rate_rad_s: q.TurnRate
+    done_rad: q.Turn
+    waist_yaw_rad: q.Turn = 0.0
+    waist_pitch_rad: tuple[q.Angle, q.Angle] = (0.0, 0.0)
 
 
 class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -116,9 +120,9 @@ class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     the air.
     """
 
-    rise_k: float
-    continuous_share: float
-    time_constant_s: float
+    rise_k: q.Warming
+    continuous_share: q.Share
+    time_constant_s: q.ThermalTime
     source: str
 
 
@@ -129,10 +133,10 @@ class Battery(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     the heat of one motor that holds its torque limit at rest.
     """
 
-    capacity_wh: float
-    idle_w: float
-    efficiency: float
-    stall_w: float
+    capacity_wh: q.Energy
+    idle_w: q.Power
+    efficiency: q.Share
+    stall_w: q.Power
     source: str
 
 
@@ -142,7 +146,7 @@ class Sensors(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     imu: Imu
     camera: Camera
     lidar: Lidar
-    encoder_noise_rad: float
+    encoder_noise_rad: q.AngleNoise
 
 
 class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -170,11 +174,11 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     balance: Balance
     arms: Arms
     gaze: Gaze
-    postures: dict[str, dict[str, float]]
-    shoulder_height_m: float = 0.0
-    shoulder_aside_m: float = 0.0
-    arm_reach_m: float = 0.0
-    body_radius_m: float = 0.0
+    postures: dict[str, dict[str, q.Joint]]
+    shoulder_height_m: q.Margin = 0.0
+    shoulder_aside_m: q.Margin = 0.0
+    arm_reach_m: q.Margin = 0.0
+    body_radius_m: q.Margin = 0.0
     heating: Heating
     overlay: str | None = None
     published: Published | None = None
@@ -252,10 +256,9 @@ def load(name_or_path: str = "juno") -> RobotDescription:
     """
     path = Path(name_or_path)
     if path.suffix not in (".yaml", ".yml"):
-        shipped = Path(str(resources.files("robot.model")))
-        path = shipped / name_or_path / f"{name_or_path}.yaml"
+        path = SHIPPED / name_or_path / f"{name_or_path}.yaml"
         if not path.exists():
-            names = sorted(entry.parent.name for entry in shipped.glob("*/*.yaml"))
+            names = sorted(entry.parent.name for entry in SHIPPED.glob("*/*.yaml"))
             hint = config.nearest(name_or_path, names)
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
     description = config.load(path, RobotDescription)
@@ -266,7 +269,19 @@ def load(name_or_path: str = "juno") -> RobotDescription:
         description, folder=str(path.parent), file=path.name, mjcf_folder=str(mjcf_folder)
     )
     _check(description, str(path))
+    if not _shipped(description):
+        trial.check(description.source)
     return _measured(description)
+
+
+def _shipped(description: RobotDescription) -> bool:
+    """Whether its model is as trusted as this code: named by a description of ours, or the same."""
+    if SHIPPED in description.path().resolve().parents:
+        return True
+    if description.overlay is not None:
+        return False
+    content = description.source.content()
+    return any(content == path.read_bytes() for path in SHIPPED.glob("*/*.xml"))
 
 
 def _measured(description: RobotDescription) -> RobotDescription:

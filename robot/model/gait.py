@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
+from robot import quantities as q
+
 
 class Catching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What a swing leg can do to catch a push.
@@ -14,10 +16,10 @@ class Catching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         swing_m_s: mean speed of the foot, to the landing.
     """
 
-    forward_m: float
-    side_m: float
-    width_m: float
-    swing_m_s: float
+    forward_m: q.Length
+    side_m: q.Length
+    width_m: q.Margin
+    swing_m_s: q.Speed
 
 
 class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -37,33 +39,33 @@ class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         catching: of steps against pushes.
     """
 
-    base_height_m: float
-    stance_width_m: float
-    min_stance_width_m: float
-    single_support_s: float
-    double_support_s: float
-    start_s: float
-    stop_s: float
-    step_height_m: float
-    max_step_length_m: float
-    max_step_width_m: float
-    max_step_turn_rad: float
-    inward_turn_rad: float
-    sole_gap_m: float
-    max_forward_m_s: float
-    max_backward_m_s: float
-    max_sideways_m_s: float
-    max_turn_rad_s: float
-    acceleration_m_s2: float
-    turn_acceleration_rad_s2: float
+    base_height_m: q.Length
+    stance_width_m: q.Length
+    min_stance_width_m: q.Margin
+    single_support_s: q.Duration
+    double_support_s: q.Duration
+    start_s: q.Duration
+    stop_s: q.Duration
+    step_height_m: q.Length
+    max_step_length_m: q.Length
+    max_step_width_m: q.Length
+    max_step_turn_rad: q.Turn
+    inward_turn_rad: q.Turn
+    sole_gap_m: q.Margin
+    max_forward_m_s: q.Speed
+    max_backward_m_s: q.Speed
+    max_sideways_m_s: q.Speed
+    max_turn_rad_s: q.TurnRate
+    acceleration_m_s2: q.Acceleration
+    turn_acceleration_rad_s2: q.TurnAcceleration
     catching: Catching
 
 
 class Gains(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A task's feedback: acceleration = kp x error + kd x error of velocity."""
 
-    kp_1_s2: float
-    kd_1_s: float
+    kp_1_s2: q.Stiffness
+    kd_1_s: q.Damping
 
 
 class Tasks(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -93,19 +95,19 @@ class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         tasks: feedback gains.
     """
 
-    lowest_base_m: float
-    highest_base_m: float
-    squat_base_m: float
-    height_m_s: float
-    waist_rad_s: float
-    lean_forward_rad: float
-    lean_back_rad: float
-    turn_rad: float
-    bow_rad: float
-    max_one_leg_s: float
-    one_leg_shift_s: float
-    friction: float
-    zmp_margin_m: float
-    cop_margin_m: float
-    trunk_zmp_m: float
+    lowest_base_m: q.Length
+    highest_base_m: q.Length
+    squat_base_m: q.Length
+    height_m_s: q.Speed
+    waist_rad_s: q.TurnRate
+    lean_forward_rad: q.Angle
+    lean_back_rad: q.Angle
+    turn_rad: q.Angle
+    bow_rad: q.Angle
+    max_one_leg_s: q.Duration
+    one_leg_shift_s: q.Duration
+    friction: q.Friction
+    zmp_margin_m: q.Margin
+    cop_margin_m: q.Margin
+    trunk_zmp_m: q.Margin
     tasks: Tasks

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from robot.se3 import Vector3
+from robot import quantities as q
 
 
 class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -20,15 +20,15 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         max_payload_kg: heaviest that the controller believes to be in a hand.
     """
 
-    speed_rad_s: float
-    acceleration_rad_s2: float
-    brake_rad_s2: float
-    brake_rad_s3: float
-    line_rate_1_s: float
-    line_speed_rad_s: float
-    line_lead_rad: float
-    max_lift_kg: float
-    max_payload_kg: float
+    speed_rad_s: q.TurnRate
+    acceleration_rad_s2: q.TurnAcceleration
+    brake_rad_s2: q.TurnAcceleration
+    brake_rad_s3: q.TurnJerk
+    line_rate_1_s: q.Rate
+    line_speed_rad_s: q.TurnRate
+    line_lead_rad: q.Turn
+    max_lift_kg: q.Mass
+    max_payload_kg: q.Mass
 
 
 class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -46,15 +46,15 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         half_width_m: of the opened hand, along its closing direction.
     """
 
-    closing_m_s: float
-    friction: float
-    held_n: float
-    peak_share: float
-    least_gap_m: float
-    fingertip_m: float
-    hold_depth_m: float
-    slack_m: float
-    half_width_m: float
+    closing_m_s: q.Speed
+    friction: q.Friction
+    held_n: q.Force
+    peak_share: q.Share
+    least_gap_m: q.Margin
+    fingertip_m: q.Margin
+    hold_depth_m: q.Margin
+    slack_m: q.Margin
+    half_width_m: q.Length
 
 
 class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -69,12 +69,12 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         base_height_m: of the base; None: as for walking.
     """
 
-    pitch_rad: float = 0.0
-    yaw_rad: float = 0.0
-    ahead_m: tuple[float, ...]
-    cost: float
-    quota: int
-    base_height_m: float | None = None
+    pitch_rad: q.Angle = 0.0
+    yaw_rad: q.Angle = 0.0
+    ahead_m: q.Several[q.Offset]
+    cost: q.Cost
+    quota: q.Quota
+    base_height_m: q.Length | None = None
 
 
 class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -84,10 +84,10 @@ class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     heading.
     """
 
-    ahead_m: tuple[float, ...]
-    aside_m: tuple[float, ...]
-    up_m: tuple[float, ...]
-    turns_rad: tuple[float, ...]
+    ahead_m: q.Several[q.Offset]
+    aside_m: q.Several[q.Offset]
+    up_m: q.Several[q.Offset]
+    turns_rad: q.Several[q.Angle]
 
 
 class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -107,18 +107,18 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         carrying: of things in the hand.
     """
 
-    leans: tuple[Lean, ...]
-    far_m: float
-    aside_m: tuple[float, ...]
-    best_aside_m: float
-    inward_rad: float
-    inward_rad_m: float
-    upright_m: float
-    raised_hand_m: Vector3
-    step_in_m: tuple[float, ...]
-    arm_room_m: float
-    narrow_m: float
-    roomy_m: float
+    leans: q.Several[Lean]
+    far_m: q.Length
+    aside_m: q.Several[q.Offset]
+    best_aside_m: q.Offset
+    inward_rad: q.Angle
+    inward_rad_m: q.Slope
+    upright_m: q.Length
+    raised_hand_m: tuple[q.Offset, q.Offset, q.Offset]
+    step_in_m: q.Several[q.Length]
+    arm_room_m: q.Margin
+    narrow_m: q.Margin
+    roomy_m: q.Margin
     carrying: Carrying
 
 
@@ -130,8 +130,8 @@ class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         held_out_m: grasp points to hold something out at, in S, of the left hand, best first.
     """
 
-    before_person_m: float
-    held_out_m: tuple[Vector3, ...]
+    before_person_m: q.Length
+    held_out_m: q.Several[tuple[q.Offset, q.Offset, q.Offset]]
 
 
 class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -146,5 +146,5 @@ class Signs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """Gestures: names of postures, and how far a pointing hand is stretched from the shoulder."""
 
     raised: str
-    waving: tuple[str, ...]
-    pointing_m: tuple[float, ...]
+    waving: q.Several[str]
+    pointing_m: q.Several[q.Length]

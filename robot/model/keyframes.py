@@ -6,6 +6,8 @@ from typing import Literal
 
 import msgspec
 
+from robot import quantities as q
+
 
 class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """One stage of a motion: the joints named move to their values, the others stay.
@@ -15,9 +17,9 @@ class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     """
 
     name: str
-    duration_s: float
-    posture: dict[str, float]
-    hold_s: float = 0.0
+    duration_s: q.Duration
+    posture: dict[str, q.Joint]
+    hold_s: q.Rest = 0.0
     needs: Literal["front", "upright"] | None = None
 
 
@@ -28,13 +30,13 @@ class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     From the back it goes over the side that is lower.
     """
 
-    front: tuple[Keyframe, ...]
-    left: tuple[Keyframe, ...]
-    right: tuple[Keyframe, ...]
+    front: q.Several[Keyframe]
+    left: q.Several[Keyframe]
+    right: q.Several[Keyframe]
 
 
 class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How the robot gets up from the floor: with at most so many motions."""
 
-    tries: int
+    tries: q.Tries
     motions: Motions

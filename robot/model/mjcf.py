@@ -36,9 +36,20 @@ class Source(msgspec.Struct, frozen=True):
     without: tuple[str, ...] = ()
 
     def content(self) -> bytes:
-        """What is in the files."""
+        """What is in the files.
+
+        Raises:
+            DescriptionError: one cannot be read, or is too large to be a robot's.
+        """
         files = (self.path,) if self.overlay is None else (self.path, self.overlay)
-        return b"".join(read_ordinary(file, limit=MAX_XML_BYTES) for file in files)
+        return b"".join(map(_content, files))
+
+
+def _content(file: str) -> bytes:
+    try:
+        return read_ordinary(file, limit=MAX_XML_BYTES)
+    except OSError as error:
+        raise DescriptionError([Problem(f"cannot be read: {error.strerror}", file)]) from None
 
 
 def spec(source: Source) -> mujoco.MjSpec:

@@ -14,10 +14,12 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
+from robot import misfits
+from robot import quantities as q
 from robot.bus.topics import Topic
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.se3 import SE3, Vector3
+from robot.se3 import SE3
 
 
 def _name(kind: str) -> str:
@@ -39,9 +41,9 @@ class Push(_Fault, frozen=True, kw_only=True):
     object pulls it out of the hand.
     """
 
-    impulse_n_s: Vector3
+    impulse_n_s: tuple[q.Impulse, q.Impulse, q.Impulse]
     target: str = "robot"
-    duration_s: float = 0.1
+    duration_s: q.Span = 0.1
 
 
 class Shove(_Fault, frozen=True, kw_only=True):
@@ -50,16 +52,16 @@ class Shove(_Fault, frozen=True, kw_only=True):
     0 degrees pushes it forwards, 90 to its left.
     """
 
-    strength_n_s: float
-    towards_deg: float = 0.0
-    duration_s: float = 0.1
+    strength_n_s: q.Impulse
+    towards_deg: q.Heading = 0.0
+    duration_s: q.Span = 0.1
 
 
 class KnockOver(_Fault, frozen=True, kw_only=True):
     """An object is hit at its rim and goes over, towards an angle of the world."""
 
     target: str
-    towards_deg: float = 0.0
+    towards_deg: q.Heading = 0.0
 
 
 class Move(_Fault, frozen=True, kw_only=True):
@@ -70,7 +72,7 @@ class Move(_Fault, frozen=True, kw_only=True):
 
     target: str
     X_WO: SE3 | None = None
-    by_m: Vector3 | None = None
+    by_m: tuple[q.Place, q.Place, q.Place] | None = None
 
     def __post_init__(self) -> None:
         """Check that there is one destination."""
@@ -83,7 +85,7 @@ class Occupy(_Fault, frozen=True, kw_only=True):
 
     place: str
     target: str
-    at_m: tuple[float, float] = (0.0, 0.0)
+    at_m: tuple[q.Place, q.Place] = (0.0, 0.0)
 
 
 class StandInWay(_Fault, frozen=True, kw_only=True):
@@ -93,10 +95,10 @@ class StandInWay(_Fault, frozen=True, kw_only=True):
     """
 
     target: str
-    ahead_m: float = 0.9
-    left_m: float = 0.0
-    at_m: tuple[float, float] | None = None
-    duration_s: float = math.inf
+    ahead_m: q.Place = 0.9
+    left_m: q.Place = 0.0
+    at_m: tuple[q.Place, q.Place] | None = None
+    duration_s: q.Span = math.inf
 
 
 class Remove(_Fault, frozen=True, kw_only=True):
@@ -109,33 +111,28 @@ class Silence(_Fault, frozen=True, kw_only=True):
     """A sensor (`camera`), or one topic (`sensors/depth`), says nothing for `duration_s`."""
 
     topic: str
-    duration_s: float = math.inf
+    duration_s: q.Span = math.inf
 
 
 class Mislead(_Fault, frozen=True, kw_only=True):
     """The oracle's fixes of the robot's pose are off for `duration_s`."""
 
-    by_m: tuple[float, float]
-    by_deg: float = 0.0
-    duration_s: float = math.inf
+    by_m: tuple[q.Place, q.Place]
+    by_deg: q.Heading = 0.0
+    duration_s: q.Span = math.inf
 
 
 class Heat(_Fault, frozen=True, kw_only=True):
     """A motor's winding is suddenly that hot; it cools down as it does."""
 
     motor: str
-    temperature_c: float
+    temperature_c: q.Heat
 
 
 class Discharge(_Fault, frozen=True, kw_only=True):
     """The emulated battery is suddenly left with that part of its charge."""
 
-    charge: float
-
-    def __post_init__(self) -> None:
-        """Check the range."""
-        if not 0.0 <= self.charge <= 1.0:
-            raise ValueError(f"charge is a part, 0 to 1, not {self.charge}")
+    charge: q.Charge
 
 
 class MotorOff(_Fault, frozen=True, kw_only=True):
@@ -170,10 +167,14 @@ def parse(data: Mapping[str, Any]) -> Fault:
     """
     name = str(data.get("fault", ""))
     check_name(name, list(KINDS), "fault")
-    keys = [field.name for field in msgspec.structs.fields(KINDS[name])]
-    for key in data:
-        if key != "fault":
-            check_name(key, keys, f"key of the fault {name!r}:")
+    kind = KINDS[name]
+    found = list(misfits.misfits(dict(data), kind))
+    if found:
+        told = (
+            Problem(f"the fault {name!r}: {one.message}", None, None, None, one.cure or None)
+            for one in found
+        )
+        raise ConfigError(list(told))
     try:
         return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
     except msgspec.ValidationError as error:

@@ -57,6 +57,9 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
     data = render(run, kind, wish)
     if not run.nodes:
         say("no tree is in this journal (yet): only events can be shown", err=True)
+    if run.left_out:
+        text = f"a very long run: {run.left_out} details are left out, mostly of its middle"
+        say(text, err=True)
     if run.unreadable:
         lines = f"{run.unreadable} lines of the journal, the first of them line "
         say(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)

@@ -38,7 +38,9 @@ def why(run: Run = None, *, as_json: AsJson = False) -> None:
 
 def history(
     *,
-    count: Annotated[int, typer.Option("--last", "-n", min=1, help="How many runs.")] = 20,
+    count: Annotated[
+        int, typer.Option("--last", "-n", min=1, max=100_000, help="How many runs.")
+    ] = 20,
     everything: Annotated[bool, typer.Option("--all", help="All of them.")] = False,
     as_json: AsJson = False,
 ) -> None:

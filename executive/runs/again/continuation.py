@@ -14,6 +14,7 @@ import msgspec
 from executive.engine.jobs import OVER
 from executive.journal import journal
 from executive.journal.journal import Event
+from executive.journal.words import DRAWN
 from executive.meaning.request import Setting
 from executive.runs import run_folder
 from executive.runs.again import agreement, recording
@@ -52,10 +53,11 @@ class Left(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def left_in(folder: Path) -> Left:
-    """What is left of a run."""
+    """What is left of a run. Raises ConfigError if its journal is too large to go on with."""
     try:
-        return Left(folder=folder, events=journal.read(folder))
+        return Left(folder=folder, events=journal.read(folder, without=DRAWN))
     except ConfigError:  # it had not come as far as a journal
+        journal.check_size(folder)
         return Left(folder=folder, events=[])
 
 

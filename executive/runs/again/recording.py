@@ -22,7 +22,7 @@ from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import is_within, open_ordinary
+from robot.ordinary_files import is_within, read_ordinary
 from robot.reality.contract import Reality
 
 
@@ -74,11 +74,12 @@ def load(folder: Path) -> Recording:
     Raises:
         ConfigError: if it has no whole journal of this version.
     """
+    journal.check_size(folder)
     try:
-        with open_ordinary(folder / FILE, follow_links=False) as file:
-            *lines, rest = file.read().split(b"\n")
+        data = read_ordinary(folder / FILE, limit=journal.MAX_BYTES, follow_links=False)
     except OSError as error:
         raise ConfigError(f"{folder} holds no journal: {error.strerror}") from error
+    *lines, rest = data.split(b"\n")
     events = [journal.decode(line) for line in lines]
     whole = [event for event in events if event is not None]
     if not whole or len(whole) < len(lines) or [e.n for e in whole] != list(range(len(whole))):

@@ -175,6 +175,7 @@ function head() {
   const about = run.about || {}, facts = [about.world, about.runtime, about.seed !== undefined ? `seed ${words(about.seed)}` : "", clock(END - BEGIN)];
   facts.push(`${order.length} nodes`);
   if (ending?.recoveries) facts.push(ending.recoveries === 1 ? "1 recovery" : `${ending.recoveries} recoveries`);
+  if (run.left_out) facts.push(`a very long run: ${run.left_out} details are left out`);
   if (run.unreadable) facts.push(`${run.unreadable} unreadable lines`);
   if (run.cut) facts.push("cut off in its last line");
   $("facts").textContent = facts.filter(Boolean).join(" · ");
