@@ -7,6 +7,7 @@ or beside them where they do not need the same parts of the body.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,11 +19,13 @@ from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.state import robot_state
+from executive.frontends.prompt.typed import plain
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
+from intents.letters import bare, seen
 from intents.outcomes import Goals, Question, Refusal, Reply
 from intents.state import RobotState
 from intents.stopping import is_stop
@@ -45,6 +48,7 @@ class Shell:
         folder: of this run.
         leaving: whether the person wants to go.
         refused: how many lines led to nothing, because they could not be meant.
+        stops: how often it was told to stop; a line from before the last one comes to nothing.
     """
 
     def __init__(
@@ -73,6 +77,9 @@ class Shell:
         self.folder = folder
         self.leaving = False
         self.refused = 0
+        self.stops = 0
+        self._stops_before: int | None = None
+        self._submitting = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
         self._model = model
         self._holds: tuple[str, ...] = ()
@@ -80,13 +87,18 @@ class Shell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
-        if text.strip().casefold().startswith("estop"):
-            self.commands["estop"].run(text.strip()[len("estop") :].strip())
+        text = bare(plain(text)).strip()
+        if text.startswith("estop"):
+            self.commands["estop"].run(text.removeprefix("estop").strip())
             return True
-        if not is_stop(text):
+        if not self.is_cry(text):
             return False
         self.stop("the operator said stop")
         return True
+
+    def is_cry(self, text: str) -> bool:
+        """Whether a line is a cry to stop."""
+        return is_stop(text)
 
     @property
     def gone(self) -> str:
@@ -103,21 +115,45 @@ class Shell:
         self.speech.say(text)
 
     def stop(self, why: str) -> None:
-        """Be silent, bring the robot to a stand and end all jobs."""
-        self.speech.hush()
+        """Bring the robot to a stand and end all jobs, be silent, and say so."""
         busy = self.robot.busy
-        self.robot.executive.stop(why)
-        self.dialogue.forget()
+        self.stop_unsaid(why)
         self.out("Stopping." if busy else "I stand already.")
 
-    def line(self, text: str) -> None:
-        """Do what a line says; never raises for what is in it."""
-        text = "".join(one if one.isprintable() else " " for one in text).strip()
+    def stop_unsaid(self, why: str) -> None:
+        """Stop without a word; first the robot, then what only is in the way of hearing."""
+        with self._submitting:
+            self.stops += 1
+            self.robot.executive.stop(why)
+        self.speech.hush()
+        self.dialogue.forget()
+
+    def leave(self) -> None:
+        """Let nothing begin any more, and bring the robot to a stand."""
+        self.leaving = True
+        with self._submitting:
+            self.stops += 1
+            if self.robot.busy:
+                self.robot.executive.stop("the operator leaves")
+
+    def line(self, text: str, *, stops: int | None = None) -> None:
+        """Do what a line says; never raises for what is in it.
+
+        Args:
+            text: what was typed.
+            stops: what `stops` was by then; a stop since then is about this line too.
+        """
+        self._stops_before = stops
         try:
-            if text and not self.stop_at_once(text):
+            if self.stop_at_once(text):
+                return
+            text = "".join(one if one.isprintable() else " " for one in seen(plain(text))).strip()
+            if text:
                 self._take(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
+        finally:
+            self._stops_before = None
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -160,7 +196,12 @@ class Shell:
         if self.gone:
             self._refuse(self.gone)
             return
-        number = self.robot.submit(understood, urgent=urgent, **how)
+        with self._submitting:
+            stopped = self._stops_before not in (None, self.stops)
+            number = 0 if stopped else self.robot.submit(understood, urgent=urgent, **how)
+        if stopped:
+            self._refuse(f"Not done: “{understood.text}” was there when you said stop")
+            return
         self._holds = understood.holds
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)
