@@ -17,6 +17,8 @@ from executive.blackboard import HELD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.frontends.prompt.command import Command
+from executive.frontends.prompt.mistyped import meant as meant_command
+from executive.frontends.prompt.mistyped import polite
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.prompt.typed import plain
@@ -219,6 +221,10 @@ class Shell:
         command = self.commands.get(first.casefold())
         if command is not None and command.accepts(rest):
             command.run(rest)
+        elif command is not None and command.accepts("") and polite(rest):
+            command.run("")
+        elif slip := meant_command(text, self.commands):
+            self._refuse(f"Did you mean: {slip}", "If you meant me to move, say where to: walk to ...")
         elif self.robot.executive.question and _answer(text) is not None:
             self.robot.executive.answer(_answer(text) or "continue")
         else:
