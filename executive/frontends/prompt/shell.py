@@ -12,10 +12,13 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace
+
 from executive.behaviours.ask import ANSWERS, Answer
-from executive.blackboard import HELD
+from executive.blackboard import HELD, WORLD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.frontends.prompt import foresight
 from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
@@ -28,11 +31,12 @@ from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.letters import bare, seen
-from intents.outcomes import Goals, Question, Refusal, Reply
+from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
+from robot.se3 import SE3
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
@@ -85,6 +89,7 @@ class Shell:
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
         self._model = model
         self._holds: tuple[str, ...] = ()
+        self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
@@ -169,11 +174,37 @@ class Shell:
         One that only steers the jobs ("pause") does so at once, if `steers`.
         """
         robot = self.robot
-        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        state = self._state()
         if self._model is not None and not robot.busy:
             self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
+        if self.dialogue.dropped:
+            self.out(f"I ask no more: {self.dialogue.dropped}")
+        understood = self._heed(text, turn, state, answers=answers, steers=steers)
+        still = self.dialogue.question
+        if still is not None and not isinstance(turn, Question):
+            self.answer(f"Still open: {still.question}")
+        return understood
+
+    def _state(self) -> RobotState:
+        """What the robot knows of itself, now."""
+        robot = self.robot
+        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        world = robot.executive.board.read(WORLD)
+        X_WS = on_the_floor(world.X_WB) if world is not None else None
+        under_way = self.under_way()
+        asked = self._asked.get(under_way[0].number) if under_way else None
+        return replace(
+            state,
+            examples=lambda: foresight.examples(robot.where, X_WS),
+            foresee_s=lambda: foresight.takes_s(asked[0], robot.where, asked[1]) if asked else None,
+        )
+
+    def _heed(
+        self, text: str, turn: Turn, state: RobotState, *, answers: bool, steers: bool
+    ) -> Understood | None:
+        """Say what a turn of the conversation leads to, steer the jobs, or return what is asked."""
         if isinstance(turn, Reply):
             self.answer(turn.text)
         elif isinstance(turn, Question):
@@ -205,6 +236,8 @@ class Shell:
             self._refuse(f"Not done: “{understood.text}” was there when you said stop")
             return
         self._holds = understood.holds
+        world = self.robot.executive.board.read(WORLD)
+        self._asked[number] = understood, on_the_floor(world.X_WB) if world is not None else None
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)
         before = [job for job in live.values() if mine and job.resources & mine.resources]
@@ -224,7 +257,7 @@ class Shell:
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
         elif slip := meant_command(text, self.commands):
-            self._refuse(f"Did you mean: {slip}", "If you meant me to move, say where to: walk to ...")
+            self._refuse(f"Did you mean `{slip}`?")
         elif self.robot.executive.question and _answer(text) is not None:
             self.robot.executive.answer(_answer(text) or "continue")
         else:
@@ -252,6 +285,12 @@ class Shell:
         """Steer the jobs as commands would."""
         for goal in goals:
             self.commands[type(goal).__name__.casefold()].run("")
+
+
+def on_the_floor(X_WB: SE3) -> SE3:
+    """Where the robot stands: its base, on the floor and upright."""
+    x_m, y_m, _ = X_WB.p
+    return SE3.from_xy_yaw(x_m, y_m, X_WB.yaw_rad)
 
 
 def _answer(text: str) -> Answer | None:
