@@ -63,6 +63,8 @@ class Dialogue:
         context: What was said before; also holds the open question.
         confirm: Whether risky goals are read back before they are returned.
         risk: Why goals are read back, in words; empty where they need not be.
+        dropped: The question that the last turn left open for good, because it asked for something
+            else; empty if there is none.
     """
 
     def __init__(
@@ -86,8 +88,10 @@ class Dialogue:
         self.fallback = fallback
         self.risk = risk
         self.context = Context()
+        self.dropped = ""
         self._repeats = 0
         self._pending: Context | None = None
+        self._asked_before: list[tuple[Question, Context | None]] = []
 
     @property
     def question(self) -> Question | None:
@@ -107,19 +111,26 @@ class Dialogue:
             say.
         """
         state = state or RobotState()
+        self.dropped = ""
         if is_stop(text):
             self._close()
+            self._asked_before.clear()
             return Goals(goals=(Stop(),), parser="stop")
         opened = self.context.question
         polite = None if opened else replies.courtesy(text)
         if polite:
             return Reply(text=polite)
         turn = self._answer(text, opened, state) if opened else None
-        return turn or self._understand(text, state, opened)
+        turn = turn or self._understand(text, state, opened)
+        if self.question is None and self._asked_before:
+            question, self._pending = self._asked_before.pop()
+            self.context = replace(self.context, question=question)
+        return turn
 
     def forget(self) -> None:
         """Begin anew: nothing was said, nothing is open."""
         self._close()
+        self._asked_before.clear()
         self.context = Context()
 
     def _close(self) -> None:
@@ -147,11 +158,33 @@ class Dialogue:
             self._repeats += 1
             again = opened.question.removeprefix("I did not get that. ")
             return replace(opened, question=f"I did not get that. {again}", ms=outcome.ms)
+        aside = opened is not None and self._set_aside(text, opened, outcome, before, state)
+        if isinstance(aside, Reply):
+            return replace(aside, ms=outcome.ms)
         self._close()
         if isinstance(outcome, Goals):
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome
+
+    def _set_aside(
+        self, text: str, opened: Question, outcome: Turn, before: Context, state: RobotState
+    ) -> Reply | None:
+        """What becomes of an open question when something is said that does not answer it.
+
+        A question of the person's is answered and leaves it open; one that has to be asked back
+        is asked first; anything else to be done is done instead.
+        """
+        alone, _ = hear(text, self.vocabulary, context=replace(before, question=None))
+        if isinstance(alone, Goals) and isinstance(outcome, Goals) and alone.goals == outcome.goals:
+            told = self._told(text, alone.goals, state)
+            if isinstance(told, Reply):
+                return told
+            self.dropped = opened.question.removeprefix("I did not get that. ")
+            self._asked_before.clear()
+        elif isinstance(alone, Question) and isinstance(outcome, Question):
+            self._asked_before.append((opened, self._pending))
+        return None
 
     def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
         """Answer what needs no motion, confirm what is risky, and pass on the rest."""

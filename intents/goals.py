@@ -36,7 +36,10 @@ How = Literal[
 ]
 Side = Literal["left", "right", "forward", "backward"]
 BalanceMode = Literal["stand", "squat", "one_leg", "lean", "sit"]
-ReportTopic = Literal["holding", "seeing", "location", "status", "health", "why", "capabilities"]
+ReportTopic = Literal[
+    "holding", "seeing", "location", "status", "remaining", "operator", "health", "why",
+    "capabilities",
+]  # fmt: skip
 OPERATOR = "operator"
 """The person who speaks to the robot: ``Person(who="operator")``, and a place to come to."""
 

@@ -164,6 +164,25 @@ def _status(state: RobotState) -> str:
     return f"{begun} “{state.doing}”{step}.{waiting}"
 
 
+def _remaining(state: RobotState) -> str:
+    if not state.doing or state.worked_s is None:
+        return _status(state)
+    begun = f"“{state.doing}” began {state.worked_s:.0f} s ago"
+    waiting = f" {len(state.waiting)} more to do after that." if state.waiting else ""
+    expected_s = state.foresee_s()
+    if expected_s is None:
+        return f"{begun}; I cannot say how long it takes.{waiting}"
+    left_s = expected_s - state.worked_s
+    if left_s < 1.0:
+        return f"{begun} and should be over by now: I foresaw {expected_s:.0f} s.{waiting}"
+    return f"About {left_s:.0f} s more: {begun}.{waiting}"
+
+
+def _operator(state: RobotState) -> str:
+    known = f"You are {state.operator}" if state.operator else "I do not know where you are"
+    return f"{known}. {_location(state)}"
+
+
 def _health(state: RobotState) -> str:
     battery = "" if state.battery is None else f" My battery is at {state.battery:.0%}."
     if not state.problems:
@@ -181,7 +200,8 @@ def _why(state: RobotState) -> str:
 
 def _capabilities(state: RobotState) -> str:
     known = [row for row in _SKILLS if not state.skills or row[0] in state.skills]
-    examples = "; ".join(f"“{example}”" for _, _, example in known[:4])
+    said = state.examples() or tuple(example for _, _, example in known[:4])
+    examples = "; ".join(f"“{example}”" for example in said[:4])
     if not known:
         return "I can answer questions and stop."
     can = listing([what for _, what, _ in known], "and")
@@ -190,5 +210,6 @@ def _capabilities(state: RobotState) -> str:
 
 _REPORTS: dict[ReportTopic, Callable[[RobotState], str]] = {
     "holding": _holding, "seeing": _seeing, "location": _location, "status": _status,
+    "remaining": _remaining, "operator": _operator,
     "health": _health, "why": _why, "capabilities": _capabilities,
 }  # fmt: skip

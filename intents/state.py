@@ -1,11 +1,17 @@
 """What the robot knows of itself when it is spoken to; questions are answered from it."""
 
+from collections.abc import Callable
+
 import msgspec
 
 from intents.grounding import Entity
 from intents.relations import Viewpoint
 
 _NO_ENTITIES: tuple[Entity, ...] = ()
+
+
+def _unforeseen() -> None:
+    """Nothing is known of how long anything takes."""
 
 
 class RobotState(msgspec.Struct, frozen=True, kw_only=True):
@@ -20,6 +26,12 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
         view: Where it stands and looks, for "the leftmost" and "behind the bottle".
         doing: What it is doing, in words; empty when idle.
         step: The step that it is at, in words.
+        worked_s: How long it has been at that by now; None when idle.
+        foresee_s: Says how long that takes in all, which may take a while to find out; None if
+            that cannot be foreseen.
+        operator: Where the person is whom it listens to, in words ("at the table in the kitchen");
+            empty if it does not know.
+        examples: Says sentences that could be done here and now; that may take a while too.
         waiting: The jobs that wait, in words.
         mode: "idle", "working", "paused" or "stopped".
         problems: What is wrong with it, in words; empty when all is well.
@@ -35,6 +47,10 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
     view: Viewpoint | None = None
     doing: str = ""
     step: str = ""
+    worked_s: float | None = None
+    foresee_s: Callable[[], float | None] = _unforeseen
+    operator: str = ""
+    examples: Callable[[], tuple[str, ...]] = tuple
     waiting: tuple[str, ...] = ()
     mode: str = "idle"
     problems: tuple[str, ...] = ()

@@ -6,14 +6,16 @@ takes long.
 """
 
 import re
-import unicodedata
 
 from rapidfuzz.distance import OSA
 
 from intents.english.words.lexicon import words
+from intents.letters import bare, latin
 
 _LOOKED_AT = 240
 """Characters at either end of a long text: people cry first or last, and no text takes long."""
+_READ = 2048
+"""The same before what cannot be seen is left out: a paste may be full of it."""
 _SHORT = 5
 """Up to so many words, a cry anywhere in them counts."""
 _WORD = re.compile(r"[^\W_]+")
@@ -38,6 +40,13 @@ _OTHER_WORDS = words(
     "topp shops stories stoke"
 )
 """Words that are a letter away from a cry and none themselves."""
+_GLUED = re.compile(
+    r"(?:stop|halt){2,}"
+    r"|(?:stop|halt|freeze)(?:now|this|that|please|robot|right|there|here)"
+    r"|.+(?<!dont)(?<!not)(?<!non)(?<!un)(?<!bus)(?<!back)(?<!pit)(?<!door)(?<!short)(?<!truck)"
+    r"(?<!tab)(?<!asp)(?<!anti)(?:stop|halt|freeze)"
+)
+"""A cry that runs into what was typed before or after it ("go to thestop"), but for words."""
 _BEFORE = words(
     "please robot hey no now just okay ok oh wait e you must should can could would will have to "
     "need got everything immediately abort i said say say's want for god s sake a an the and so "
@@ -58,22 +67,23 @@ _ON_THE_WAY = re.compile(r"^\s*(?:by|at|in|over|off)\s+(?:the|my|your|our|a|an|h
 
 def is_stop(text: str) -> bool:
     """Whether a text is a cry to stop; errs towards yes, and takes well under a millisecond."""
-    if len(text) > 2 * _LOOKED_AT:
-        text = f"{text[:_LOOKED_AT]} . {text[-_LOOKED_AT:]}"
+    if len(text) > 2 * _READ:
+        text = f"{text[:_READ]} . {text[-_READ:]}"
     plain = _plain(text)
+    if len(plain) > 2 * _LOOKED_AT:
+        plain = f"{plain[:_LOOKED_AT]} . {plain[-_LOOKED_AT:]}"
+    return _is_stop(plain) or (not plain.isascii() and _is_stop(latin(plain)))
+
+
+def _is_stop(plain: str) -> bool:
     clauses = [clause.strip() for clause in _CLAUSE.split(plain) if clause.strip()]
     cried = any(_cries(clause) or _ends_in_cry(clause) for clause in clauses)
     return cried or _spelled_out(plain)
 
 
 def _plain(text: str) -> str:
-    """Lower case without accents."""
-    parts = unicodedata.normalize("NFKD", text.lower().replace("’", "'"))
-    return unicodedata.normalize("NFC", "".join(c for c in parts if not _is_accent(c)))
-
-
-def _is_accent(character: str) -> bool:
-    return "\u0300" <= character <= "\u036f"
+    """Lower case without accents and what cannot be seen."""
+    return bare(text.replace("’", "'").replace("🛑", " stop "))
 
 
 _CRIES = frozenset(map(_plain, _STOPS))
@@ -109,7 +119,7 @@ def _is_meant(clause: str, word: re.Match[str]) -> bool:
 
 
 def _is_cry(word: str) -> bool:
-    if word in _CRIES:
+    if word in _CRIES or _GLUED.fullmatch(word):
         return True
     short = re.sub(r"(.)\1+", r"\1", word)
     if short in ("stop", "halt", "freze"):
@@ -120,5 +130,6 @@ def _is_cry(word: str) -> bool:
 
 
 def _spelled_out(plain: str) -> bool:
-    """S T O P."""
-    return re.match(r"\W*s\W+t\W+o\W+p\b", plain) is not None
+    """S T O P, st.op."""
+    alone = re.sub(r"[\W_]+", "", plain) in ("stop", "halt", "freeze")
+    return alone or re.match(r"\W*s\W+t\W+o\W+p\b", plain) is not None

@@ -16,7 +16,8 @@ _GESTURES = {
 }  # fmt: skip
 _REPORTS = {
     "holding": "say what I hold", "seeing": "say what I see", "location": "say where I am",
-    "status": "say what I am doing", "health": "say how I am", "why": "say why I stopped",
+    "status": "say what I am doing", "remaining": "say how much longer I need",
+    "operator": "say where you are", "health": "say how I am", "why": "say why I stopped",
     "capabilities": "say what I can do",
 }  # fmt: skip
 _PLAIN = {g.Stop: "stop", g.Pause: "pause", g.Resume: "go on", g.Cancel: "give the task up"}

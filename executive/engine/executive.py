@@ -23,7 +23,7 @@ from executive.blackboard import ABORT, HELP, PAUSE, PAUSED, SAID, SPEED_LIMIT, 
 from executive.engine.estop import EmergencyStop
 from executive.engine.health_monitor import HealthMonitor
 from executive.engine.job_tree import Work
-from executive.engine.jobs import BODY, OVER, UNLIMITED, Job, Limits
+from executive.engine.jobs import OVER, UNLIMITED, Job, Limits
 from executive.engine.sense import Sense
 from executive.engine.tree import BuildTask, Tree
 from executive.journal.journal import Journal
@@ -31,7 +31,7 @@ from executive.journal.reader import Reader
 from executive.skills import catalogue
 from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
-from executive.skills.skill import Resource, Skill
+from executive.skills.skill import BODY, Resource, Skill
 from robot.errors import RobotError
 from robot.failures import Failure, failure
 

@@ -7,11 +7,8 @@ from typing import Literal
 
 import msgspec
 
-from executive.skills.skill import Resource
+from executive.skills.skill import BODY, Resource
 from robot.failures import Failure
-
-BODY: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
-"""What a job needs unless it says less: all but the voice."""
 
 JobState = Literal["waiting", "running", "interrupted", "paused", "done", "failed", "cancelled"]
 

@@ -89,6 +89,8 @@ class Interrupts:
     def __init__(self) -> None:
         """None yet."""
         self.count = 0
+        self.pressed = 0
+        """As `count`, but never from zero again."""
         self.heeded = False
         """Whether the stop that the first one asks for has been asked for."""
         self.on_press: Callable[[], None] = _nothing
@@ -96,6 +98,7 @@ class Interrupts:
     def press(self, times: int = 1) -> None:
         """Count as if Ctrl-C had been pressed; raises KeyboardInterrupt from the third on."""
         self.count += times
+        self.pressed += times
         self.on_press()
         if self.count > 2:
             raise KeyboardInterrupt
@@ -107,8 +110,10 @@ class Interrupts:
 
     @contextmanager
     def listen(self) -> Generator[None]:
-        """Count SIGINT and SIGTERM inside the block; in the main thread only."""
+        """Count SIGINT, SIGTERM and SIGHUP inside the block; in the main thread only."""
         numbers = {signal.SIGINT, signal.SIGTERM}
+        if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as `nohup` wants it
+            numbers.add(signal.SIGHUP)
         pipe = Waker()
 
         def heard(_number: int, _frame: FrameType | None) -> None:

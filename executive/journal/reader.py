@@ -45,16 +45,17 @@ CLOCK_RESET_S = 1.0
 """A step back in time by more than that is a clock that began anew."""
 
 
-def read(path: Path) -> Run:
+def read(path: Path, *, job: int | None = None) -> Run:
     """Read a journal as far as it goes.
 
     Args:
         path: a run's folder, or the file itself.
+        job: read only what is of this job, up to its end, or of none (None: everything).
 
     Raises:
         ConfigError: if there is no journal.
     """
-    reader = Reader()
+    reader = Reader(job=job)
     for line in lines(path):
         reader.line(line)
     return reader.run
@@ -71,9 +72,11 @@ def told(events: Iterable[Event]) -> Run:
 class Reader:
     """Takes a journal line by line, or event by event; `run` is what is known so far."""
 
-    def __init__(self) -> None:
-        """Nothing has happened."""
+    def __init__(self, *, job: int | None = None) -> None:
+        """Nothing has happened; with a job, what is of others is passed over."""
         self.run = Run()
+        self._only = job
+        self._only_over = False
         self._trees = trees = TreeReader(self.run)
         self._steps = steps = StepReader(self.run)
         self._lines = 0
@@ -119,6 +122,8 @@ class Reader:
         if self._number >= 0 and event.n > self._number + 1:
             self.run.missing += event.n - self._number - 1
         self._number = event.n
+        if self._only is not None and self._is_of_others(event):
+            return
         self._take(self._in_order(event.t_s), event.event, event.data)
 
     def _take(self, t_s: float, kind: str, data: Mapping[str, Any]) -> None:
@@ -144,6 +149,14 @@ class Reader:
 
     def _draw(self, items: list[T], item: T, most: int) -> None:
         self.run.left_out += keep_evenly(items, item, most)
+
+    def _is_of_others(self, event: Event) -> bool:
+        """Whether an event is of another job, or came when the only one was over."""
+        mine = event.data.get("job", self._only) == self._only
+        if self._only_over or not mine or event.event == "outcome":
+            return True  # an outcome is that of whichever job ended last
+        self._only_over = event.event == "job" and event.data.get("state") in OVER
+        return False
 
     def _in_order(self, t_s: float) -> float:
         """Time goes on: a run that was gone on with may count it from the beginning again."""
@@ -184,6 +197,8 @@ class Reader:
             self.run.task.state = "" if told.state == "waiting" else told.state
             if told.state in OVER and "code" in data:
                 self.run.task.reason = reason
+            if told.state in OVER and self._only is not None:
+                self.run.task.took_s = round(t_s - self.run.task.began_s, 4)
 
     def _begin_task(self, t_s: float, told: _Job) -> None:
         """Another job begins: what came before belongs to the last one."""

@@ -151,6 +151,19 @@ class Job(msgspec.Struct, kw_only=True, omit_defaults=True):
     urgent: bool = False
     states: list[tuple[float, str]] = []
 
+    @property
+    def weight(self) -> tuple[int, float, int]:
+        """Of several jobs, the one that people mean without naming it weighs most.
+
+        That is one that runs, or else one that was interrupted, the first begun: those beside it
+        only speak. If all is over it is the one that ended last, of those that ever began.
+        """
+        states = [state for _, state in self.states]
+        last_s, last = self.states[-1] if self.states else (0.0, "waiting")
+        if last in ("running", "interrupted", "paused"):
+            return (3 if last == "running" else 2, 0.0, -self.number)
+        return (1 if "running" in states and last != "waiting" else 0, last_s, self.number)
+
 
 class Ending(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """How a task ended; `code` is `done` when it went well."""

@@ -5,12 +5,14 @@ No model and no guess: every line is an event, or what the table of failures say
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Literal
 
 import msgspec
 
-from executive.journal import failures, words
+from executive.journal import failures, reader, words
 from executive.journal.run import Attempt, LogLine, Reason, Run, Task, Trouble
+from robot.errors import ConfigError
 
 LEAD_UP_S = 20.0
 """How long before a failure what happened to the robot is told with it."""
@@ -32,6 +34,32 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     def text(self) -> str:
         """All of it."""
         return "\n".join(self.lines)
+
+
+def told(folder: Path, *, job: int | None = None, live: bool = False) -> Explanation:
+    """Explain one job of a run that had several side by side; see `why`.
+
+    Args:
+        folder: of the run, with its journal.
+        job: which (None: the one that people mean without naming it).
+        live: as for `why`.
+
+    Raises:
+        ConfigError: there is no journal, or no such job in it.
+    """
+    run = reader.read(folder)
+    known = [one.number for one in run.jobs]
+    if job is None:
+        if len(known) < 2:
+            return why(run, live=live)
+        job = max(run.jobs, key=lambda one: one.weight).number
+    elif job not in known:
+        raise ConfigError(f"there is no job {job}; there is: {words.listed(map(str, known))}")
+    asked = next(one for one in run.jobs if one.number == job)
+    if {state for _, state in asked.states} <= {"waiting"}:
+        verdict = f"It has not begun: it waits for its turn. Asked for: {asked.text}"
+        return Explanation(status="idle", verdict=verdict, lines=(verdict,))
+    return why(reader.read(folder, job=job), live=live)
 
 
 def why(run: Run, *, live: bool = False) -> Explanation:

@@ -35,7 +35,7 @@ def state_of(
     state = RobotState(
         entities=tuple(_entities(knowledge, world, held)),
         doing=board.read(GOAL),
-        step=board.read(PHASE),
+        step="" if board.read(PHASE) == "done" else board.read(PHASE),
         problems=tuple(finding.failure.cause for finding in board.read(HEALTH).findings),
         skills=skills,
     )
@@ -50,8 +50,20 @@ def _placed(state: RobotState, world: WorldState, knowledge: Knowledge) -> Robot
         state,
         view=Viewpoint(x_m=x, y_m=y, yaw_rad=world.X_WB.yaw_rad),
         room=knowledge.room_at(world.X_WB.p),
+        operator=_whereabouts_of_operator(world, knowledge),
         seen=tuple(track.id for track in seen if not track.missing),
     )
+
+
+def _whereabouts_of_operator(world: WorldState, knowledge: Knowledge) -> str:
+    person = knowledge.person(None)
+    tracks = {track.id: track for track in world.people}
+    track = tracks.get(person.id) if person is not None else None
+    if track is None or track.X_WO is None or track.missing:
+        return ""
+    x, y, _ = track.X_WO.p
+    room = knowledge.room_at(track.X_WO.p)
+    return f"{f'in the {room} ' if room else ''}at x {x:.1f} m, y {y:.1f} m"
 
 
 def _entities(knowledge: Knowledge, world: WorldState | None, held: frozenset[str]) -> list[Entity]:

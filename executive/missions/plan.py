@@ -19,6 +19,7 @@ from executive.skills.forecast import Forecast, Outlook
 from executive.skills.parameters import SkillParams
 from executive.skills.say import SPEAK_S
 from executive.trees import parts as p
+from robot.se3 import SE3
 
 
 class Row(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,16 +50,23 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     problems: int
 
 
-def forecast(task: p.Part, where: Setting, *, done: frozenset[str] = frozenset()) -> Plan:
+def forecast(
+    task: p.Part,
+    where: Setting,
+    *,
+    done: frozenset[str] = frozenset(),
+    X_WS: SE3 | None = None,
+) -> Plan:
     """What a task would take, step by step.
 
     Args:
         task: what is to be done.
         where: robot and world.
         done: paths of what is left out.
+        X_WS: where the robot stands before it (None: where the world file has it).
     """
     rows: list[Row] = []
-    total_s = _Forecaster(where, done, rows).part(task, "", 0)
+    total_s = _Forecaster(Rehearsal(where, X_WS=X_WS), done, rows).part(task, "", 0)
     problems = sum(1 for row in rows if row.problem)
     return Plan(rows=tuple(rows), total_s=round(total_s, 1), problems=problems)
 
@@ -87,9 +95,9 @@ def lines(plan: Plan) -> list[str]:
 class _Forecaster:
     """Follows the robot through a task."""
 
-    def __init__(self, where: Setting, done: frozenset[str], rows: list[Row]) -> None:
+    def __init__(self, outlook: Rehearsal, done: frozenset[str], rows: list[Row]) -> None:
         self._done, self._rows = done, rows
-        self._outlook = Rehearsal(where)
+        self._outlook = outlook
 
     def part(self, part: p.Part, path: str, depth: int) -> float:
         """Add the rows of a part; returns how long it takes [s]."""

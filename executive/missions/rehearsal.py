@@ -29,14 +29,14 @@ MAX_PATHS = 200
 class Rehearsal:
     """Follows the robot through a task (an `executive.skills.forecast.Outlook`)."""
 
-    def __init__(self, where: Setting) -> None:
-        """Begin as the world file has it."""
+    def __init__(self, where: Setting, *, X_WS: SE3 | None = None) -> None:
+        """Begin as the world file has it; the robot may stand elsewhere."""
         self._where = where
         self._ways: dict[tuple[Stance, Stance, bool], float | Failure] = {}
         begins = where.world.objects()
         self._on: dict[str, str] = {name: at.place_id for name, at in begins.items()}
         self._hands = Hands(where)
-        self._stance = where.world_map.start_X_WS
+        self._stance = X_WS or where.world_map.start_X_WS
 
     @property
     def X_WS(self) -> SE3:

@@ -30,7 +30,7 @@ from executive.runs import run_folder
 from executive.runs.faults import Injector, SlowPlanner
 from executive.runs.runtimes import Opened, Setup
 from executive.skills.context import SkillContext
-from executive.skills.resources import needed_by
+from executive.skills.resources import queued_for
 from executive.trees.build import build
 from executive.trees.parts import errands
 from intents.goals import to_builtins
@@ -155,7 +155,7 @@ class Session(Closing):
             lambda stage: build(task, stage, done=done),
             text=understood.text,
             urgent=urgent,
-            resources=needed_by(errand.params for errand in errands(task)),
+            resources=queued_for(errand.params for errand in errands(task)),
             limits=limits,
             origin={**(origin or made_from), **({"done": sorted(done)} if done else {})},
         )

@@ -8,7 +8,7 @@ from typing import Any
 from executive.skills.catalogue import skill_of
 from executive.skills.parameters import SkillParams
 from executive.skills.say import Say
-from executive.skills.skill import Resource
+from executive.skills.skill import BODY, Resource
 
 
 def needed(params: SkillParams | Callable[..., Any]) -> frozenset[Resource]:
@@ -19,6 +19,19 @@ def needed(params: SkillParams | Callable[..., Any]) -> frozenset[Resource]:
 def needed_by(steps: Iterable[SkillParams | Callable[..., Any]]) -> frozenset[Resource]:
     """What several steps take, all together."""
     return frozenset[Resource]().union(*(needed(params) for params in steps))
+
+
+def queued_for(steps: Iterable[SkillParams | Callable[..., Any]]) -> frozenset[Resource]:
+    """What a job of these steps waits for in the queue, so that it happens in its turn.
+
+    That is what they take, and the eyes where they tell of what there is to be seen: "count the
+    cups" after a walk is about the cups at its end. A job that takes nothing (a wait) comes between
+    those before it and those after it.
+    """
+    asked = tuple(steps)
+    eyes = any(callable(params) for params in asked)
+    wanted = needed_by(asked) | (frozenset[Resource]({"head"}) if eyes else frozenset[Resource]())
+    return wanted or BODY
 
 
 def conflicts(branches: Iterable[frozenset[Resource]]) -> frozenset[Resource]:

@@ -14,6 +14,8 @@ from executive.skills.parameters import SkillParams
 from robot.failures import Failure
 
 Resource = Literal["legs", "left_arm", "right_arm", "head", "voice"]
+BODY: frozenset[Resource] = frozenset({"legs", "left_arm", "right_arm", "head"})
+"""What a job needs unless it says less: all but the voice."""
 
 
 class SkillReport(msgspec.Struct, frozen=True, kw_only=True):

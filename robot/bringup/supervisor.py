@@ -117,7 +117,7 @@ class Supervisor(Closing):
         return failure(
             child.row.death,
             f"{cause}: {tail}" if tail else cause,
-            suggestion=f"see {self._log(name)}, then start again",
+            suggestion=f"see {self._log(name)}, then start again" if tail else UNSAID,
             process=name,
             exit_status=float(status),
             alive_s=round(child.age_s, 3),
@@ -125,6 +125,10 @@ class Supervisor(Closing):
 
     def _log(self, name: str) -> Path:
         return self._logs / f"{name}.log"
+
+
+UNSAID = "it said nothing before that: if nobody killed it, see `dmesg` for memory, then start again"
+"""What to do about a process whose log is empty, which is no use to look into."""
 
 
 def last_line(log: Path) -> str:

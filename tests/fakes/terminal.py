@@ -23,49 +23,97 @@ ENTER, TAB, UP = "\r", "\t", "\x1b[A"
 CTRL_C, CTRL_D, CTRL_U = "\x03", "\x04", "\x15"
 
 
-class Terminal(Closing):
-    """Runs `humanoid ARGUMENTS` on a terminal of its own; a context manager."""
+class Pty(Closing):
+    """Runs a Python program on a pty, of which it is the whole session; a context manager.
 
-    def __init__(self, *arguments: str, folder: Path) -> None:
-        self.screen = pyte.Screen(COLUMNS, ROWS)
-        self._stream = pyte.ByteStream(self.screen)
-        self._lock = threading.Lock()
-        main, child = pty.openpty()
-        fcntl.ioctl(child, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
+    Attributes:
+        reads: whether the terminal takes what the program writes; a stalled one does not.
+    """
+
+    def __init__(
+        self, *arguments: str, folder: Path, columns: int = COLUMNS, pass_fds: tuple[int, ...] = ()
+    ) -> None:
+        self.reads = True
+        self._main, child = pty.openpty()
+        _set_size(child, columns, ROWS)
         environment = {**os.environ, "TERM": "xterm-256color", "HOME": str(folder)}
         environment["PYTHONPATH"] = str(Path(__file__).parents[2])
-        self._main = main
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "executive", *arguments],
+            [sys.executable, *arguments],
             stdin=child, stdout=child, stderr=child, cwd=folder, env=environment,
-            start_new_session=True,
+            start_new_session=True, pass_fds=pass_fds,
             preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),  # noqa: PLW1509
         )  # fmt: skip
         os.close(child)
+        self._closing = threading.Event()
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
     def _read(self) -> None:
-        while True:
+        while not self._closing.is_set():
             try:
-                if not select.select([self._main], [], [], 0.2)[0]:
+                if not self.reads or not select.select([self._main], [], [], 0.2)[0]:
+                    self._closing.wait(0.0 if self.reads else 0.01)
                     continue
                 data = os.read(self._main, 65536)
+                if not data:
+                    return
+                self._shown(data)
+                if b"\x1b[6n" in data:  # where is the cursor?
+                    os.write(self._main, self._where_the_cursor_is())
             except OSError:
                 return
-            if not data:
-                return
-            with self._lock:
-                self._stream.feed(data)
-            if b"\x1b[6n" in data:  # where is the cursor?
-                where = f"\x1b[{self.screen.cursor.y + 1};{self.screen.cursor.x + 1}R"
-                os.write(self._main, where.encode())
 
-    def press(self, keys: str) -> None:
-        os.write(self._main, keys.encode())
+    def _shown(self, data: bytes) -> None:
+        """Take what the program writes."""
+
+    def _where_the_cursor_is(self) -> bytes:
+        return b"\x1b[1;1R"
+
+    def press(self, keys: str | bytes) -> None:
+        os.write(self._main, keys if isinstance(keys, bytes) else keys.encode())
 
     def enter(self, line: str) -> None:
         self.press(line + ENTER)
+
+    def resize(self, columns: int, rows: int) -> None:
+        _set_size(self._main, columns, rows)
+
+    def hang_up(self) -> None:
+        """Close the terminal, as a window is closed or a line is cut."""
+        self._closing.set()
+        self._reader.join()
+        if self._main >= 0:
+            os.close(self._main)
+            self._main = -1
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.hang_up()
+
+
+def _set_size(fd: int, columns: int, rows: int) -> None:
+    fcntl.ioctl(fd, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+
+
+class Terminal(Pty):
+    """Runs `humanoid ARGUMENTS` on a terminal with a screen; a context manager."""
+
+    def __init__(self, *arguments: str, folder: Path, columns: int = COLUMNS) -> None:
+        self.screen = pyte.Screen(columns, ROWS)
+        self._stream = pyte.ByteStream(self.screen)
+        self._lock = threading.Lock()
+        super().__init__("-m", "executive", *arguments, folder=folder, columns=columns)
+
+    def _shown(self, data: bytes) -> None:
+        with self._lock:
+            self._stream.feed(data)
+
+    def _where_the_cursor_is(self) -> bytes:
+        return f"\x1b[{self.screen.cursor.y + 1};{self.screen.cursor.x + 1}R".encode()
 
     @property
     def lines(self) -> list[str]:
@@ -78,11 +126,3 @@ class Terminal(Closing):
 
     def shows(self, words: str) -> bool:
         return eventually(lambda: words in self.text)
-
-    def close(self) -> None:
-        if self.process.poll() is None:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self.process.pid, signal.SIGKILL)
-        self.process.wait()
-        os.close(self._main)
-        self._reader.join()

@@ -16,7 +16,7 @@ from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs, reader
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
-from executive.journal.why import why as explain
+from executive.journal.why import told as explain
 from executive.runs.again import replay as again
 from executive.runs.again.comparison import Difference
 from robot.exit_status import ExitStatus
@@ -27,7 +27,7 @@ _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
 def why(run: str | None, *, as_json: bool) -> int:
     """Say why a run (by default the newest) ended as it did; returns the exit status."""
     folder = past_runs.find(run)
-    told = explain(reader.read(folder), live=journal.is_written(folder))
+    told = explain(folder, live=journal.is_written(folder))
     if as_json:
         record = {"folder": str(folder), **msgspec.to_builtins(told)}
         write_json(record)

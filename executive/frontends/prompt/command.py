@@ -42,3 +42,8 @@ class Command:
     accepts: Callable[[str], bool] = alone
     choices: Callable[[], Iterable[str]] = nothing
     takes_sentence: bool = False
+
+    @property
+    def loose(self) -> bool:
+        """Whether almost anything may follow, so that a slip in its name cannot be told."""
+        return self.takes_sentence or self.accepts in (alone, anything, bool)

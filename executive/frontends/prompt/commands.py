@@ -12,10 +12,10 @@ from executive.frontends.prompt import saving
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.shell import Shell, number_of
 from executive.frontends.prompt.watch import Watch
-from executive.journal import failures, past_runs, reader
+from executive.journal import failures, past_runs
 from executive.journal.dumps.text import picture
 from executive.journal.snapshot import at_work
-from executive.journal.why import why
+from executive.journal.why import told
 from executive.missions import fault_plans
 from executive.skills.catalogue import SKILLS
 from robot.errors import ConfigError
@@ -45,8 +45,9 @@ def table(shell: Shell) -> tuple[Command, ...]:
             run=seeing.unwatch, accepts=_one_of("", *KEY_NAMES), choices=seeing.watched,
         ),
         Command(
-            name="why", usage="why", summary="why the newest job ended, or what it is at",
-            run=seeing.why,
+            name="why", usage="why [N]",
+            summary="why a job ended, or what it is at: N, or the newest",
+            run=seeing.why, accepts=_is_number,
         ),
         Command(
             name="history", usage="history", summary="the jobs of this run, and the runs before",
@@ -92,7 +93,7 @@ def table(shell: Shell) -> tuple[Command, ...]:
         ),
         Command(
             name="cancel", usage="cancel [N]", summary="end one job: N, or the one under way",
-            run=steering.cancel, accepts=lambda rest: not rest or rest.isdecimal(),
+            run=steering.cancel, accepts=_is_number,
         ),
         Command(
             name="continue", usage="continue",
@@ -141,6 +142,11 @@ def _is_mission(rest: str) -> bool:
     """Whether what follows names a mission: "run to the table" is a sentence."""
     name = rest.split(" ", maxsplit=1)[0]
     return name.endswith((".yaml", ".yml")) or name in samples()
+
+
+def _is_number(rest: str) -> bool:
+    """Whether what follows is a job's number, or nothing."""
+    return not rest or rest.isdecimal()
 
 
 def _one_of(*words: str) -> Callable[[str], bool]:
@@ -199,8 +205,9 @@ class _Seeing:
     def watched(self) -> Iterable[str]:
         return tuple(self._watches)
 
-    def why(self, _rest: str) -> None:
-        self._shell.out(why(reader.read(self._shell.folder), live=True).text)
+    def why(self, rest: str) -> None:
+        job = number_of(rest) if rest else None
+        self._shell.out(told(self._shell.folder, job=job, live=True).text)
 
     def history(self, _rest: str) -> None:
         jobs = self._shell.robot.executive.jobs

@@ -7,27 +7,36 @@ or beside them where they do not need the same parts of the body.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace
+
 from executive.behaviours.ask import ANSWERS, Answer
-from executive.blackboard import HELD
+from executive.blackboard import HELD, WORLD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.frontends.prompt import foresight
 from executive.frontends.prompt.command import Command
+from executive.frontends.prompt.mistyped import meant as meant_command
+from executive.frontends.prompt.mistyped import polite
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.state import robot_state
+from executive.frontends.prompt.typed import plain
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
-from intents.outcomes import Goals, Question, Refusal, Reply
+from intents.letters import bare, seen
+from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
+from robot.se3 import SE3
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
@@ -45,6 +54,7 @@ class Shell:
         folder: of this run.
         leaving: whether the person wants to go.
         refused: how many lines led to nothing, because they could not be meant.
+        stops: how often it was told to stop; a line from before the last one comes to nothing.
     """
 
     def __init__(
@@ -73,20 +83,29 @@ class Shell:
         self.folder = folder
         self.leaving = False
         self.refused = 0
+        self.stops = 0
+        self._stops_before: int | None = None
+        self._submitting = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
         self._model = model
         self._holds: tuple[str, ...] = ()
+        self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
-        if text.strip().casefold().startswith("estop"):
-            self.commands["estop"].run(text.strip()[len("estop") :].strip())
+        text = bare(plain(text)).strip()
+        if text.startswith("estop"):
+            self.commands["estop"].run(text.removeprefix("estop").strip())
             return True
-        if not is_stop(text):
+        if not self.is_cry(text):
             return False
         self.stop("the operator said stop")
         return True
+
+    def is_cry(self, text: str) -> bool:
+        """Whether a line is a cry to stop."""
+        return is_stop(text)
 
     @property
     def gone(self) -> str:
@@ -103,21 +122,45 @@ class Shell:
         self.speech.say(text)
 
     def stop(self, why: str) -> None:
-        """Be silent, bring the robot to a stand and end all jobs."""
-        self.speech.hush()
+        """Bring the robot to a stand and end all jobs, be silent, and say so."""
         busy = self.robot.busy
-        self.robot.executive.stop(why)
-        self.dialogue.forget()
+        self.stop_unsaid(why)
         self.out("Stopping." if busy else "I stand already.")
 
-    def line(self, text: str) -> None:
-        """Do what a line says; never raises for what is in it."""
-        text = "".join(one if one.isprintable() else " " for one in text).strip()
+    def stop_unsaid(self, why: str) -> None:
+        """Stop without a word; first the robot, then what only is in the way of hearing."""
+        with self._submitting:
+            self.stops += 1
+            self.robot.executive.stop(why)
+        self.speech.hush()
+        self.dialogue.forget()
+
+    def leave(self) -> None:
+        """Let nothing begin any more, and bring the robot to a stand."""
+        self.leaving = True
+        with self._submitting:
+            self.stops += 1
+            if self.robot.busy:
+                self.robot.executive.stop("the operator leaves")
+
+    def line(self, text: str, *, stops: int | None = None) -> None:
+        """Do what a line says; never raises for what is in it.
+
+        Args:
+            text: what was typed.
+            stops: what `stops` was by then; a stop since then is about this line too.
+        """
+        self._stops_before = stops
         try:
-            if text and not self.stop_at_once(text):
+            if self.stop_at_once(text):
+                return
+            text = "".join(one if one.isprintable() else " " for one in seen(plain(text))).strip()
+            if text:
                 self._take(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
+        finally:
+            self._stops_before = None
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -131,11 +174,37 @@ class Shell:
         One that only steers the jobs ("pause") does so at once, if `steers`.
         """
         robot = self.robot
-        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        state = self._state()
         if self._model is not None and not robot.busy:
             self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
+        if self.dialogue.dropped:
+            self.out(f"I ask no more: {self.dialogue.dropped}")
+        understood = self._heed(text, turn, state, answers=answers, steers=steers)
+        still = self.dialogue.question
+        if still is not None and not isinstance(turn, Question):
+            self.answer(f"Still open: {still.question}")
+        return understood
+
+    def _state(self) -> RobotState:
+        """What the robot knows of itself, now."""
+        robot = self.robot
+        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
+        world = robot.executive.board.read(WORLD)
+        X_WS = on_the_floor(world.X_WB) if world is not None else None
+        under_way = self.under_way()
+        asked = self._asked.get(under_way[0].number) if under_way else None
+        return replace(
+            state,
+            examples=lambda: foresight.examples(robot.where, X_WS),
+            foresee_s=lambda: foresight.takes_s(asked[0], robot.where, asked[1]) if asked else None,
+        )
+
+    def _heed(
+        self, text: str, turn: Turn, state: RobotState, *, answers: bool, steers: bool
+    ) -> Understood | None:
+        """Say what a turn of the conversation leads to, steer the jobs, or return what is asked."""
         if isinstance(turn, Reply):
             self.answer(turn.text)
         elif isinstance(turn, Question):
@@ -160,8 +229,15 @@ class Shell:
         if self.gone:
             self._refuse(self.gone)
             return
-        number = self.robot.submit(understood, urgent=urgent, **how)
+        with self._submitting:
+            stopped = self._stops_before not in (None, self.stops)
+            number = 0 if stopped else self.robot.submit(understood, urgent=urgent, **how)
+        if stopped:
+            self._refuse(f"Not done: “{understood.text}” was there when you said stop")
+            return
         self._holds = understood.holds
+        world = self.robot.executive.board.read(WORLD)
+        self._asked[number] = understood, on_the_floor(world.X_WB) if world is not None else None
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)
         before = [job for job in live.values() if mine and job.resources & mine.resources]
@@ -178,6 +254,10 @@ class Shell:
         command = self.commands.get(first.casefold())
         if command is not None and command.accepts(rest):
             command.run(rest)
+        elif command is not None and command.accepts("") and polite(rest):
+            command.run("")
+        elif slip := meant_command(text, self.commands):
+            self._refuse(f"Did you mean `{slip}`?")
         elif self.robot.executive.question and _answer(text) is not None:
             self.robot.executive.answer(_answer(text) or "continue")
         else:
@@ -205,6 +285,12 @@ class Shell:
         """Steer the jobs as commands would."""
         for goal in goals:
             self.commands[type(goal).__name__.casefold()].run("")
+
+
+def on_the_floor(X_WB: SE3) -> SE3:
+    """Where the robot stands: its base, on the floor and upright."""
+    x_m, y_m, _ = X_WB.p
+    return SE3.from_xy_yaw(x_m, y_m, X_WB.yaw_rad)
 
 
 def _answer(text: str) -> Answer | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
+from executive.blackboard import NOW
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.journal import failures
@@ -24,12 +25,17 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
     return replace(
         state,
         doing=under_way[0].text if under_way else "",
+        worked_s=_worked_s(under_way[0], executive.board.read(NOW)) if under_way else None,
         step=state.step if under_way else "",
         waiting=tuple(job.text for job in jobs if job.state == "waiting"),
         mode={"pausing": "paused", "stopping": "stopped"}.get(executive.state, executive.state),
         battery=power.charge if power else None,
         last=_ending(over[-1]) if over else "",
     )
+
+
+def _worked_s(job: Job, now_s: float) -> float | None:
+    return None if job.began_s is None else now_s - job.began_s
 
 
 def _ending(job: Job) -> str:

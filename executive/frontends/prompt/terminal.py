@@ -1,34 +1,47 @@
 """The prompt on a terminal: history, completion, a status line that lives, output above it.
 
-Lines are worked off in order in a thread of their own, so that nothing that a line takes (a plan,
-a long sentence) keeps the prompt from hearing a stop.
+Four threads, so that nothing that one of them is about keeps a person from stopping the robot: the
+keyboard's hears stops (`keyboard`); the prompt's edits lines and draws; the lines' works them off
+in order, however long one takes; the main one hears signals.
 """
 
 from __future__ import annotations
 
 import asyncio
+import sys
+import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from prompt_toolkit import PromptSession
 from prompt_toolkit.auto_suggest import AutoSuggestFromHistory
 from prompt_toolkit.formatted_text import StyleAndTextTuples
 from prompt_toolkit.history import FileHistory, History, InMemoryHistory
-from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
+from prompt_toolkit.key_binding import KeyBindings, KeyPress, KeyPressEvent
+from prompt_toolkit.keys import Keys
 from prompt_toolkit.patch_stdout import patch_stdout
 from prompt_toolkit.shortcuts import CompleteStyle
 from prompt_toolkit.styles import Style
 
 from executive.frontends.prompt.completion import LineCompleter
+from executive.frontends.prompt.keyboard import Keyboard
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.toolbar import STYLES, toolbar
+from executive.frontends.prompt.typed import plain
 from robot.errors import RobotError
 
 REFRESH_S = 0.2
 PANEL_SHARE = 0.5
 """Of the terminal's height that the tree may take."""
 LEAVING = ("quit", "exit")
+GO_WITHOUT_S = 2.0
+"""How long the prompt may take to end after a signal: one that writes to a terminal that does not
+read never does."""
+MOST_MISTAKES = 5
+"""So often in a row the prompt itself may fail before it is given up."""
 
 
 class Terminal:
@@ -37,11 +50,62 @@ class Terminal:
     def __init__(self, shell: Shell, *, history: Path | None) -> None:
         """Prepare; `history` is the file of what was typed (None: not kept)."""
         self._shell = shell
+        self._history = history
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
+        self._open_lines = 0
+        self._prompt: PromptSession[str] | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._error: BaseException | None = None
+
+    def run(self) -> None:
+        """Prompt until the person leaves; hears signals, so it belongs in the main thread."""
+        interrupts = self._shell.robot.interrupts
+        before = interrupts.pressed
+        prompting = threading.Thread(target=self._prompting, name="prompt", daemon=True)
+        prompting.start()
+        try:
+            while prompting.is_alive() and interrupts.pressed == before:
+                prompting.join(REFRESH_S)
+        finally:
+            self._leave()
+            prompting.join(GO_WITHOUT_S)
+            self._shell.leave()
+            self._worker.shutdown(wait=True, cancel_futures=True)
+        if self._error is not None:
+            raise self._error
+
+    def _leave(self) -> None:
+        """End the prompt, from another thread; a signal is a wish to leave."""
+        loop, session = self._loop, self._prompt
+        if loop is None or session is None:
+            return
+
+        def end() -> None:
+            self._shell.leaving = True
+            if session.app.is_running and not session.app.is_done:
+                session.app.exit(exception=EOFError())
+
+        with suppress(RuntimeError):  # it is over
+            loop.call_soon_threadsafe(end)
+
+    # --- the prompt's thread ---
+
+    def _prompting(self) -> None:
+        keyboard = Keyboard(sys.stdin, stop=self._stop_busy, entered=self._entered)
+        try:
+            self._prompt = self._session(keyboard)
+            with keyboard, patch_stdout(raw=True):
+                asyncio.run(self._run(self._prompt))
+        except BaseException as error:  # told by who waits
+            self._error = error
+
+    def _session(self, keyboard: Keyboard) -> PromptSession[str]:
+        shell = self._shell
         vocabulary = shell.robot.where.knowledge.vocabulary()
-        self._prompt: PromptSession[str] = PromptSession(
+        return PromptSession(
             "> ",
-            history=_history(history),
+            input=keyboard,
+            history=_history(self._history),
             completer=LineCompleter(shell.commands.values(), vocabulary),
             complete_style=CompleteStyle.COLUMN,
             complete_while_typing=False,
@@ -52,26 +116,14 @@ class Terminal:
             style=Style.from_dict(STYLES),
         )
 
-    def run(self) -> None:
-        """Prompt until the person leaves."""
-        with patch_stdout(raw=True):
-            asyncio.run(self._run())
-        self._worker.shutdown(wait=True, cancel_futures=True)
-
-    async def _run(self) -> None:
-        besides = [asyncio.create_task(one) for one in (self._leave_on_signal(), self._mourn())]
+    async def _run(self, session: PromptSession[str]) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._loop.set_exception_handler(self._mistake)
+        mourning = asyncio.create_task(self._mourn())
         try:
-            await self._prompt_until_leaving()
+            await self._prompt_until_leaving(session)
         finally:
-            for task in besides:
-                task.cancel()
-
-    async def _leave_on_signal(self) -> None:
-        """A signal from outside (the terminal was closed, SIGTERM) is a wish to leave."""
-        while not self._shell.robot.interrupts.count:
-            await asyncio.sleep(REFRESH_S)
-        if self._prompt.app.is_running:
-            self._prompt.app.exit(exception=EOFError())
+            mourning.cancel()
 
     async def _mourn(self) -> None:
         """Tell that the robot is gone when that happens, also while nothing is asked of it."""
@@ -79,18 +131,27 @@ class Terminal:
             await asyncio.sleep(REFRESH_S)
         self._shell.answer(self._shell.gone)
 
-    async def _prompt_until_leaving(self) -> None:
-        shell = self._shell
+    async def _prompt_until_leaving(self, session: PromptSession[str]) -> None:
+        shell, mistakes = self._shell, 0
         while not shell.leaving:
             try:
-                text = await self._prompt.prompt_async()
+                # the library's own handler leaves the prompt for a page that waits for Enter
+                text = await session.prompt_async(set_exception_handler=False)
             except EOFError:
                 shell.leaving = True
                 return
+            except Exception as error:
+                mistakes += 1
+                if mistakes >= MOST_MISTAKES:
+                    raise
+                shell.out(_as_mistake(error))
+                continue
+            mistakes = 0
             if text.strip() in LEAVING:
                 shell.leaving = True
             elif not self._stopped(text):
-                self._worker.submit(self._line, text)
+                self._open_lines += 1
+                self._worker.submit(self._line, text, shell.stops)
 
     def _stopped(self, text: str) -> bool:
         """Whether a line was a cry to stop, heeded here and now."""
@@ -100,15 +161,46 @@ class Terminal:
             self._shell.out(f"Not done: {error}")
             return True
 
-    def _line(self, text: str) -> None:
+    def _mistake(self, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """A mistake in what keys or drawing call must not end the prompt, nor hold it up."""
+        error = context.get("exception")
+        self._shell.out(_as_mistake(error) if error else str(context.get("message")))
+
+    # --- the lines' thread ---
+
+    def _line(self, text: str, stops: int) -> None:
         """One line; a mistake in this software must not end the prompt."""
         try:
-            self._shell.line(text)
+            self._shell.line(text, stops=stops)
         except Exception as error:
-            kind = type(error).__name__
-            self._shell.out(f"That is a mistake in this software: {kind}: {error}")
+            self._shell.out(_as_mistake(error))
+        finally:
+            self._open_lines -= 1
+
+    # --- stopping, from any thread ---
+
+    @property
+    def _busy(self) -> bool:
+        """Whether there is something to stop, also a line that may come to something."""
+        return self._shell.robot.busy or self._open_lines > 0
+
+    def _stop_busy(self) -> bool:
+        """Ctrl-C silences and stops the robot; whether there was anything to stop."""
+        if self._busy:
+            self._shell.stop("the operator pressed Ctrl-C")
+            return True
+        self._shell.speech.hush()
+        return False
+
+    def _entered(self, line: str) -> None:
+        """Heed a cry before the prompt has it, which tells of it when it has."""
+        if self._busy and self._shell.is_cry(line):
+            self._shell.stop_unsaid("the operator said stop")
+
+    # --- what the library calls ---
 
     def _toolbar(self) -> StyleAndTextTuples:
+        assert self._prompt is not None
         size = self._prompt.output.get_size()
         rows = int(size.rows * PANEL_SHARE)
         return toolbar(self._shell.robot.view, columns=size.columns, rows=rows)
@@ -117,18 +209,50 @@ class Terminal:
         keys = KeyBindings()
 
         def stop(event: KeyPressEvent) -> None:
-            """Ctrl-C silences and stops the robot; with nothing to stop it clears the line."""
-            self._shell.speech.hush()
-            if self._shell.robot.busy:
-                self._shell.stop("the operator pressed Ctrl-C")
-            elif event.current_buffer.text:
+            """Ctrl-C that found nothing to stop as it was pressed clears the line."""
+            if self._stop_busy():
+                return
+            if event.current_buffer.text:
                 event.current_buffer.reset()
             else:
                 self._shell.out("The robot stands. Ctrl-D or `quit` leaves.")
 
+        def paste(event: KeyPressEvent) -> None:
+            """Each line that was pasted is a line; what follows the last end of one stays."""
+            pieces = plain(event.data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+            event.current_buffer.insert_text(pieces.pop(0))
+            typed: list[KeyPress] = []
+            for piece in pieces:
+                typed += [KeyPress(Keys.Enter, "\r"), KeyPress(Keys.BracketedPaste, piece)]
+            event.key_processor.feed_multiple(typed, first=True)
+
+        def ignore(_event: KeyPressEvent) -> None:
+            """Nobody asked for the mouse: what looks like a report of it is a pasted colour."""
+
         add: Callable[..., Callable[[Callable[[KeyPressEvent], None]], object]] = keys.add
-        add("c-c", eager=True)(stop)
+        for key in (Keys.ControlC, Keys.ControlBackslash):
+            add(key, eager=True)(stop)
+        add(Keys.BracketedPaste)(paste)
+        add(Keys.Vt100MouseEvent)(ignore)
         return keys
+
+
+def _as_mistake(error: BaseException) -> str:
+    return f"That is a mistake in this software: {type(error).__name__}: {error}"
+
+
+class _LastingHistory(FileHistory):
+    """What was typed before; what cannot be kept or read is left out."""
+
+    def load_history_strings(self) -> list[str]:
+        try:
+            return list(super().load_history_strings())
+        except OSError:
+            return []
+
+    def store_string(self, string: str) -> None:
+        with suppress(OSError):
+            super().store_string(string)
 
 
 def _history(path: Path | None) -> History:
@@ -140,4 +264,4 @@ def _history(path: Path | None) -> History:
         path.touch(mode=0o600)
     except OSError:
         return InMemoryHistory()
-    return FileHistory(str(path))
+    return _LastingHistory(str(path)) if path.is_file() else InMemoryHistory()

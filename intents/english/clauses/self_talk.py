@@ -13,6 +13,25 @@ _NOW = (
     r"| today)*"
 )
 _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
+    ("operator", r"(?:where|whereabouts|where in \w+ \w+) (?:am i|i am|do i stand|are we|we are)"
+                 r"(?: standing)?|what is my (?:position|location|place)"),
+    ("remaining", r"(?:and )?how (?:much|many) (?:longer|more|time|seconds|minutes)\b"
+                  r"(?: (?:time|seconds|minutes|is|are|do|will|does|it|that|this|you|need|take|be|left"
+                  r"|remaining|to|go|still|until|the|job|task|have|there|for|are|done|ready|finished"
+                  r"))*"),
+    ("remaining", r"how (?:long|far)(?: (?:is|are|will|does|do|it|that|this|you|need|take|be|left|to"
+                  r"|go|still|until|the|job|task|for|done|ready|finished|there|away|more|till|have"
+                  r"|got|way))*"),
+    ("remaining", r"what (?:time|distance) (?:is|remains)(?: (?:left|remaining|to go))?"
+                  r"|(?:what is the )?(?:time|distance|eta)(?: (?:left|remaining|to go))"
+                  r"|(?:what is (?:the|your) )?eta|what is left(?: to do| of it)?"
+                  r"|what (?:remains|is (?:next|still to do|to be done))(?: to do)?"),
+    ("remaining", r"when (?:will|are|is|do|does) (?:you|it|that|this|the (?:job|task))\b"
+                  r"(?: (?:be|get|finish|end|done|ready|finished|over|there|through|back|arrive"
+                  r"|complete))+"),
+    ("remaining", r"(?:are|is) (?:you|we|it|that) (?:nearly |almost )?(?:there|done|over|finished"
+                  r"|ready)(?: soon| yet| already)+|(?:are|is) (?:you|we) (?:nearly|almost)? ?there"
+                  r"|(?:nearly|almost) (?:done|there|finished|ready)"),
     ("why", r"what (?:stopped|made) you(?: \w+){0,2}"),
     ("why", r"what (?:is|was) the reason (?:that |why |for )?.*"),
     ("why", r"why (?:it|that|this) (?:did not|does not|has not|is not|was not|failed|stopped).*"),

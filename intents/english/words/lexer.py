@@ -1,8 +1,9 @@
 """Text to tokens: lower case, contractions undone, punctuation reduced to three signs."""
 
 import re
-import unicodedata
 from typing import NamedTuple
+
+from intents.letters import seen, unmixed
 
 COMMA = ","
 FULL_STOP = "."
@@ -76,7 +77,7 @@ _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("
 
 def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
-    text = unicodedata.normalize("NFKC", text).translate(_QUOTES)
+    text = unmixed(seen(text)).translate(_QUOTES)
     text = _AT_HE.sub(r"\1 the", _COMMA_S.sub(r"\1's", _APART.sub("", text)))
     for slip, meant in _SLIPS:
         text = slip.sub(meant, text)

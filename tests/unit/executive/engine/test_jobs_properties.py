@@ -8,12 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from executive.engine.jobs import BODY, OVER
+from executive.engine.jobs import OVER
 from executive.skills.balance import BalanceParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.skills.search import SearchParams
+from executive.skills.skill import BODY
 from executive.skills.wait import WaitParams
 from tests.fakes.rig import PICK, PUT, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import FakeSkill, Script

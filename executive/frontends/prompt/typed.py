@@ -1,0 +1,63 @@
+"""What was typed or pasted, as text: without what only tells a terminal how to show it."""
+
+from __future__ import annotations
+
+import re
+
+SEQUENCE = re.compile(
+    r"\x1b\[[0-?]*[ -/]*[@-~]"  # CSI: colours, keys, the marks around a paste
+    r"|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)"  # OSC: titles, links
+    r"|\x1bO.|\x1b"
+)
+"""A control sequence (ECMA-48), or the escape of one that is none."""
+COLOUR = re.compile(r"\x1b\[[\d;:]*m")
+"""Nobody types one, so that it was pasted; the input library takes it for a report of a mouse."""
+KEPT = 4096
+"""Bytes of a line that are kept: a cry stands at its beginning or its end."""
+
+
+def plain(text: str) -> str:
+    """A text without control sequences."""
+    return SEQUENCE.sub("", text)
+
+
+class Typed:
+    """Follows what is typed, byte by byte, and says which lines were entered.
+
+    It knows nothing of how the line is edited but for the keys that rub out, so a line may have
+    more in it than the one on the screen; that is enough to hear a cry to stop.
+    """
+
+    def __init__(self) -> None:
+        """Nothing was typed yet."""
+        self._line = b""
+
+    def clear(self) -> None:
+        """Forget what was typed so far."""
+        self._line = b""
+
+    def take(self, data: bytes) -> list[str]:
+        """The lines that end in what was typed now, each as people may have meant it.
+
+        A line with an escape in it is two: what follows the escape may be meant as text, or not.
+        """
+        *ended, rest = re.split(rb"[\r\n]", self._line + data)
+        self._line = rest if len(rest) <= KEPT else rest[: KEPT // 2] + rest[-KEPT // 2 :]
+        return [text for line in ended for text in _readings(line)]
+
+
+def _readings(line: bytes) -> list[str]:
+    text = line.decode(errors="ignore").rpartition("\x15")[2]  # Ctrl-U
+    readings = [plain(text), text] if "\x1b" in text else [text]
+    return [_rubbed_out(reading) for reading in readings]
+
+
+def _rubbed_out(text: str) -> str:
+    """What is left of a text with the keys in it that rub out a letter."""
+    left: list[str] = []
+    for one in text:
+        if one in "\x7f\b":
+            del left[-1:]
+        elif one >= " ":
+            left.append(one)
+    return "".join(left)
