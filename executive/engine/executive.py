@@ -407,4 +407,5 @@ class Executive:
     def _say(self, text: str) -> None:
         self._voice.set(SAID, text)
         self.stage.record("said", text=text)
+        self._context.link.speak(text)
         self._say_on(text)
