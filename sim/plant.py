@@ -25,10 +25,10 @@ from sim.battery import Battery
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
-from sim.people import PERIOD_S as PEOPLE_PERIOD_S
 from sim.people import People
 from sim.placing import placed
 from sim.sensing import Sensing
+from sim.somebody import PERIOD_S as PEOPLE_PERIOD_S
 from sim.world_schema import World
 
 NEVER = 1 << 62
