@@ -82,6 +82,7 @@ class SilentLink:
     messages: dict[str, object] = field(default_factory=lambda: defaultdict(lambda: None))
     sent: list[object] = field(default_factory=list)
     spoken: list[str] = field(default_factory=list)
+    says: list[Heard] = field(default_factory=list)
     time_s: float = 0.0
 
     def send(self, command: object) -> None:
@@ -118,4 +119,5 @@ class SilentLink:
         self.spoken.append(text)
 
     def heard(self) -> list[Heard]:
-        return []
+        heard, self.says = self.says, []
+        return heard
