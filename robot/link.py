@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol
 
 from robot.bus import topics
@@ -11,9 +12,11 @@ from robot.messages import (
     BodyCommand,
     BodyState,
     DepthImage,
+    Heard,
     LidarScan,
     LoopTiming,
     PowerState,
+    Spoken,
     WorldMap,
     WorldState,
 )
@@ -62,6 +65,14 @@ class BodyLink(Protocol):
         """How well the controller keeps its time; None where time is simulated."""
         ...
 
+    def speak(self, text: str) -> None:
+        """Let people who stand near hear a text."""
+        ...
+
+    def heard(self) -> Sequence[Heard]:
+        """What people have said since this was asked last, oldest first."""
+        ...
+
 
 class BusLink:
     """A `BodyLink` over a bus; command ids grow from 1, or from where somebody before ended."""
@@ -76,6 +87,7 @@ class BusLink:
         self._lidar = bus.subscribe(topics.LIDAR)
         self._depth = bus.subscribe(topics.DEPTH)
         self._power = bus.subscribe(topics.POWER)
+        self._heard = bus.subscribe(topics.HEARD)
         self._timing = bus.subscribe(topics.CONTROLLER_TIMING)
 
     def send(self, command: BodyCommand) -> None:
@@ -120,3 +132,11 @@ class BusLink:
     def timing(self) -> LoopTiming | None:
         """How well the controller keeps its time; None where time is simulated."""
         return self._timing.latest
+
+    def speak(self, text: str) -> None:
+        """Let people who stand near hear a text. Raises BusError if the bus is closed."""
+        self._bus.publish(topics.SPOKEN, Spoken(stamp_s=self._clock.now_s(), text=text))
+
+    def heard(self) -> Sequence[Heard]:
+        """What people have said since this was asked last, oldest first."""
+        return self._heard.take()

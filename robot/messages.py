@@ -229,6 +229,23 @@ class LoopTiming(Message, frozen=True, kw_only=True):
     pressed: bool = False
 
 
+# --- the robot and people ----------------------------------------------------------------------
+
+
+class Spoken(Message, frozen=True, kw_only=True):
+    """What the robot says aloud: people who stand near can hear it."""
+
+    text: str
+
+
+class Heard(Message, frozen=True, kw_only=True):
+    """What a person says to the robot; `source` is "oracle" for people who are simulated."""
+
+    text: str
+    person_id: str
+    source: Source = "oracle"
+
+
 # --- sensors and oracle ------------------------------------------------------------------------
 
 

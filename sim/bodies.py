@@ -15,6 +15,8 @@ from robot.messages import Obstacle
 from robot.se3 import SE3
 from sim import atlas, furniture
 from sim.paint import Paint
+from sim.person_arm import ArmSide, links
+from sim.rays import UNSENSED
 from sim.world_schema import Furniture, Object, Person
 
 FLOOR_FRICTION = [0.9, 0.01, 0.0005]
@@ -115,20 +117,47 @@ def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
         ((0.02, -0.085, 0.04), (0.14, -0.085, 0.04), 0.040, shoes),
         ((0, 0, 0.95), (0, 0, 1.25), 0.140, shirt),
         ((0, 0.12, 1.34), (0, -0.12, 1.34), 0.070, shirt),
-        ((0, 0.19, 1.34), (0.02, 0.23, 1.08), 0.045, shirt),
-        ((0, -0.19, 1.34), (0.02, -0.23, 1.08), 0.045, shirt),
-        ((0.02, 0.23, 1.06), (0.10, 0.22, 0.84), 0.036, skin),
-        ((0.02, -0.23, 1.06), (0.10, -0.22, 0.84), 0.036, skin),
+        ((0, 0.19, 1.34), (0.02, 0.23, 1.08), 0.045, shirt, "left_upper_arm"),
+        ((0, -0.19, 1.34), (0.02, -0.23, 1.08), 0.045, shirt, "right_upper_arm"),
+        ((0.02, 0.23, 1.06), (0.10, 0.22, 0.84), 0.036, skin, "left_forearm"),
+        ((0.02, -0.23, 1.06), (0.10, -0.22, 0.84), 0.036, skin, "right_forearm"),
         ((0, 0, 1.38), (0, 0, 1.46), 0.050, skin),
     ]
-    for start, end, radius, material in limbs:
+    for start, end, radius, material, *part in limbs:
         ends = [value * scale for value in (*start, *end)]
-        body.add_geom(type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material)
+        name = f"person/{person.id}/{part[0]}" if part else ""
+        body.add_geom(
+            name=name, type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material
+        )
     for p, radius, material in (
         ((0.0, 0.0, 1.585), 0.105, skin), ((-0.02, 0.0, 1.605), 0.108, hair),
     ):  # fmt: skip
         place = [value * scale for value in p]
         body.add_geom(type=SPHERE, pos=place, size=[radius * scale, 0, 0], material=material)
+    for side, out in (("left", 1.0), ("right", -1.0)):
+        _add_hand(body, person, side, out * scale, skin)
+
+
+def _add_hand(
+    body: mujoco.MjsBody, person: Person, side: ArmSide, out: float, material: str
+) -> None:
+    """A palm with fingers and a thumb, below the forearm; drawn only (`sim.person_arm`)."""
+    scale = abs(out)
+    *_, palm, fingers, thumb = links(person.id, side)
+    parts = (  # a point, radius and length along the forearm of a figure of 1.70 m
+        (palm, (0.131, 0.217, 0.756), 0.028, 0.035),
+        (fingers, (0.150, 0.222, 0.704), 0.011, 0.050),
+        (thumb, (0.158, 0.195, 0.715), 0.011, 0.050),
+    )
+    for name, (x, y, z), radius, length in parts:
+        low = (x + 0.17 * length, y, z - 0.49 * length)
+        high = (x - 0.17 * length, y, z + 0.49 * length)
+        ends = [scale * low[0], out * low[1], scale * low[2]]
+        ends += [scale * high[0], out * high[1], scale * high[2]]
+        body.add_geom(
+            name=name, type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material,
+            contype=0, conaffinity=0, group=UNSENSED,
+        )  # fmt: skip
 
 
 def _body(spec: mujoco.MjSpec, name: str, pose: SE3) -> mujoco.MjsBody:

@@ -40,7 +40,7 @@ SENSORS: dict[str, tuple[str, ...]] = {
 }
 """A sensor to the topics that fall silent with it."""
 SENT = [
-    *(topic.name for topic in TOPICS if topic.source == "plant"),
+    *(topic.name for topic in TOPICS if topic.source == "plant" and topic.rate_hz is not None),
     *(sense.topic.name for sense in SENSES),
 ]
 """What a plant sends, or the drivers of its sensors publish."""

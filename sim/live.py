@@ -40,6 +40,7 @@ class LivePlant:
         self.refused: list[str] = []
         self._plant, self._body, self._bus, self._clock = plant, body, bus, clock
         self._faults = bus.subscribe(FAULT)
+        self._spoken = bus.subscribe(topics.SPOKEN)
         self._controller = bus.subscribe(topics.CONTROLLER_TIMING)
         self._lateness = Lateness("plant", PERIOD_S)
         self._due_s = clock.now_s()
@@ -60,6 +61,8 @@ class LivePlant:
                 faults.apply(plant, fault)
             except ConfigError as error:
                 self.refused.append(str(error))
+        for spoken in self._spoken.take():
+            plant.hear(spoken.text)
         sample = plant.read()
         self._body.publish(sample)
         if (timing := self._controller.latest) is not None:

@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robot.bus.topics import Topic
+from robot.bus.topics import HEARD, Topic
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
@@ -25,8 +25,10 @@ from sim.battery import Battery
 from sim.body_sensors import BodySensors
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
+from sim.people import People
 from sim.placing import placed
 from sim.sensing import Sensing
+from sim.somebody import PERIOD_S as PEOPLE_PERIOD_S
 from sim.world_schema import World
 
 NEVER = 1 << 62
@@ -48,6 +50,7 @@ class Plant:
         motors: the motors' firmware.
         battery: an emulated one, if the robot describes one.
         sensing: sensors and oracle.
+        people: what those who stand around do.
     """
 
     def __init__(
@@ -76,7 +79,7 @@ class Plant:
             DescriptionError: if the robot's description and its MJCF disagree.
             ConfigError: if a place is too full for the objects that want a random spot.
         """
-        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
+        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(4)]
         self.world = placed(world, seeds[0])
         self.robot = robot
         # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
@@ -92,6 +95,8 @@ class Plant:
             self.model, self.data, self.world, robot=robot, rng=seeds[2],
             pose_error_m=pose_error_m, battery=self.battery,
         )  # fmt: skip
+        self.people = People(self.model, self.data, self.world, robot=robot, rng=seeds[3])
+        self._people_ms = NEVER
         self._physics_ms = physics_ms
         self._now_ms = 0
         self._watchdog_ms, self._patience_ms = NEVER, self._ms(WATCHDOG_S)
@@ -167,7 +172,16 @@ class Plant:
 
     def sense(self, now_s: float | None = None) -> list[tuple[Topic[Any], Message]]:
         """Topics and messages of depth, lidar and oracle that are due (by the plant's time)."""
-        return self.sensing.due(self.time_s if now_s is None else now_s)
+        now_s = self.time_s if now_s is None else now_s
+        said = [(HEARD, heard) for heard in self.people.said(now_s)]
+        return [*self.sensing.due(now_s), *said]
+
+    def hear(self, text: str) -> None:
+        """Let the people who stand near hear what the robot says."""
+        mujoco.mj_kinematics(self.model, self.data)  # positions are those of the last step
+        self.people.hear(text)
+        if self.people.busy and self._people_ms == NEVER:
+            self._people_ms = self._now_ms + self._ms(PEOPLE_PERIOD_S)
 
     def step(self, count: int = 1) -> None:
         """Advance `count` milliseconds, a multiple of the physics' time step.
@@ -181,7 +195,9 @@ class Plant:
         end = self._now_ms + count
         while self._now_ms < end:
             later_ms = self._later[0][0] if self._later else NEVER
-            pause = min(end, self._watchdog_ms, self._heat_ms, self._pull_ms, later_ms)
+            pause = min(
+                end, self._watchdog_ms, self._heat_ms, self._pull_ms, self._people_ms, later_ms
+            )
             if pause > self._now_ms:
                 steps = (pause - self._now_ms) // self._physics_ms
                 mujoco.mj_step(self.model, self.data, steps)
@@ -261,6 +277,11 @@ class Plant:
             self.motors.heat(HEAT_PERIOD_S)
             self._draw(HEAT_PERIOD_S)
             self._heat_ms += self._ms(HEAT_PERIOD_S)
+        if self._now_ms >= self._people_ms:
+            self.people.tick()
+            busy = self.people.busy
+            self._people_ms = self._now_ms + self._ms(PEOPLE_PERIOD_S) if busy else NEVER
+            self._apply_pulls()
         if self._now_ms >= self._pull_ms:
             self._apply_pulls()
         while self._later and self._now_ms >= self._later[0][0]:
@@ -285,6 +306,7 @@ class Plant:
         self.data.xfrc_applied[:] = 0.0
         for _, body, force in self._pulls:
             self.data.xfrc_applied[body, :3] += force
+        self.people.press()
 
 
 def _close_couplings(model: mujoco.MjModel, qpos: Array) -> None:

@@ -92,13 +92,28 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     yaw_deg: q.Heading = 0.0
 
 
+class Behaviour(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a simulated person does by themselves when the robot speaks to them.
+
+    Attributes:
+        takes: they take what is held out to them, and keep it.
+        steps_aside: they make room when they are asked to.
+        answers: what they answer to a question; empty: they say nothing at all.
+    """
+
+    takes: bool = True
+    steps_aside: bool = True
+    answers: str = "Yes."
+
+
 class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Somebody who stands there."""
+    """Somebody who stands there, and does what their behaviour says."""
 
     at_m: tuple[q.Place, q.Place]
     yaw_deg: q.Heading = 0.0
     height_m: q.Height = 1.70
     color: str = "blue"
+    behaviour: Behaviour = Behaviour()
 
 
 class Start(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

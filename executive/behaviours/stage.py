@@ -31,12 +31,16 @@ class Stopping(msgspec.Struct, frozen=True, eq=False):
     scope: Scope
 
 
+def _silent(_text: str) -> None:
+    """Let nobody hear it."""
+
+
 class HelpDesk:
     """The one open question to a person, and the answer to it."""
 
-    def __init__(self, board: Writer) -> None:
-        """Show questions on the board."""
-        self._board = board
+    def __init__(self, board: Writer, speak: Callable[[str], None]) -> None:
+        """Show questions on the board, and let people who stand near hear them."""
+        self._board, self._speak = board, speak
         self.attended = False
         """Whether somebody is there who can answer."""
         self.asker: object | None = None
@@ -46,6 +50,7 @@ class HelpDesk:
         """Open a question."""
         self.asker, self.answer = asker, None
         self._board.set(HELP, question)
+        self._speak(question)
 
     def close(self) -> None:
         """Take the question back."""
@@ -61,15 +66,25 @@ class Stage:
     the parts of the body that it uses stay taken until then.
     """
 
-    def __init__(self, board: Blackboard, journal: Journal, make_skill: MakeSkill) -> None:
-        """Set the stage; becomes the writer of the tasks' and the skills' keys."""
+    def __init__(
+        self,
+        board: Blackboard,
+        journal: Journal,
+        make_skill: MakeSkill,
+        *,
+        speak: Callable[[str], None] = _silent,
+    ) -> None:
+        """Set the stage; becomes the writer of the tasks' and the skills' keys.
+
+        `speak` lets people who stand near the robot hear its questions.
+        """
         self.board = board
         self.journal = journal
         self.make_skill = make_skill
         self.task = board.claim("task")
         self.scope = self.own = Scope()
         self.recovers = True
-        self.help = HelpDesk(self.task)
+        self.help = HelpDesk(self.task, speak)
         self.breakpoints = Breakpoints()
         self._phases = board.claim("skills")
         self._taken: dict[Resource, Skill] = {}

@@ -96,7 +96,7 @@ class Executive:
         self._say_on = context.say
         self._context = replace(context, say=self._say, speed_limit=self._speed_limit)
         self._make = make
-        self.stage = Stage(self.board, journal, self._make_skill)
+        self.stage = Stage(self.board, journal, self._make_skill, speak=context.link.speak)
         self.estop = EmergencyStop()
         monitor = HealthMonitor(
             rates_hz,
@@ -407,4 +407,5 @@ class Executive:
     def _say(self, text: str) -> None:
         self._voice.set(SAID, text)
         self.stage.record("said", text=text)
+        self._context.link.speak(text)
         self._say_on(text)

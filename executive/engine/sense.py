@@ -6,6 +6,7 @@ import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.behaviours.ask import ANSWERS
 from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.engine.health_monitor import HealthMonitor
@@ -54,6 +55,7 @@ class Sense(Behaviour):
         self._feel()
         self._reminder.look(body, self._stage.now_s)
         self._notice_pulls(body)
+        self._hear()
         stamps_s = {
             "body/state": _stamp(body),
             "world/state": _stamp(world),
@@ -90,6 +92,15 @@ class Sense(Behaviour):
             if hand.pulls > self._pulls.get(side, 0):
                 self._stage.record("slip", side=side)
             self._pulls[side] = hand.pulls
+
+    def _hear(self) -> None:
+        """Journal what people say; it answers the open question if it can be an answer to it."""
+        for heard in self._link.heard():
+            simulated = heard.source == "oracle"
+            self._stage.record("heard", who=heard.person_id, text=heard.text, simulated=simulated)
+            desk = self._stage.help
+            if desk.asker is not None and desk.answer is None and heard.text in ANSWERS:
+                desk.answer = heard.text
 
     def _journal(self, health: Health) -> None:
         """Journal what has come up or gone away since the last tick."""

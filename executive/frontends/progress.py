@@ -125,7 +125,8 @@ def _drawn(depth: int, shown: Shown) -> Text:
 
 NEWS = frozenset({
     "step", "done", "failure", "recovery", "no recovery", "hold", "abort", "stopping", "paused",
-    "resume", "resumed", "help", "answer", "fault", "health", "said", "warning",
+    "resume", "resumed", "help", "answer", "fault", "health", "said", "heard",
+    "warning",
     "slip", "break",
 })  # fmt: skip
 """Kinds of events that people are told as they happen."""

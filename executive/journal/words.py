@@ -116,7 +116,12 @@ def _fault(data: Mapping[str, Any]) -> str:
     return f"{head} ({particulars})" if particulars else head
 
 
-_OF_KIND = {"health": _health, "expect": _expect, "fault": _fault}
+def _heard(data: Mapping[str, Any]) -> str:
+    whose = ", who is simulated," if data.get("simulated") else ""
+    return f"{data.get('who', 'somebody')}{whose} says: {data.get('text', '')}"
+
+
+_OF_KIND = {"health": _health, "heard": _heard, "expect": _expect, "fault": _fault}
 
 
 def told(value: object) -> str:

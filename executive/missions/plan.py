@@ -81,7 +81,7 @@ def lines(plan: Plan) -> list[str]:
     width = max((len(row.path) for row in plan.rows), default=0)
     found: list[str] = []
     for row in plan.rows:
-        takes = "" if not row.takes_s else f"about {row.takes_s:.0f} s"
+        takes = "" if not row.takes_s else _about(row.takes_s)
         text = f"  {row.path:{width}}  {'  ' * row.depth}{row.name}"
         found.append(f"{text:60}  {takes}".rstrip())
         if row.problem:
@@ -90,6 +90,10 @@ def lines(plan: Plan) -> list[str]:
     total = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
     found.append(f"In all about {total}, without recoveries.")
     return found
+
+
+def _about(takes_s: float) -> str:
+    return f"about {takes_s:.0f} s" if takes_s >= 0.5 else "under 1 s"
 
 
 class _Forecaster:

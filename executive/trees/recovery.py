@@ -88,7 +88,7 @@ RULES: dict[str, Rule] = {
     "object_not_seen": _first(look_again=1, ask=1),
     "on_the_floor": _first(ask=1),
     "not_taken": _first(ask=1),
-    "person_near": _first(wait=3, ask=1),
+    "person_near": _first(wait=2, step_back=1, ask=1),
     "person_not_seen": _first(wait=1, ask=1),
     "not_holding": _first(fetch_again=1),
     "hands_full": _first(ask=1),

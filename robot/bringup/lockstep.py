@@ -88,6 +88,7 @@ class Lockstep(Closing):
         self._controller: Controller | None = control()
         self._perception = perception
         self._commands = bus.subscribe(topics.BODY_COMMAND)
+        self._spoken = bus.subscribe(topics.SPOKEN)
         self._body = body
         self._opened = ExitStack()
         self._time_ms = 0
@@ -171,6 +172,8 @@ class Lockstep(Closing):
         self.clock.set(now_s)
         if self._controller is not None:
             self._bus.publish(topics.BODY_STATE, self._controller.state())
+        for spoken in self._spoken.take():
+            self.plant.hear(spoken.text)
         sensed = list(self.plant.sense(now_s))
         for topic, message in sensed:
             self._bus.publish(topic, message)

@@ -13,11 +13,13 @@ from robot.messages import (
     BodyCommand,
     BodyState,
     DepthImage,
+    Heard,
     LidarScan,
     LoopTiming,
     PoseFix,
     PowerState,
     Sightings,
+    Spoken,
     WorldMap,
     WorldState,
 )
@@ -80,6 +82,8 @@ DEPTH: Topic[DepthImage] = Topic(
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
+SPOKEN: Topic[Spoken] = Topic("voice/spoken", Spoken, None, "executive", queue=32)
+HEARD: Topic[Heard] = Topic("oracle/heard", Heard, None, "plant", queue=32)
 POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "controller")
 WORLD_STATE: Topic[WorldState] = Topic(
     "world/state", WorldState, 10.0, "perception",
@@ -97,6 +101,8 @@ TOPICS: tuple[Topic[Any], ...] = (
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,
+    SPOKEN,
+    HEARD,
     POWER,
     CONTROLLER_TIMING,
     PLANT_TIMING,

@@ -106,6 +106,10 @@ class Plant(SimulatedPlant, Protocol):
         """Topics and messages of the sensors that are due."""
         ...
 
+    def hear(self, text: str) -> None:
+        """Let the people who stand near hear what the robot says."""
+        ...
+
     def suffer(self, fault: Fault) -> None:
         """Let a fault happen now. Raises ConfigError if it names what is not there."""
         ...

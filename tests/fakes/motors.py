@@ -31,6 +31,7 @@ class FakePlant:
         self.due: list[tuple[Topic, object]] = []
         self.calls: list[str] = []
         self.suffered: list[object] = []
+        self.heard: list[str] = []
         self.q = np.zeros(count)
         self._diverge_at_s = diverge_at_s
         self.sample = self.read()
@@ -80,6 +81,9 @@ class FakePlant:
 
     def suffer(self, fault: object) -> None:
         self.suffered.append(fault)
+
+    def hear(self, text: str) -> None:
+        self.heard.append(text)
 
     def sense(self, now_s: float) -> list[tuple[Topic, object]]:
         self.calls.append("sense")

@@ -56,6 +56,9 @@ class Puppet:
     pull_n: float = 0.0
     """How hard somebody pulls at what a hand holds; they take it when the hand opens."""
     turned_rad: float = 0.0
+    spoken: list[str] = field(default_factory=list)
+    says: list[m.Heard] = field(default_factory=list)
+    """What people say to it next."""
     since_s: float = 0.0
     """When its controller began."""
 
@@ -101,6 +104,13 @@ class Puppet:
 
     def timing(self) -> m.LoopTiming | None:
         return None
+
+    def speak(self, text: str) -> None:
+        self.spoken.append(text)
+
+    def heard(self) -> list[m.Heard]:
+        heard, self.says = self.says, []
+        return heard
 
     def world(self) -> m.WorldState:
         tracks = tuple(

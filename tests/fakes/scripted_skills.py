@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.failures import failure
-from robot.messages import WorldMap
+from robot.messages import Heard, WorldMap
 
 
 @dataclass
@@ -81,6 +81,8 @@ class SilentLink:
 
     messages: dict[str, object] = field(default_factory=lambda: defaultdict(lambda: None))
     sent: list[object] = field(default_factory=list)
+    spoken: list[str] = field(default_factory=list)
+    says: list[Heard] = field(default_factory=list)
     time_s: float = 0.0
 
     def send(self, command: object) -> None:
@@ -112,3 +114,10 @@ class SilentLink:
 
     def timing(self):
         return self.messages["timing"]
+
+    def speak(self, text: str) -> None:
+        self.spoken.append(text)
+
+    def heard(self) -> list[Heard]:
+        heard, self.says = self.says, []
+        return heard

@@ -12,6 +12,8 @@ from intents import goals
 from robot.messages import ObjectInfo, Place
 
 COMFORTABLE_HEIGHT_M = 0.8
+COVERED_M = 1.0
+"""A surface with less free height above it lies in its piece of furniture; tops are open."""
 
 
 def pick(goal: goals.Pick, scene: Scene) -> Part:
@@ -35,10 +37,11 @@ def _pick_one(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
 def place(goal: goals.Place, scene: Scene) -> Part:
     """Put one thing somewhere, after fetching it."""
     info = scene.object(goal.object)
-    target = goal.on or goal.in_
-    if target is None:
+    if goal.in_ is not None:
+        return _put(info, goal.object, goal.in_, scene, inside=True)
+    if goal.on is None:
         raise cannot("invalid_goal", f"put {info.full_name} where?", suggestion="name a place")
-    return _put(info, goal.object, target, scene)
+    return _put(info, goal.object, goal.on, scene)
 
 
 def give(goal: goals.Give, scene: Scene) -> Part:
@@ -70,8 +73,17 @@ def bring(goal: goals.Bring, scene: Scene) -> Part:
     return _put(scene.object(goal.object), goal.object, goal.to, scene)
 
 
-def _put(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene) -> Part:
-    """Put an object on a place, after fetching it unless it is in the hand by then."""
+def _put(
+    info: ObjectInfo,
+    query: goals.ObjectQuery,
+    target: str,
+    scene: Scene,
+    *,
+    inside: bool = False,
+) -> Part:
+    """Put an object on (or in) a place, after fetching it unless it is in the hand by then."""
+    if inside:
+        _check_inside(target, scene)
     place = _best_surface(info, target, scene)
     name = info.full_name
     params = PlaceParams(object_id=info.id, place_id=place.id)
@@ -82,6 +94,23 @@ def _put(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene) 
     fetch = _pick_one(info, query, scene)
     scene.put_down(info.id)
     return Series(name=f"bring {name} to the {target}", parts=(fetch, put))
+
+
+def _check_inside(target: str, scene: Scene) -> None:
+    """Refuse to put something in what has no inside: what stands on it would not be in it.
+
+    An inside is made of surfaces with something above them, as the boards of a shelf are.
+    """
+    wanted = surfaces(scene.places(target))
+    of = {place.of for place in wanted}
+    covered = any(p.of in of and p.clearance_m < COVERED_M for p in scene.knowledge.map.places)
+    if wanted and not covered:
+        name = wanted[0].name
+        raise cannot(
+            "invalid_goal",
+            f"the {name} has no inside that this robot can reach",
+            suggestion=f"if on top of it will do, say: put it on the {name}",
+        )
 
 
 def _best_surface(info: ObjectInfo, target: str, scene: Scene) -> Place:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from executive.skills.motions.back_away import back_away
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
 from executive.skills.motions.planning import stance_of
@@ -23,12 +24,14 @@ def stow_arms(body: Body) -> Script[None]:
 def stow_arm(body: Body, side: Side) -> Script[None]:
     """Bring one arm in.
 
-    Where no motion is free, because the hand is among things, steps back once and tries again.
+    Steps back from somebody who is too near for the arm to move. Where no motion is free, because
+    the hand is among things, steps back once and tries again.
     """
     held = body.context.holdings.at(side)
     goal_rad = held.carry_rad if held is not None else posture_rad(body, side, HOME)
     if is_at(body, side, goal_rad):
         return
+    yield from back_away(body, side)
     keep_upright = body.context.holdings.must_stay_upright(side)
     before = body.phase
     body.phase = f"bringing the {side} arm in"

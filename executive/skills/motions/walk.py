@@ -15,7 +15,7 @@ from executive.skills.motions.fingers import check_grips
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.obstructions import in_the_way
 from executive.skills.motions.path_follower import Follower, Velocity, turn_towards
-from executive.skills.motions.personal_space import in_the_path
+from executive.skills.motions.personal_space import in_the_path, somebody_near
 from executive.skills.motions.planning import ask, pose_of, stance_of
 from executive.skills.motions.script import Script, give_up
 from executive.skills.motions.support import surroundings
@@ -48,6 +48,10 @@ LOOK_HEIGHT_M = 0.5
 STOP_TIMEOUT_S = 5.0
 MOVING_M_S = 0.03
 LET_PASS_S = 6.0
+BESIDE_M = 0.3
+"""What stands as near as this to where somebody is seen is taken to be them."""
+EXCUSE = "Excuse me."
+"""What somebody who stands in the way is told, before a way around them is planned."""
 
 
 def walk_to(body: Body, goal: Stance) -> Script[None]:
@@ -70,6 +74,8 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
         words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
         x_m, y_m = (blocker.X_WO.p[i] - body.X_WS.p[i] for i in range(2))
+        if somebody_near(body, blocker.X_WO.p, within_m=BESIDE_M) is not None:
+            body.context.say(EXCUSE)
         yield from _let_pass(body, math.atan2(y_m, x_m))
         body.phase = words
     assert blocker is not None

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.phrases.complements import Clause, Complement, connector_end
-from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.phrase import SAID_HOW, Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
 from intents.english.words.verbs import verbs_at
@@ -26,7 +26,6 @@ from intents.goals import (
     Wait,
 )
 
-_HOW = {"left": "to the left of", "right": "to the right of", "in_front": "in front of"}
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -73,6 +72,8 @@ def _put_down(goal: Goal) -> Goal:
 def bring(clause: Clause, scope: Scope) -> list[Goal]:
     """Bring me a drink from the cabinet; bring the cup to the desk."""
     slots = Slots(clause, scope)
+    into = slots.peek("into")
+    inside = into is not None and into.phrase.is_spot and not into.phrase.name("room")
     to = _receiver(slots)
     if to is None:
         to = _near_destination(slots)
@@ -88,6 +89,10 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         return [Pick(object=replace(o, at=o.at or at)) for o in objects]
     slots.direction("backward")
     slots.done()
+    if inside and isinstance(to, str):  # to bring into a cabinet is to put in it, not on it
+        return [
+            _each(replace(o, at=o.at or at), lambda q: Place(object=q, in_=to)) for o in objects
+        ]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
@@ -292,13 +297,11 @@ def _destination(slots: Slots) -> tuple[str, str] | None:
 def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
     if is_person(place.of, scope):
         raise Misfit("I can put things on or in places; to people I give them")
-    if place.how not in ("on", "in", None, "near", "above"):
-        where = _HOW.get(place.how, place.how)
-        raise NotUnderstood(f"I can put things on or in a place, not {where} something")
-    near_object = place.how == "near" and not place.of.is_spot
-    near_object = near_object and (place.of.name("object") or place.of.noun == "one")
-    if near_object:
+    if place.how == "near" and (place.of.name("object") or place.of.noun == "one"):
         raise NotUnderstood("I can put things on or in a place, not next to another object")
+    if place.how not in ("on", "in", None):
+        where = SAID_HOW.get(place.how, place.how)
+        raise NotUnderstood(f"I can put things on or in a place, not {where} something")
     where = to_place(place.of, scope, objects=True)
     if where == OPERATOR:
         raise Unclear("Where shall I put it?")

@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from intents.english.frames.slots import Slots, need
 from intents.english.phrases.complements import Clause, Complement
-from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.phrase import SAID_HOW, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.measures import STEP_M
@@ -16,6 +16,7 @@ from intents.goals import (
     Find,
     Goal,
     GoTo,
+    How,
     LookAt,
     ObjectQuery,
     Place,
@@ -25,6 +26,8 @@ from intents.goals import (
 _FULL_TURN = 2 * pi
 _SEARCHED = ("scan", "check", "comb through", "scanning", "checking")
 """Verbs with which it is the place that is named first: scan the shelf for the cup."""
+_BESIDES: tuple[How, ...] = ("behind", "under", "above", "left", "right")
+"""Where a robot that walks to a place does not come to stand."""
 _BY = ("forward", "backward", "left", "right")
 
 
@@ -74,12 +77,19 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if target is None or source is not None:
         raise Misfit("I need to know where to go to")
     slots.done()
+    _must_be_to(target, clause)
+    return [_towards(clause, scope, phrase) for phrase in target.phrases]
+
+
+def _must_be_to(target: Complement, clause: Clause) -> None:
+    """Refuse to walk around, behind or under what is named: the robot walks to a place."""
     said = clause.text.words[clause.first : target.phrase.start]
     way = next((w for w in ("around", "round", "along", "past", "between") if w in said), None)
+    if way is None and target.how in _BESIDES:
+        way = SAID_HOW.get(target.how, target.how)
     if way:
         places = "two" if way == "between" else "one"
         raise NotUnderstood(f"I can walk to a place, not {way} {places}")
-    return [_towards(clause, scope, phrase) for phrase in target.phrases]
 
 
 def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:

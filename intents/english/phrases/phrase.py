@@ -15,6 +15,15 @@ Noun = Literal[
 ]  # fmt: skip
 
 
+SAID_HOW: dict[How, str] = {
+    "left": "to the left of",
+    "right": "to the right of",
+    "in_front": "in front of",
+    "near": "next to",
+}
+"""How a relation is said, where that is not its own name."""
+
+
 @dataclass(slots=True)
 class Locative:
     """Where something is: a preposition and what follows it; ``how`` None is plain "at".

@@ -8,9 +8,11 @@ from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
 from executive.behaviours.run_skill import RunSkill
 from executive.blackboard import HELP
 from executive.engine.executive import JobError
+from executive.journal.words import sentence
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.trees.idioms import Alternatives, in_order
+from robot.messages import Heard
 from tests.fakes.rig import PICK, WAIT, WALK, Rig
 from tests.fakes.scripted_skills import Script
 
@@ -75,6 +77,29 @@ def test_help_is_asked_for_and_the_job_goes_on_when_it_came():
     assert rig.run() is True
     assert rig.board.read(HELP) == ""
     assert rig.events("help", "answer") == ["help", "answer"]
+
+
+def test_people_who_stand_near_hear_the_question_and_may_answer_it():
+    rig = asking(Rig({PickParams: [Script(code="no_grasp"), Script()]}))
+    rig.tick(10)
+    assert rig.link.spoken == ["please hand me the cup"]
+    rig.link.says = [Heard(stamp_s=rig.now_s, text="what?", person_id="ann")]
+    rig.tick(2)
+    assert rig.executive.question, "that was no answer"
+    rig.link.says = [Heard(stamp_s=rig.now_s, text="continue", person_id="ann")]
+    assert rig.run() is True
+    assert rig.events("heard", "answer") == ["heard", "heard", "answer"]
+    told = [data for _, kind, data in rig.at("heard")]
+    assert all(data["simulated"] and data["who"] == "ann" for data in told)
+    assert "who is simulated" in sentence("heard", told[0])
+
+
+def test_what_people_say_when_nothing_was_asked_is_only_noted():
+    rig = Rig()
+    rig.begin(WALK)
+    rig.link.says = [Heard(stamp_s=0.0, text="give up", person_id="ann")]
+    assert rig.run() is True
+    assert rig.events("heard", "answer") == ["heard"]
 
 
 @pytest.mark.parametrize(("attended", "limit_s"), [(False, ALONE_S), (True, PATIENCE_S)])

@@ -74,6 +74,20 @@ def test_several_things_are_fetched_one_after_the_other():
         ("pick up the crate", "no_grasp", "cm"),
         ("pick up the anvil", "invalid_goal", "kg"),
         ("put the red cup on the loft", "out_of_reach", "high"),
+        ("put the red cup in the table", "invalid_goal", "no inside"),
+        ("put the red cup down into the table", "invalid_goal", "no inside"),
+        ("bring the red cup into the table", "invalid_goal", "no inside"),
+        ("put the red cup above the table", "refusal", "above"),
+        ("put the red cup over the shelf", "refusal", "above"),
+        ("put the red cup beside the table", "refusal", "next to"),
+        ("put the red cup near the table", "refusal", "next to"),
+        ("put the red cup under the table", "refusal", "under"),
+        ("put the red cup behind the table", "refusal", "behind"),
+        ("put the red cup in front of the table", "refusal", "in front of"),
+        ("put the red cup to the left of the table", "refusal", "to the left of"),
+        ("put the red cup between the table and the loft", "refusal", "between"),
+        ("walk behind the table", "refusal", "behind"),
+        ("walk under the table", "refusal", "under"),
         ("open the door", "unsupported", "open"),
         ("clap", "unsupported", "clap"),
         ("stand on one leg for 500 seconds", "invalid_goal", "leg"),
@@ -85,6 +99,15 @@ def test_what_cannot_be_done_is_refused_with_its_reason(text, outcome, words):
     assert refused.outcome == outcome, refused
     assert words in refused.reason
     assert refused.suggestion
+
+
+@pytest.mark.parametrize("text", ["put it in the lower shelf", "put it in the upper shelf"])
+def test_between_the_boards_of_a_shelf_is_in_it(text):
+    outcome = request(f"pick up the red cup and {text}", WHERE)
+    assert not isinstance(outcome, Refused), outcome
+    *_, put = (errand.params for errand in errands(outcome.task))
+    assert isinstance(put, PlaceParams)
+    assert put.place_id.startswith("shelf")
 
 
 def test_a_question_is_put_to_a_person_and_its_answer_used():

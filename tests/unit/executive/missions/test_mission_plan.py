@@ -1,14 +1,16 @@
 """A dry run asks the planner, so that what it calls feasible is, and takes about so long."""
 
 import math
+from typing import get_args
 
 import pytest
 from msgspec.structs import replace
 
 from executive.meaning import request
-from executive.missions.plan import forecast
+from executive.missions.plan import Plan, Row, forecast, lines
 from executive.missions.rehearsal import Rehearsal
 from executive.skills.catalogue import skill_of
+from executive.skills.gesture import Gesture, GestureKind, GestureParams
 from executive.skills.motions.pacing import walking_s
 from executive.trees.parts import errands
 from robot.model.description import load
@@ -102,3 +104,16 @@ def test_what_is_given_away_is_brought_to_the_person_and_gone_from_the_hand():
 def test_whoever_is_followed_is_taken_to_go_on_to_the_place():
     (there,), (here,) = steps("follow anna to the shelf"), steps("follow anna to the table")
     assert there.takes_s > here.takes_s + 5.0
+
+
+@pytest.mark.parametrize("kind", get_args(GestureKind))
+def test_every_sign_takes_time(kind):
+    target = {"person_id": "anna"} if kind == "point" else {}
+    assert Gesture.forecast(GestureParams(kind=kind, **target), Rehearsal(KITCHEN)).takes_s > 1.0
+
+
+def test_what_takes_a_moment_is_not_said_to_take_no_time():
+    told = lines(Plan(rows=(Row(path="1", depth=0, name="say 'hi'", kind="step", takes_s=0.1),),
+                      total_s=0.1, problems=0))  # fmt: skip
+    assert "under 1 s" in told[0]
+    assert " 0 s" not in told[0]

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from executive.skills.motions.personal_space import PATIENCE_S, ZONE_M
-from executive.skills.navigate import FloorPose, NavigateParams
+from executive.skills.navigate import FloorPose, NavigateParams, Step
 from executive.skills.pick import PickParams
-from robot.messages import MoveArm, MoveHand, Obstacle, Shape, Walk
+from robot.messages import MoveArm, MoveHand, Obstacle, Shape, Walk, WalkTo
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
 
@@ -115,3 +115,54 @@ def test_what_stood_there_before_the_arm_moved_does_not(stage):
     report = stage.run(PickParams(object_id="cup"))
     assert report.status == "succeeded", report
     assert not any(phase.startswith("waiting") for phase in stage.phases)
+
+
+# --- backing away -------------------------------------------------------------------------------
+
+
+def held_out(stage, ann: SE3) -> None:
+    """Ann stands where a hand is stretched out, as when a hand-over was called off."""
+    stage.run(PickParams(object_id="cup"))
+    held = stage.context.holdings.find("cup")
+    for i in stage.puppet.description.indices(f"{held.side}_arm"):
+        stage.puppet.q_rad[i] += 0.5  # the arm is not where it is carried
+    stage.puppet.people["ann"] = stage.puppet.X_WS @ ann
+    stage.puppet.sent.clear()
+
+
+@pytest.mark.parametrize("ahead_left_m", [(0.9, 0.0), (0.7, -0.4), (0.5, -0.6)])
+def test_a_robot_that_is_too_near_backs_away_before_the_arm_moves(stage, ahead_left_m):
+    held_out(stage, SE3((*ahead_left_m, 0.0)))
+    begin, ann = stage.puppet.X_WS, stage.puppet.people["ann"].p
+    nearest_m = [math.inf]
+    tick = stage.puppet.tick
+
+    def watch():
+        tick()
+        nearest_m[0] = min(nearest_m[0], math.dist(stage.puppet.X_WS.p[:2], ann[:2]))
+
+    stage.puppet.tick = watch
+    report = stage.run(NavigateParams(pose=FloorPose(x_m=-1.0, y_m=-1.0, yaw_rad=0.0)))
+    assert report.status == "succeeded", report
+    assert "stepping back from Ann" in stage.phases
+    first = next(c for c in stage.puppet.sent if isinstance(c, WalkTo | MoveArm | Walk))
+    assert isinstance(first, WalkTo), "the feet first"
+    goal = (stage.puppet.X_WN @ SE3((first.x_m, first.y_m, 0.0))).p
+    assert math.dist(goal[:2], ann[:2]) > math.dist(begin.p[:2], ann[:2])
+    assert nearest_m[0] >= math.dist(begin.p[:2], ann[:2]) - 0.02
+
+
+def test_it_does_not_back_into_what_stands_behind_it(stage):
+    held_out(stage, SE3((0.9, 0.0, 0.0)))
+    X_WS = stage.puppet.X_WS
+    beside = [thing(X_WS @ SE3((0.0, y_m, 0.0))) for y_m in (-0.55, 0.55)]
+    stage.puppet.unmapped = (thing(X_WS @ SE3((-0.55, 0.0, 0.0))), *beside)
+    report = stage.run(NavigateParams(by=Step(forward_m=-0.3)))
+    assert report.failure.code == "person_near"
+    assert not stage.commands(WalkTo)
+
+
+def test_with_nobody_near_nothing_is_stepped_back_from(stage):
+    held_out(stage, SE3((2.5, 0.0, 0.0)))
+    assert stage.run(NavigateParams(by=Step(turn_rad=0.5))).status == "succeeded"
+    assert "stepping back from Ann" not in stage.phases

@@ -1,0 +1,86 @@
+"""Backing away from somebody who is too near for an arm to move: the feet make the room."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.personal_space import CLEAR_M, somebody_near
+from executive.skills.motions.planning import stance_of
+from executive.skills.motions.script import Script
+from robot.messages import Obstacle, PersonInfo, Side
+from robot.se3 import SE3
+
+STEP_M, MOST_M = 0.1, 0.8
+"""How finely distances are tried, and how far it backs at most: an arm's length and the zone."""
+SPARE_M = 0.05
+"""More than is needed: steps end a few centimetres off, and people sway."""
+TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0, 1.4, -1.4)
+"""Directions that are tried, beside straight away from them: never towards them."""
+
+
+def back_away(body: Body, side: Side) -> Script[None]:
+    """Step back until nobody is near a hand, if somebody is; slowly, facing as before.
+
+    Where there is no free floor to step to, it stays: the arm then waits for them to step back.
+    """
+    person = somebody_near(body, body.X_WG(side).p)
+    if person is None:
+        return
+    X_WS_goal = _retreat(body, side, person)
+    if X_WS_goal is None:
+        return
+    before, body.phase = body.phase, f"stepping back from {person.name}"
+    yield from step_to(body, stance_of(X_WS_goal))
+    body.phase = before
+
+
+def _retreat(body: Body, side: Side, person: PersonInfo) -> SE3 | None:
+    """The nearest stance from which the hand is clear of them, straight away from them first."""
+    X_WS, hand = body.X_WS, body.X_WG(side).p
+    x_m, y_m, _ = body.X_WPerson(person.id).p
+    away_rad = math.atan2(X_WS.p[1] - y_m, X_WS.p[0] - x_m)
+    things = _things(body)
+    for turn_rad in TURNS_RAD:
+        cos, sin = math.cos(away_rad + turn_rad), math.sin(away_rad + turn_rad)
+        for back_m in _distances():
+            there = (hand[0] + back_m * cos, hand[1] + back_m * sin)
+            clear_m = math.dist(there, (x_m, y_m)) - person.radius_m
+            point = (X_WS.p[0] + back_m * cos, X_WS.p[1] + back_m * sin)
+            if not _is_free(body, things, point, person):
+                break
+            if clear_m >= CLEAR_M + SPARE_M:
+                return SE3((*point, 0.0), X_WS.quat_wxyz)
+    return None
+
+
+def _distances() -> Iterator[float]:
+    return (k * STEP_M for k in range(1, round(MOST_M / STEP_M) + 1))
+
+
+def _things(body: Body) -> tuple[Obstacle, ...]:
+    """What stands around; people are where they are seen, not where the map has them."""
+    people = {person.id for person in body.map.people}
+    fixed = tuple(thing for thing in body.map.obstacles if thing.id not in people)
+    return (*fixed, *body.world.unmapped)
+
+
+def _is_free(
+    body: Body, things: tuple[Obstacle, ...], point: tuple[float, float], but: PersonInfo
+) -> bool:
+    """Whether the body can stand there: inside the map, nobody else near, nothing in its radius.
+
+    What is within its radius already must not come nearer.
+    """
+    x_min, y_min, x_max, y_max = body.map.bounds_m
+    if not (x_min < point[0] < x_max and y_min < point[1] < y_max):
+        return False
+    if somebody_near(body, point) not in (None, but):
+        return False
+    here, radius_m = (body.X_WS.p[0], body.X_WS.p[1]), body.description.body_radius_m
+    return all(
+        clearance_m(point, thing) >= min(radius_m, clearance_m(here, thing)) for thing in things
+    )

@@ -1,0 +1,189 @@
+"""What the people of a world do: they hear the robot, take what it holds out, answer, make room.
+
+Simulated people, and bodies moved by script: they stand for what a person would do, so that a robot
+that hands something over, asks or wants to pass can be tried out. They go by what they hear and by
+where things truly are. Deterministic: how fast they react is drawn from the plant's seed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Generator
+from typing import Literal
+
+import mujoco
+import numpy as np
+
+from robot.messages import Heard
+from robot.model.description import RobotDescription
+from sim import furniture
+from sim.somebody import PERIOD_S, Script, Somebody, floor
+from sim.standing_room import Around, free_spot, in_the_way
+from sim.taking import Hold
+from sim.world_schema import Object, World
+
+EARSHOT_M = 3.5
+REACT_S = (0.6, 1.2)
+OFFERED_M = 0.85
+"""How far from a person something is at most that is held out to them."""
+HELD_M = 0.10
+"""Between a robot's hand and the middle of what it holds."""
+WAY_M = 2.0
+"""Within which somebody stands in the robot's way, if they stand before it."""
+Wish = Literal["take", "make room", "answer", ""]
+
+
+def wish_in(text: str) -> Wish:
+    """What the robot wants of whoever hears it."""
+    words = text.casefold()
+    if re.search(r"\bplease take\b(?! away)", words):
+        return "take"
+    if re.search(r"\b(excuse me|step (back|aside)|clear the way|let me (pass|through))\b", words):
+        return "make room"
+    return "answer" if words.rstrip().endswith("?") else ""
+
+
+class People:
+    """Everybody in one plant's world."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        world: World,
+        *,
+        robot: RobotDescription,
+        rng: np.random.Generator,
+    ) -> None:
+        """They stand there, their arms hanging."""
+        self._model, self._data, self._world, self._rng = model, data, world, rng
+        self._base = int(model.body(robot.base_body).id)
+        self._hands = [int(model.site(hand.grasp_site).id) for hand in robot.hands.values()]
+        self._everybody = [Somebody(model, data, person) for person in world.people]
+        self._said: list[tuple[str, str]] = []
+
+    @property
+    def busy(self) -> bool:
+        """Whether anybody is doing something, or holds something."""
+        return any(one.script or one.grip for one in self._everybody)
+
+    def hear(self, text: str) -> None:
+        """Let everybody in earshot hear the robot; who can do what it wants begins to."""
+        wish = wish_in(text)
+        around = self._around()
+        near = [
+            one
+            for one in self._everybody
+            if not one.script and math.dist(one.at, around.robot) <= EARSHOT_M
+        ]
+        for one in sorted(near, key=lambda one: math.dist(one.at, around.robot)):
+            script = self._script(one, wish, around)
+            if script is not None:
+                answer = "continue" if "say continue" in text.casefold() else ""
+                one.script = self._do(one, script, answer)
+                return
+
+    def tick(self) -> None:
+        """Go on for `PERIOD_S`."""
+        for one in self._everybody:
+            one.go_on()
+
+    def press(self) -> None:
+        """Add what their hands do to the forces that act in the next step."""
+        for one in self._everybody:
+            if one.grip is not None:
+                one.grip.press()
+
+    def said(self, stamp_s: float) -> list[Heard]:
+        """What they have said since this was asked last."""
+        said, self._said = self._said, []
+        return [Heard(stamp_s=stamp_s, text=text, person_id=who) for who, text in said]
+
+    # --- who does what ---
+
+    def _script(self, one: Somebody, wish: Wish, around: Around) -> Script | None:
+        """What somebody does about a wish, None if it is nothing to them."""
+        behaviour = one.person.behaviour
+        match wish:
+            case "take" if behaviour.takes and one.grip is None:
+                thing = self._offered(one)
+                return None if thing is None else self._take(one, thing)
+            case "make room" if behaviour.steps_aside:
+                if in_the_way(one.at, around, within_m=WAY_M):
+                    return self._make_room(one)
+            case "answer" if behaviour.answers:
+                return self._answer(one, behaviour.answers)
+            case _:
+                pass
+        return None
+
+    def _do(self, one: Somebody, script: Script, answer: str) -> Script:
+        """React after a moment, do it, and say so if that was wanted."""
+        yield from _pause(float(self._rng.uniform(*REACT_S)))
+        done = yield from script
+        if done and answer and one.person.behaviour.answers:
+            self._said.append((one.person.id, answer))
+        return done
+
+    def _answer(self, one: Somebody, text: str) -> Script:
+        """Face the robot and say something."""
+        yield from one.turn(lambda: self._around().robot)
+        self._said.append((one.person.id, text))
+        return True
+
+    def _make_room(self, one: Somebody) -> Script:
+        """Walk out of the robot's way, if there is somewhere to go."""
+        spot = free_spot(self._world, one.at, self._around(one))
+        if spot is None:
+            return False
+        yield from one.walk(spot)
+        return True
+
+    # --- taking ---
+
+    def _take(self, one: Somebody, thing: Object) -> Script:
+        """Turn to it, step up if need be, close the hand on it, pull it out, and keep it."""
+        body = int(self._model.body(f"object/{thing.id}").id)
+        yield from one.turn(lambda: floor(self._data.xpos[body]))
+        hold = Hold(self._model, self._data, one, body, thing)
+        yield from hold.step_up()
+        yield from hold.reach()
+        if not hold.is_there:
+            yield from hold.let_go()
+            return False
+        yield from hold.close()
+        one.grip = hold.grip
+        if (yield from hold.pull()):
+            return True
+        one.grip = None
+        yield from hold.let_go()
+        return False
+
+    def _offered(self, one: Somebody) -> Object | None:
+        """What a hand of the robot holds within reach of somebody."""
+        for thing in self._world.objects:
+            p = self._data.body(f"object/{thing.id}").xpos
+            held = any(math.dist(self._data.site_xpos[hand], p) < HELD_M for hand in self._hands)
+            if held and math.dist(floor(p), one.at) < OFFERED_M:
+                return thing
+        return None
+
+    # --- what is around ---
+
+    def _around(self, but: Somebody | None = None) -> Around:
+        """The robot, the others, and what is movable, as they truly are."""
+        rotation = self._data.xmat[self._base].reshape(3, 3)
+        others = [(one.at, 0.25) for one in self._everybody if one is not but]
+        for item in self._world.furniture:
+            if furniture.movable(item):
+                depth, width, _ = furniture.size_m(item)
+                p = self._data.body(f"furniture/{item.id}").xpos
+                others.append((floor(p), 0.5 * math.hypot(depth, width)))
+        heading_rad = math.atan2(rotation[1, 0], rotation[0, 0])
+        return Around(floor(self._data.xpos[self._base]), heading_rad, tuple(others))
+
+
+def _pause(duration_s: float) -> Generator[None]:
+    for _ in range(round(duration_s / PERIOD_S)):
+        yield

@@ -1,0 +1,191 @@
+"""People in a simulated world: what they hear, what they do about it, how hard they pull."""
+
+import math
+
+import msgspec
+import mujoco
+import numpy as np
+import pytest
+
+from robot.model import description
+from sim import world
+from sim.grip import PULL_N, Grip
+from sim.people import wish_in
+from sim.person_arm import PersonArm, links
+from sim.plant import Plant
+from sim.somebody import LOST_M
+from sim.standing_room import LANE_M, ROBOT_M, Around, free_spot, in_the_way
+from sim.world_schema import Behaviour
+
+JUNO = description.load("juno")
+BENCH = world.load("bench")
+
+
+def bench(*, behind_m: float = 0.95, **behaviour) -> Plant:
+    """Anna stands behind the robot."""
+    anna = msgspec.structs.replace(
+        BENCH.people[0], at_m=(-behind_m, 0.0), yaw_deg=0.0, behaviour=Behaviour(**behaviour)
+    )
+    return Plant(msgspec.structs.replace(BENCH, people=(anna,)), JUNO, seed=3)
+
+
+def let_pass(plant: Plant, duration_s: float) -> list:
+    """Let time pass; what was said."""
+    said = []
+    for _ in range(round(duration_s / 0.02)):
+        plant.step(20)
+        said += [m for topic, m in plant.sense() if topic.name == "oracle/heard"]
+    return said
+
+
+@pytest.mark.parametrize(
+    ("text", "wish"),
+    [
+        ("Please take the red cup.", "take"),
+        ("nobody took it; please take it out of my hand, then say continue", "take"),
+        ("please take away what I touch, then say continue", ""),
+        ("Excuse me.", "make room"),
+        ("please step back from me, then say continue", "make room"),
+        ("please clear the way at (1.0, 2.0) m, then say continue", "make room"),
+        ("Would you like tea?", "answer"),
+        ("Good morning.", ""),
+    ],
+)
+def test_what_the_robot_wants_is_heard_in_its_words(text, wish):
+    assert wish_in(text) == wish
+
+
+def test_nobody_does_anything_before_they_are_spoken_to():
+    plant = bench()
+    before = plant.where("person/anna")
+    plant.hear("Good morning.")
+    let_pass(plant, 0.5)
+    assert not plant.people.busy
+    assert plant.where("person/anna") == before
+
+
+def test_a_question_is_answered_after_a_moment_and_only_by_who_answers():
+    said = let_pass(bench_asked(answers="No, thanks."), 5.0)
+    assert [(m.text, m.person_id, m.source) for m in said] == [("No, thanks.", "anna", "oracle")]
+    assert said[0].stamp_s > 0.5
+    assert let_pass(bench_asked(answers=""), 5.0) == []
+
+
+def bench_asked(**behaviour) -> Plant:
+    plant = bench(**behaviour)
+    plant.hear("Would you like tea?")
+    return plant
+
+
+def test_who_is_asked_to_steps_out_of_the_way_slowly_and_says_so():
+    plant = bench(behind_m=0.7)
+    X_WB = plant.oracle.X_WB()
+    plant.hear("please step back from me, then say continue")
+    before, fastest_m_s = plant.where("person/anna").p, 0.0
+    said = []
+    for _ in range(300):
+        said += let_pass(plant, 0.02)
+        after = plant.where("person/anna").p
+        fastest_m_s = max(fastest_m_s, math.dist(before, after) / 0.02)
+        before = after
+    around = Around(X_WB.p[:2], X_WB.yaw_rad)
+    assert not in_the_way(before[:2], around, within_m=2.0)
+    assert fastest_m_s < 0.45
+    assert [m.text for m in said] == ["continue"]
+
+
+def test_who_does_not_step_aside_stays():
+    plant = bench(behind_m=0.7, steps_aside=False)
+    before = plant.where("person/anna")
+    plant.hear("Excuse me.")
+    let_pass(plant, 3.0)
+    assert plant.where("person/anna") == before
+
+
+@pytest.mark.parametrize("heading_rad", [0.0, 1.0, 2.5, -2.0])
+def test_a_free_spot_is_out_of_the_lane_and_clear_of_everything(heading_rad):
+    around = Around((0.0, 0.0), heading_rad)
+    at = (1.1 * math.cos(heading_rad), 1.1 * math.sin(heading_rad))
+    bare = world.empty()
+    spot = free_spot(bare, at, around)
+    assert spot is not None
+    assert math.dist(spot, around.robot) >= ROBOT_M
+    across = spot[1] * math.cos(heading_rad) - spot[0] * math.sin(heading_rad)
+    along = spot[0] * math.cos(heading_rad) + spot[1] * math.sin(heading_rad)
+    assert along < 0.0 or abs(across) >= LANE_M
+
+
+def test_nobody_steps_where_somebody_stands():
+    around = Around((0.0, 0.0), 0.0)
+    spot = free_spot(world.empty(), (1.1, 0.0), around)
+    again = free_spot(world.empty(), (1.1, 0.0), Around((0.0, 0.0), 0.0, others=((spot, 0.3),)))
+    assert again is not None
+    assert math.dist(again, spot) > 0.3
+
+
+@pytest.fixture(scope="module")
+def arm():
+    plant = bench()
+    return plant, PersonArm(plant.model, "anna", "right")
+
+
+def test_the_palm_goes_where_it_is_sent_and_the_arm_hangs_together(arm):
+    plant, right = arm
+    into = np.array([1.0, 0.0, 0.0])
+    palm = right.shoulder + np.array([0.38, 0.05, -0.25])
+    right.put(palm, into, half_m=0.035, closed=1.0)
+    assert right.palm == pytest.approx(palm)
+    upper, fore, *_ = (plant.model.geom(name).id for name in links("anna", "right"))
+    ends = {g: ends_of(plant.model, g) for g in (upper, fore)}
+    nearest = min(math.dist(a, b) for a in ends[upper] for b in ends[fore])
+    assert nearest < 1e-6, "the forearm begins where the upper arm ends"
+    right.hang()
+    assert right.palm == pytest.approx(right.hanging)
+
+
+def test_an_arm_is_no_longer_than_it_is(arm):
+    _, right = arm
+    into = np.array([1.0, 0.0, 0.0])
+    right.put(right.shoulder + np.array([2.0, 0.0, 0.0]), into, half_m=0.035, closed=0.0)
+    assert right.palm[0] - right.shoulder[0] == pytest.approx(right.reach_m + right.hand_m)
+    right.hang()
+
+
+def ends_of(model, geom):
+    axis = np.zeros(3)
+    mujoco.mju_rotVecQuat(axis, np.array([0.0, 0.0, 1.0]), model.geom_quat[geom])
+    half = model.geom_size[geom, 1] * axis
+    return model.geom_pos[geom] + half, model.geom_pos[geom] - half
+
+
+def test_a_hand_pulls_and_never_harder_than_a_person_does():
+    plant = bench()
+    grip = Grip(plant.model, plant.data, int(plant.model.body("object/red_cup").id))
+    for far_m in (0.0, 0.005, 0.02, 0.1, 10.0):
+        grip.at = grip.where + np.array([far_m, 0.0, 0.0])
+        assert np.linalg.norm(grip.pull_n) <= PULL_N + 1e-9
+    assert np.linalg.norm(grip.pull_n) == pytest.approx(PULL_N)
+
+
+def test_what_is_in_a_hand_is_carried_and_what_is_torn_out_is_dropped():
+    plant = bench()
+    anna = plant.people._everybody[0]
+    grip = Grip(plant.model, plant.data, int(plant.model.body("object/red_cup").id))
+    anna.grip, grip.share = grip, 1.0
+    plant.hear("Would you like tea?")  # somebody has to look after the hand
+    for _ in range(100):
+        grip.at[2] += 0.001
+        let_pass(plant, 0.02)
+    assert plant.oracle.X_WO("red_cup").p[2] == pytest.approx(grip.at[2], abs=0.01)
+    plant.pull("object/red_cup", (60.0, 0.0, 0.0), duration_s=0.3)
+    let_pass(plant, 0.4)
+    assert anna.grip is None
+    assert math.dist(plant.oracle.X_WO("red_cup").p, grip.at) > LOST_M
+
+
+def test_the_same_seed_gives_the_same_person():
+    def told():
+        plant = bench_asked(answers="Yes.")
+        return [m.stamp_s for m in let_pass(plant, 3.0)]
+
+    assert told() == told()
