@@ -23,13 +23,19 @@ LIBRARY_WORDING = (
     "NoneType",
     "Exception",
     "mjCError",
-    "std::",
+    "terminate called",
     "not supported between",
     "yaml.",
     "int_max_str_digits",
     "integer string conversion",
     "unhashable",
     "Fatal Python error",
+    "Warning: ",
+    "MemoryError",
+    "OverflowError",
+    "ValueError",
+    "TypeError",
+    "KeyError",
 )
 """What says how the program is made, and to nobody what to do."""
 
@@ -41,7 +47,9 @@ OWN = re.compile(r"\x1b\[\??[0-9;]*[A-HJKSTfhlmnr]|\r|\x1b[=>]")
 """What rich and prompt-toolkit send to a terminal: colours and where the cursor goes."""
 
 PASSWORDS = "root:x:0:0"
-ANSWERS = re.compile(r"What to do|\b[Tt]ry\b|[Uu]se |valid|nearest|has to|must|is no |not ", re.I)
+ANSWERS = re.compile(
+    r"What to do|did you mean|cure|\b[Tt]ry\b|[Uu]se |valid|nearest|has to|must|is no |not ", re.I
+)
 
 
 def broken(case: Case, result: Result, folder: Path) -> list[str]:

@@ -266,13 +266,17 @@ class _Streams:
             self._end(end)
 
 
-def _stat(pid: int) -> tuple[str, int] | None:
-    """State and clock ticks used of a process."""
-    try:
-        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    except OSError:
-        return None
-    return fields[0], sum(map(int, fields[11:15]))
+def _at_work(session: int) -> int:
+    """Clock ticks used by all processes of a session, and a tick more for one that is running."""
+    total = 0
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (path / "stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[3]) == session:
+            total += sum(map(int, fields[11:15])) + (fields[0] not in "SDZ")
+    return total
 
 
 def run(job: Job) -> Result:
@@ -292,10 +296,8 @@ def run(job: Job) -> Result:
         if done:
             ended = (status, usage)
             break
-        state = _stat(pid)
-        used = state[1] if state else before
-        asleep = state is not None and state[0] in "SD"
-        quiet = quiet + 1 if asleep and used == before and not came else 0
+        used = _at_work(pid)
+        quiet = quiet + 1 if used == before and not came else 0
         before = used
         if quiet > QUIET_POLLS:
             os.killpg(pid, signal.SIGKILL)
