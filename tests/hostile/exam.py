@@ -110,6 +110,7 @@ class Examiner:
             shutil.copytree(self.recorded(case.run), work / "runs" / case.run)
             if case.mutate:
                 case.mutate(work / "runs" / case.run)
+                _place(work / "runs", outside)
         _lay_out(case, work, outside)
         shm = None
         if case.private_shm:
@@ -144,6 +145,15 @@ def _lay_out(case: Case, work: Path, outside: Path) -> None:
         else:
             text = content.replace(OUTSIDE, str(outside)).replace(WORK, str(work))
             path.write_bytes(text.encode("utf-8", "surrogatepass"))
+
+
+def _place(folder: Path, outside: Path) -> None:
+    """Put the place of what is outside into the files that speak of it."""
+    for path in folder.rglob("*"):
+        if path.is_file() and not path.is_symlink():
+            content = path.read_bytes()
+            if OUTSIDE.encode() in content:
+                path.write_bytes(content.replace(OUTSIDE.encode(), str(outside).encode()))
 
 
 def _give(folder: Path, user: int) -> None:
