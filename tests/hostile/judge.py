@@ -48,7 +48,8 @@ OWN = re.compile(r"\x1b\[\??[0-9;]*[A-HJKSTfhlmnr]|\r|\x1b[=>]")
 
 PASSWORDS = "root:x:0:0"
 ANSWERS = re.compile(
-    r"What to do|did you mean|cure|\b[Tt]ry\b|[Uu]se |valid|nearest|has to|must|is no |not ", re.I
+    r"What to do|requires|[Mm]issing|did you mean|cure|\b[Tt]ry\b|[Uu]se |valid|nearest|has to|must|is no |not ",
+    re.I,
 )
 
 
@@ -61,25 +62,24 @@ def broken(case: Case, result: Result, folder: Path) -> list[str]:
         found.append(f"takes {result.cpu_s:.1f} s of processor time")
     if result.memory_mb > case.memory_mb:
         found.append(f"takes {result.memory_mb:.0f} MB")
-    encoding = _encoding(case)
-    try:
-        text = (result.out + b"\n" + result.err).decode(encoding)
-    except UnicodeDecodeError:
-        found.append(f"prints what is no {encoding}")
-        text = (result.out + b"\n" + result.err).decode(encoding, "backslashreplace")
+    both = result.out + b"\n" + result.err
+    encoding = (case.environment.get("PYTHONIOENCODING") or "utf-8").partition(":")[0]
+    if encoding == "utf-8":
+        try:
+            both.decode()
+        except UnicodeDecodeError:
+            found.append("prints what is no UTF-8")
+    text = both.decode(encoding, "replace")
     found += _said(case, text)
     if not (result.hung or result.status == -24):
         found += _ended(case, result, text, folder)
     return found
 
 
-def _encoding(case: Case) -> str:
-    return (case.environment.get("PYTHONIOENCODING") or "utf-8").partition(":")[0]
-
-
 def _said(case: Case, text: str) -> list[str]:
     found: list[str] = []
-    own = OWN.sub("", text) if case.streams is Streams.TERMINAL else text
+    coloured = case.streams is Streams.TERMINAL or "FORCE_COLOR" in case.environment
+    own = OWN.sub("", text) if coloured else text
     if obeyed := OBEYED.search(own):
         around = own[max(0, obeyed.start() - 30) : obeyed.end() + 20]
         found.append(f"prints {obeyed.group()!a} raw: {around!a}")

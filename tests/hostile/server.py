@@ -36,6 +36,8 @@ from tests.hostile.cases import Case, Result, Streams
 PACKAGES = ("executive", "intents", "robot", "sim")
 ADDRESS_SPACE = 3 << 30
 """Bytes: keeps a case from eating the machine; what it may use is judged by its resident memory."""
+BROKEN = 99
+"""Status of a case that did not even begin: a mistake of the examination."""
 MOST_OUTPUT = 32 << 20
 POLL_S = 0.05
 QUIET_POLLS = 120
@@ -178,7 +180,7 @@ def _main(job: Job) -> int:
 
 
 def _child(job: Job, ends: tuple[int, int, int]) -> None:
-    status = 99
+    status = BROKEN
     try:
         _become(job, ends)
         if job.cold:

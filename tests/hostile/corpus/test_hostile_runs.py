@@ -158,7 +158,6 @@ FIELDS: dict[str, list[str]] = {
     "pose": ["x_m", "y_m", "yaw_rad"],
     "done": ["id", "step", "took_s", "result"],
     "failure": ["id", "code", "cause", "evidence", "job"],
-    "recovery": ["code", "count", "remedy", "step"],
     "outcome": ["status", "code", "cause", "suggestion", "took_s"],
 }
 WRONG: dict[str, Any] = {
@@ -295,7 +294,7 @@ CASES = [
         Case(
             name=f"file-{name}-{_fronts[(index + turn) % len(_fronts)]}",
             argv=FRONTS[_fronts[(index + turn) % len(_fronts)]],
-            run="wave",
+            run="short",
             mutate=change,
             expect=Expect.ENDS,
         )
@@ -306,7 +305,7 @@ CASES = [
         Case(
             name=f"field-{kind}.{field}-{name}-{READING[index % len(READING)]}",
             argv=FRONTS[READING[index % len(READING)]],
-            run="failed" if kind in {"failure", "recovery", "outcome"} else "wave",
+            run="failed" if kind in {"failure", "outcome"} else "short",
             mutate=partial(_event, kind, field, new),
             expect=Expect.ENDS,
         )
@@ -316,7 +315,7 @@ CASES = [
         Case(
             name=f"line-{name}-{front}",
             argv=FRONTS[front],
-            run="wave",
+            run="short",
             mutate=partial(_more, *line),
             expect=Expect.ENDS,
         )
@@ -327,7 +326,7 @@ CASES = [
         Case(
             name=f"request-{name}-{front}",
             argv=FRONTS[front],
-            run="wave",
+            run="short",
             mutate=partial(_asked, fields),
         )
         for name, fields in REQUESTS.items()
@@ -337,7 +336,7 @@ CASES = [
         Case(
             name=f"header-{name}-{front}",
             argv=FRONTS[front],
-            run="wave",
+            run="short",
             mutate=partial(_header, field, new),
             expect=Expect.ENDS
             if front not in {"replay"}
@@ -373,7 +372,7 @@ CASES = [
         Case(
             name=f"written-{file}-{name}",
             argv=("dump", "-f", file),
-            run="wave",
+            run="short",
             mutate=partial(_link, f"dump.{file}", to),
         )
         for file in ("html", "svg", "png")
@@ -387,7 +386,7 @@ CASES = [
         Case(
             name=f"cut-{count}-{name}",
             argv=("resume",),
-            run="wave",
+            run="short",
             mutate=change,
             expect=Expect.ENDS,
         )
@@ -401,7 +400,7 @@ CASES = [
         Case(
             name=f"flood-{front}",
             argv=FRONTS[front],
-            run="wave",
+            run="short",
             mutate=partial(
                 _flood, 300_000, '{"event":"said","job":1,"n":5,"t_s":0.05,"text":"hello"}'
             ),
@@ -414,7 +413,7 @@ CASES = [
         Case(
             name=f"named-{name}",
             argv=("why", text),
-            run="wave",
+            run="short",
             expect=Expect.REFUSED,
         )
         for name, text in {
@@ -430,7 +429,7 @@ CASES = [
         Case(
             name=f"called-{name}-{front}",
             argv=FRONTS[front],
-            run="wave",
+            run="short",
             mutate=partial(_renamed, text),
             expect=Expect.ENDS,
         )
@@ -447,7 +446,7 @@ CASES = [
         Case(
             name=f"dump-{name}",
             argv=("dump", *words),
-            run="wave",
+            run="short",
             expect=Expect.ENDS
             if name in {"at-minus", "at-1e300", "output-nowhere"}
             else Expect.REFUSED,

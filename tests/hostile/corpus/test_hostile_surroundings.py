@@ -1,12 +1,11 @@
 """Terminals, environments and other users of the machine."""
 
 import os
-import resource
-import signal
 from functools import partial
 from pathlib import Path
 
 from tests.hostile.cases import NOBODY, OUTSIDE, Case, Expect, Streams, link, mode
+from tests.hostile.corpus import inside
 from tests.hostile.corpus.shapes import BIDI, DIGITS, ESCAPE
 from tests.hostile.exam import exam
 
@@ -67,63 +66,18 @@ ENCODINGS: dict[str, dict[str, str | None]] = {
                "PYTHONIOENCODING": "ascii"},
     "ascii": {"PYTHONIOENCODING": "ascii"},
     "latin-1": {"PYTHONIOENCODING": "latin-1"},
-    "utf-16": {"PYTHONIOENCODING": "utf-16"},
     "cp1252": {"PYTHONIOENCODING": "cp1252"},
     "koi8": {"PYTHONIOENCODING": "koi8-r"},
 }  # fmt: skip
 
 
-def _files(count: int) -> None:
-    resource.setrlimit(resource.RLIMIT_NOFILE, (count, count))
-
-
-def _size(count: int) -> None:
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (count, count))
-
-
-def _processes(count: int) -> None:
-    resource.setrlimit(resource.RLIMIT_NPROC, (count, count))
-
-
-def _mask() -> None:
-    os.umask(0o777)
-
-
-def _read_only() -> None:
-    Path("runs").mkdir(exist_ok=True)
-    Path("runs").chmod(0o555)
-    Path().chmod(0o555)
-
-
-def _sealed(name: str) -> None:
-    """Done by the user himself: nobody may read that file of the run, or write into its folder."""
-    run = Path("runs") / "wave"
-    if name == "no access":
-        run.chmod(0)
-    else:
-        (run / name).chmod(0o555 if name == "." else 0)
-
-
-def _folder_gone() -> None:
-    here = Path.cwd() / "gone"
-    here.mkdir()
-    os.chdir(here)
-    here.rmdir()
-
-
-def _ignores_signals() -> None:
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD):
-        signal.signal(number, signal.SIG_IGN)
-
-
 INSIDE = {
-    "files-16": partial(_files, 16),
-    "size-0": partial(_size, 0),
-    "size-100": partial(_size, 100),
-    "mask": _mask,
-    "folder-gone": _folder_gone,
-    "signals-ignored": _ignores_signals,
+    "files-16": partial(inside.files, 16),
+    "size-0": partial(inside.size, 0),
+    "size-100": partial(inside.size, 100),
+    "mask": inside.mask,
+    "folder-gone": inside.folder_gone,
+    "signals-ignored": inside.ignores_signals,
 }
 
 
@@ -200,7 +154,7 @@ CASES = [
             name=f"columns-{name}-{command}",
             argv=argv,
             environment={"COLUMNS": text},
-            run="wave",
+            run="short",
             expect=Expect.ENDS,
         )
         for index, (name, text) in enumerate(COLUMNS.items())
@@ -211,7 +165,7 @@ CASES = [
             name=f"variable-{name}-{command}",
             argv=argv,
             environment=variables,
-            run="wave",
+            run="short",
             expect=Expect.ENDS,
         )
         for index, (name, variables) in enumerate(VARIABLES.items())
@@ -245,7 +199,7 @@ CASES = [
         )
         for index, (name, variables) in enumerate(ENCODINGS.items())
         for command, argv in (
-            ("say", ("parse", "say Grüß Gott 世界")) if name != "utf-16" else _commands[0],
+            ("say", ("parse", "say Grüß Gott 世界")),
             _commands[(index * 3 + 2) % 6],
         )
     ),
@@ -256,7 +210,7 @@ CASES = [
             streams=Streams.TERMINAL,
             environment=environment,
             expect=Expect.ENDS,
-            run="wave",
+            run="short",
             cpu_s=10,
         )
         for name, argv, environment in (
@@ -282,7 +236,7 @@ CASES = [
             argv=argv,
             streams=streams,
             expect=Expect.ENDS,
-            run="wave",
+            run="short",
             cpu_s=8,
         )
         for streams, listed in {
@@ -325,13 +279,13 @@ CASES = [
         Case(
             name=f"inside-{name}-{command}",
             argv=argv,
-            inside=inside,
-            run="wave",
+            inside=begun,
+            run="short",
             expect=Expect.ENDS,
             environment={"HOME": "/"} if name == "folder-gone" else {},
             cpu_s=10,
         )
-        for index, (name, inside) in enumerate(INSIDE.items())
+        for index, (name, begun) in enumerate(INSIDE.items())
         for command, argv in (
             _commands[index % 10],
             ("do", ("do", "--fast", "say hello")),
@@ -344,14 +298,14 @@ CASES = [
             argv=argv,
             user=NOBODY,
             files=files,
-            run="wave",
+            run="short",
             mutate=mutate,
-            inside=inside,
+            inside=begun,
             expect=expect,
             cpu_s=10,
             says=says,
         )
-        for name, argv, files, mutate, inside, expect, says in (
+        for name, argv, files, mutate, begun, expect, says in (
             (
                 "reads-world",
                 ("parse", "--world", "w.yaml", "wave"),
@@ -439,7 +393,7 @@ CASES = [
                 ("do", "--fast", "say hello"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("runs",),
             ),
@@ -448,17 +402,25 @@ CASES = [
                 ("mission", "run", "--fast", "hello"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("runs",),
             ),
-            ("read-only-repl", ("repl", "--fast"), {}, None, _read_only, Expect.REFUSED, ("runs",)),
+            (
+                "read-only-repl",
+                ("repl", "--fast"),
+                {},
+                None,
+                inside.read_only,
+                Expect.REFUSED,
+                ("runs",),
+            ),
             (
                 "read-only-new",
                 ("mission", "new", "x"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("x.yaml",),
             ),
@@ -467,7 +429,7 @@ CASES = [
                 ("eval", "wave", "--seeds", "1"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("runs",),
             ),
@@ -476,7 +438,7 @@ CASES = [
                 ("model", "export", "--urdf", "a.urdf"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("a.urdf",),
             ),
@@ -485,7 +447,7 @@ CASES = [
                 ("view", "--snapshot", "a.png"),
                 {},
                 None,
-                _read_only,
+                inside.read_only,
                 Expect.REFUSED,
                 ("a.png",),
             ),
@@ -494,7 +456,7 @@ CASES = [
                 ("dump",),
                 {},
                 None,
-                partial(_sealed, "."),
+                partial(inside.sealed, "."),
                 Expect.REFUSED,
                 ("dump.html",),
             ),
@@ -503,7 +465,7 @@ CASES = [
                 ("why",),
                 {},
                 None,
-                partial(_sealed, "journal.jsonl"),
+                partial(inside.sealed, "journal.jsonl"),
                 Expect.REFUSED,
                 ("journal.jsonl",),
             ),
@@ -512,7 +474,7 @@ CASES = [
                 ("dump", "-f", "text"),
                 {},
                 None,
-                partial(_sealed, "journal.jsonl"),
+                partial(inside.sealed, "journal.jsonl"),
                 Expect.REFUSED,
                 ("journal.jsonl",),
             ),
@@ -521,7 +483,7 @@ CASES = [
                 ("replay",),
                 {},
                 None,
-                partial(_sealed, "run.json"),
+                partial(inside.sealed, "run.json"),
                 Expect.REFUSED,
                 ("run.json",),
             ),
@@ -530,7 +492,7 @@ CASES = [
                 ("history",),
                 {},
                 None,
-                partial(_sealed, "summary.json"),
+                partial(inside.sealed, "summary.json"),
                 Expect.ENDS,
                 (),
             ),
@@ -539,12 +501,20 @@ CASES = [
                 ("history",),
                 {},
                 None,
-                partial(_sealed, "no access"),
+                partial(inside.sealed, "no access"),
                 Expect.ENDS,
                 (),
             ),
-            ("files-few", ("parse", "wave"), {}, None, partial(_processes, 1), Expect.ENDS, ()),
-            ("live-no-shm", WALK, {}, None, partial(_processes, 1), Expect.ENDS, ()),
+            (
+                "files-few",
+                ("parse", "wave"),
+                {},
+                None,
+                partial(inside.processes, 1),
+                Expect.ENDS,
+                (),
+            ),
+            ("live-no-shm", WALK, {}, None, partial(inside.processes, 1), Expect.ENDS, ()),
         )
     ),
     *(
@@ -552,7 +522,8 @@ CASES = [
             name=f"shared-{name}",
             argv=WALK,
             private_shm=make,
-            expect=Expect.ACCEPTED,
+            expect=Expect.ENDS,
+            says=("walked",),
             cpu_s=20,
         )
         for name, make in SHARED.items()
