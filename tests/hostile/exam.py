@@ -129,12 +129,12 @@ class Examiner:
         }
         if case.user is not None:
             _give(work, case.user)
-        before = _look(outside), _look(home), sorted(root.iterdir())
+        before = _look(outside), sorted(root.iterdir())
         result = self._server.run(server.job_of(case, work, kept, shm))
         if result.status == server.BROKEN:
             raise RuntimeError(result.err.decode())
         found = judge.broken(case, result, work)
-        if (_look(outside), _look(home), sorted(root.iterdir())) != before:
+        if (_look(outside), sorted(root.iterdir())) != before:
             found.append("changes what lies outside its folder")
         return result, found
 

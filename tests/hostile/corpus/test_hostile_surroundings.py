@@ -394,7 +394,7 @@ CASES = [
                 {},
                 None,
                 inside.read_only,
-                Expect.REFUSED,
+                Expect.ENDS,
                 ("runs",),
             ),
             (
@@ -403,7 +403,7 @@ CASES = [
                 {},
                 None,
                 inside.read_only,
-                Expect.REFUSED,
+                Expect.ENDS,
                 ("runs",),
             ),
             (
@@ -412,7 +412,7 @@ CASES = [
                 {},
                 None,
                 inside.read_only,
-                Expect.REFUSED,
+                Expect.ENDS,
                 ("runs",),
             ),
             (
@@ -467,7 +467,7 @@ CASES = [
                 None,
                 partial(inside.sealed, "journal.jsonl"),
                 Expect.REFUSED,
-                ("journal.jsonl",),
+                ("journal",),
             ),
             (
                 "sealed-dump",
@@ -476,7 +476,7 @@ CASES = [
                 None,
                 partial(inside.sealed, "journal.jsonl"),
                 Expect.REFUSED,
-                ("journal.jsonl",),
+                ("journal",),
             ),
             (
                 "sealed-replay",
@@ -484,7 +484,7 @@ CASES = [
                 {},
                 None,
                 partial(inside.sealed, "run.json"),
-                Expect.REFUSED,
+                Expect.ENDS,
                 ("run.json",),
             ),
             (
@@ -506,7 +506,7 @@ CASES = [
                 (),
             ),
             (
-                "files-few",
+                "no-processes",
                 ("parse", "wave"),
                 {},
                 None,
@@ -514,7 +514,7 @@ CASES = [
                 Expect.ENDS,
                 (),
             ),
-            ("live-no-shm", WALK, {}, None, partial(inside.processes, 1), Expect.ENDS, ()),
+            ("live-no-processes", WALK, {}, None, partial(inside.processes, 1), Expect.ENDS, ()),
         )
     ),
     *(
