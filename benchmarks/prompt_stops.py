@@ -166,7 +166,7 @@ LEAVES = ("hang up", "SIGTERM", "SIGHUP", "SIGINT")
 def attempt(prompt: Prompt, rng: random.Random) -> tuple[str, list[object], bool]:
     """One try: the stop, what came before it, and whether it acted."""
     said = junk(rng)
-    stop = rng.choice(("Ctrl-C",) * 8 + tuple(STOPS) * 2 + LEAVES[:1 + 3 * (rng.random() < 0.5)])
+    stop = rng.choice(("Ctrl-C",) * 8 + tuple(STOPS) * 2 + LEAVES[: 1 + 3 * (rng.random() < 0.5)])
     for one in said:
         _give(prompt.pty, one)
         if rng.random() < 0.3:

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
-from executive.journal import failures, journal, past_runs, reader
+from executive.journal import failures, journal, past_runs
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
 from executive.journal.why import told as explain
