@@ -130,6 +130,7 @@ def _table(path: Path) -> dict[str, Any]:
 
 def _number(table: dict[str, Any], key: str) -> float:
     """A number of a table, 0 where there is none: one odd file must not hide all other runs."""
-    value = table.get(key)
-    sane = isinstance(value, int | float) and abs(value) < MOST_NUMBER
-    return float(value) if sane else 0.0
+    value: object = table.get(key)
+    if not isinstance(value, int | float) or not abs(value) < MOST_NUMBER:
+        return 0.0
+    return float(value)
