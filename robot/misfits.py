@@ -64,7 +64,8 @@ def dotted(path: Path) -> str:
 def _of(data: object, kind: inspect.Type, path: Path, unit: str) -> Iterator[Misfit]:
     match kind:
         case inspect.Metadata():
-            yield from _of(data, kind.type, path, str((kind.extra or {}).get("unit", "")))
+            extra = cast("dict[str, str]", kind.extra or {})  # pyright: ignore[reportUnknownMemberType]
+            yield from _of(data, kind.type, path, extra.get("unit", ""))
         case inspect.UnionType():
             yield from _of_union(data, kind, path, unit)
         case inspect.StructType():

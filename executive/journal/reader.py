@@ -271,12 +271,12 @@ class Reader:
                 self._draw(self.run.unmapped.setdefault(name, []), outline, MOST_SIGHTS)
 
 
-def _brief(value: Any) -> Any:
+def _brief(value: object) -> object:
     """A value of the blackboard; one that nobody would read through, as its first characters."""
-    if isinstance(value, str | list | dict):
-        text = msgspec.json.encode(value)
-        return value if len(text) <= MOST_TEXT else clipped(text.decode())
-    return value
+    if value is None or isinstance(value, int | float):
+        return value
+    text = msgspec.json.encode(value)
+    return value if len(text) <= MOST_TEXT else clipped(text.decode())
 
 
 class _Finding(msgspec.Struct):

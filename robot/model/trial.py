@@ -122,7 +122,7 @@ def main() -> None:
         answer = msgspec.to_builtins(_measured(source))
     except MemoryError:
         return
-    except (DescriptionError, ValueError, mujoco.FatalError) as error:
+    except Exception as error:  # MuJoCo raises what it likes
         text = error.problems[0].message if isinstance(error, DescriptionError) else str(error)
         answer = {"error": text.removeprefix("the MJCF does not compile: ")}
     sys.stdout.write(json.dumps(answer))

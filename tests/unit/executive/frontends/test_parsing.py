@@ -60,3 +60,21 @@ def test_a_file_of_names_that_is_wrong_is_said_with_the_file(tmp_path: Path) -> 
     path.write_text('{"objekts": []}')
     with pytest.raises(ConfigError, match="objekts"):
         parse_all(["wave"], world="", vocabulary=path, file=None, as_json=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"objects": ' + "[" * 50_000 + "]" * 50_000 + "}", "recursion"),
+        ('{"objects": [{"name": 3}]}', "Expected `str`"),
+        ("[1]", "Expected `object`"),
+        ('{"objects": [' + ", ".join(f'"thing {k}"' for k in range(20_000)) + "]}", "larger than"),
+    ],
+)
+def test_a_file_of_names_that_nobody_can_mean_is_refused(
+    text: str, words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "names.json"
+    path.write_text(text)
+    with pytest.raises(ConfigError, match=words):
+        parse_all(["wave"], world="", vocabulary=path, file=None, as_json=False)
