@@ -138,10 +138,10 @@ NEWS = frozenset({
 
 
 def sentence(event: Event) -> str:
-    """An event in words, empty for those that are not news to people."""
+    """An event in words on one line, empty for those that are not news to people."""
     data = event.data
     if event.event == "phase":
-        return f"{data['step']}: {data['phase']}"
+        return printable_line(f"{data['step']}: {data['phase']}")
     if event.event == "health" and data["level"] == "OK":
         return ""
-    return words.sentence(event.event, data) if event.event in NEWS else ""
+    return printable_line(words.sentence(event.event, data)) if event.event in NEWS else ""

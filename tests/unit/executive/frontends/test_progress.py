@@ -5,7 +5,13 @@ from rich.console import Group
 
 from executive.frontends import progress
 from executive.frontends.output import Screen
+from executive.journal.journal import Event
 from executive.journal.snapshot import Shown
+
+
+def test_an_event_is_one_line():
+    event = Event(0, 1.0, "said", {"text": "hello\n[   2.00 s] all is well\x1b[2J"})
+    assert progress.sentence(event) == "says: hello [ 2.00 s] all is well\\x1b[2J"
 
 
 @pytest.mark.parametrize("columns", [20, 60, 200])
