@@ -13,8 +13,9 @@ from typing import cast
 _CONTROL = "\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for tab and new line, DEL, C1
 _DIRECTION = "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # https://trojansource.codes
 _BREAKS = "\u2028\u2029"  # ends of lines to some readers and not to others
+_NO_CHARACTERS = "\ufffe\uffff"  # XML forbids them
 _SURROGATES = "\ud800-\udfff"  # no text: writing them raises
-_UNFIT = re.compile(f"[{_CONTROL}{_DIRECTION}{_BREAKS}{_SURROGATES}]")
+_UNFIT = re.compile(f"[{_CONTROL}{_DIRECTION}{_BREAKS}{_NO_CHARACTERS}{_SURROGATES}]")
 
 
 def printable(text: str) -> str:

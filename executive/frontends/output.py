@@ -58,8 +58,7 @@ def write(text: str) -> None:
 
 def write_json(value: object) -> None:
     """Write a value as one line of JSON."""
-    _put(sys.stdout, printable_json(msgspec.json.encode(value, order="deterministic").decode()))
-    _put(sys.stdout, "\n")
+    _put(sys.stdout, printable_json(msgspec.json.encode(value).decode()) + "\n")
 
 
 def write_data(data: bytes) -> None:

@@ -18,6 +18,7 @@ from executive.journal.journal import Event
 from executive.journal.snapshot import Shown, at_work, in_order, window
 from executive.journal.tree import State
 from robot.closing import Closing
+from robot.printable import printable_line
 
 REFRESH_S, SELDOM_S = 0.1, 1.0
 _STYLES: dict[State, str] = {
@@ -83,7 +84,7 @@ class LiveTree(Silent):
             self._first_s, self._begun_s = stage.now_s, wall_s
         past_s, wall_past_s = stage.now_s - self._first_s, wall_s - self._begun_s
         factor = past_s / wall_past_s if wall_past_s > 0.5 else 1.0
-        head = Text(board.read(GOAL), style="bold")
+        head = _line(printable_line(board.read(GOAL)), style="bold")
         foot = Text(f"{stage.now_s:6.1f} s  {factor:4.1f} x real time", style="dim")
         if board.read(STOP):
             foot.append("  stopping; Ctrl-C again to let the motors damp at once", style="yellow")
@@ -101,7 +102,7 @@ class LiveTree(Silent):
     def _tree(self) -> list[Text]:
         room = max(6, self._console.size.height - 5)
         lines = window(in_order(at_work(self._executive.so_far)), room)
-        return [_drawn(depth, shown) for depth, shown in lines]
+        return [drawn(depth, shown) for depth, shown in lines]
 
     def __enter__(self) -> Self:
         """Take the screen's last lines."""
@@ -114,12 +115,17 @@ class LiveTree(Silent):
         self._live.stop()
 
 
-def _drawn(depth: int, shown: Shown) -> Text:
+def _line(text: str, *, style: str = "") -> Text:
+    """A line that is cut where the terminal ends: the tree must not grow when it gets narrow."""
+    return Text(text, style, no_wrap=True, overflow="ellipsis")
+
+
+def drawn(depth: int, shown: Shown) -> Text:
     """One line of the tree in its colours."""
-    text = Text("  " * depth)
-    text.append(f"{MARKS[shown.state]} {shown.name}", style=_STYLES[shown.state])
+    text = _line("  " * depth)
+    text.append(f"{MARKS[shown.state]} {printable_line(shown.name)}", style=_STYLES[shown.state])
     if shown.note and shown.state != "done":
-        text.append(f"  {shown.note}", style="dim")
+        text.append(f"  {printable_line(shown.note)}", style="dim")
     return text
 
 
@@ -133,10 +139,10 @@ NEWS = frozenset({
 
 
 def sentence(event: Event) -> str:
-    """An event in words, empty for those that are not news to people."""
+    """An event in words on one line, empty for those that are not news to people."""
     data = event.data
     if event.event == "phase":
-        return f"{data['step']}: {data['phase']}"
+        return printable_line(f"{data['step']}: {data['phase']}")
     if event.event == "health" and data["level"] == "OK":
         return ""
-    return words.sentence(event.event, data) if event.event in NEWS else ""
+    return printable_line(words.sentence(event.event, data)) if event.event in NEWS else ""

@@ -172,6 +172,8 @@ class Reader:
 
     def _text(self, node: Node, info: types.StrType) -> str:
         text = node.text
+        if "\n" in text:  # of several lines, one might be read as a line of ours
+            text = " ".join(text.split())
         if not text.strip() or len(text) < (info.min_length or 0):
             raise self._wrong(node, "an empty text")
         if info.max_length is not None and len(text) > info.max_length:

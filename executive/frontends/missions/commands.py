@@ -74,7 +74,8 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
 def _say_checked(record: dict[str, Any]) -> None:
     problems = [msgspec.convert(problem, Problem) for problem in record["problems"]]
     if not problems:
-        say(f"{record['file']}: all is well, {record['steps']} steps")
+        count = record["steps"]
+        say(f"{record['file']}: all is well, {count} {'step' if count == 1 else 'steps'}")
     for problem in problems:
         say(str(problem), err=True)
 

@@ -24,7 +24,6 @@ from robot.printable import printable
 
 FONT = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif"
 _NARROW, _WIDE = frozenset("fijlrtI.,:;'|!()[] "), frozenset("mwMW@%…")
-_NO_XML = {0xFFFE: None, 0xFFFF: None}
 
 
 def svg(roots: Sequence[Shown], *, title: str) -> str:
@@ -106,5 +105,5 @@ def _mark(box: Box) -> str:
 
 
 def _safe(text: str) -> str:
-    """Text as XML may have it: escaped, and without the characters that it forbids."""
-    return escape(printable(text).translate(_NO_XML), {'"': "&quot;"})
+    """Text as XML may have it: escaped, with the characters that it forbids written out."""
+    return escape(printable(text), {'"': "&quot;"})

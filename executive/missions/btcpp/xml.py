@@ -6,6 +6,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from robot.errors import ConfigError, Problem
+from robot.printable import is_printable, printable
 from robot.yaml_nodes import read_text
 
 MAX_DEPTH = 100
@@ -74,6 +75,10 @@ class _Builder:
             raise element.wrong(f"nested deeper than {MAX_DEPTH} levels", "use SubTrees")
         if self._count > MAX_ELEMENTS:
             raise element.wrong(f"more than {MAX_ELEMENTS} elements", "split the file")
+        for text in attributes.values():
+            if not is_printable(text):
+                what = f"a text holds what cannot be printed: {printable(text)[:60]}"
+                raise element.wrong(what, "leave it out")
         if self._stack:
             self._stack[-1].children.append(element)
         else:

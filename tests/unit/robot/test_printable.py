@@ -1,12 +1,19 @@
 """What a terminal would obey is written out, and everything else is left alone."""
 
+import json
 import unicodedata
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.printable import is_printable, printable
+from robot.printable import (
+    is_printable,
+    printable,
+    printable_data,
+    printable_json,
+    printable_line,
+)
 
 ANY = st.text(st.characters())
 
@@ -23,6 +30,25 @@ def test_what_is_fit_stays_as_it_is(text: str) -> None:
     assert (printable(text) == text) == is_printable(text)
 
 
+@given(ANY)
+def test_a_line_is_one_line(text: str) -> None:
+    assert len(printable_line(text).splitlines()) <= 1
+
+
+@given(st.recursive(ANY, lambda inner: st.lists(inner) | st.dictionaries(ANY, inner)))
+def test_data_is_printable_throughout(data: object) -> None:
+    made = printable_data(data)
+    assert printable_data(made) == made
+    assert is_printable(json.dumps(made, ensure_ascii=False))
+
+
+@given(ANY)
+def test_json_means_the_same(text: str) -> None:
+    made = printable_json(json.dumps(text, ensure_ascii=False))
+    assert is_printable(made)
+    assert json.loads(made) == text
+
+
 @pytest.mark.parametrize(
     ("text", "shown"),
     [
@@ -31,6 +57,7 @@ def test_what_is_fit_stays_as_it_is(text: str) -> None:
         ("\x1b]0;title\x07", r"\x1b]0;title\x07"),
         ("cup\u202egnp", r"cup\u202egnp"),
         ("a\rb", r"a\x0db"),
+        ("\ufffe", r"\ufffe"),
         ("grüße, 杯子 👋🏽\n\tnext", "grüße, 杯子 👋🏽\n\tnext"),
     ],
 )

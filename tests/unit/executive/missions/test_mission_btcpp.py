@@ -131,6 +131,12 @@ def test_hostile_xml_is_refused(text):
         data_of(text)
 
 
+@pytest.mark.parametrize("letter", ["&#x9b;", "&#x202e;", "\x9d", "\u2028", "&#x7f;"])
+def test_texts_that_cannot_be_printed_are_refused(letter):
+    with pytest.raises(ConfigError, match="cannot be printed"):
+        data_of(tree(f'<Say text="hi{letter}there"/>'))
+
+
 # --- the way back -------------------------------------------------------------------------------
 
 WORDS = st.text("abc xyz äß<&>\"'", min_size=1, max_size=12).map(str.strip).filter(bool)

@@ -77,6 +77,11 @@ def test_a_new_mission_is_well(write):
     assert check(write(template("my mission", file="it.yaml", schema="x"))).task
 
 
+def test_a_text_is_one_line(write):
+    checked = check(write('name: "hello\\nDone: all is well"\nsteps:\n- say: "a\\nb"\n'))
+    assert checked.mission.record.name == "hello Done: all is well"
+
+
 def test_parameters_are_filled_in_with_their_types(write):
     path = write(
         mission(
