@@ -134,7 +134,8 @@ def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
     ):  # fmt: skip
         place = [value * scale for value in p]
         body.add_geom(type=SPHERE, pos=place, size=[radius * scale, 0, 0], material=material)
-    for side, out in (("left", 1.0), ("right", -1.0)):
+    sides: tuple[tuple[ArmSide, float], ...] = (("left", 1.0), ("right", -1.0))
+    for side, out in sides:
         _add_hand(body, person, side, out * scale, skin)
 
 

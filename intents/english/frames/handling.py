@@ -90,9 +90,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     slots.direction("backward")
     slots.done()
     if inside and isinstance(to, str):  # to bring into a cabinet is to put in it, not on it
-        return [
-            _each(replace(o, at=o.at or at), lambda q: Place(object=q, in_=to)) for o in objects
-        ]
+        put = ("in", to)
+        return [_each(replace(o, at=o.at or at), lambda q: _place(q, put)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
