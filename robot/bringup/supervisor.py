@@ -125,7 +125,9 @@ class Supervisor(Closing):
         return self._logs / f"{name}.log"
 
 
-UNSAID = "it said nothing before that: if nobody killed it, see `dmesg` for memory, then start again"
+UNSAID = (
+    "it said nothing before that: if nobody killed it, see `dmesg` for memory, then start again"
+)
 """What to do about a process whose log is empty, which is no use to look into."""
 
 

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 
 from executive.frontends.reality import REALITY
-from executive.journal import failures, journal, past_runs, reader
+from executive.journal import failures, journal, past_runs
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
 from executive.journal.why import told as explain
