@@ -1,4 +1,4 @@
-"""`python -m benchmarks.prompt_stops`: whether every stop acts, whatever the prompt is in the midst of.
+"""`python -m benchmarks.prompt_stops`: whether every stop acts, whatever the prompt is about.
 
 The real prompt on a real pty, with a puppet for a robot. While that walks, the terminal gets random
 keys, pastes, escape sequences and sizes; then a stop. It acted if the job is over and the robot
@@ -33,7 +33,8 @@ PROGRAM = "tests.fakes.puppet_prompt"
 WORDS = ("walk", "squat for 30 seconds", "what can you do?", "goals", "why", "pause", "the cup", "")
 SEQUENCES = (
     "\x1b[31m", "\x1b[0m", "\x1b[", "\x1b[3", "\x1b[M", "\x1b[M#", "\x1b[M##", "\x1b[<0;3", "\x1b",
-    "\x1b[<0;31;5M", "\x1b[96;14;13M", "\x1b[200~", "\x1b[201~", "\x1b[200", "\x1bO", "\x1b]0;x\x07",
+    "\x1b[<0;31;5M", "\x1b[96;14;13M", "\x1b[200~", "\x1b[201~", "\x1b[200", "\x1bO",
+    "\x1b]0;x\x07",
     "\x1b]8;;", "\x1bP+q", "\x1b[?1049h", "\x1b[12;40R", "\x1b[1;5D", "\x1b[A", "\x1b[B", "\x1b[H",
     "\x1b[3~", "\x1b[99999999999M", "\x1b[1;2;3;4m", "\x1b[c", "\x1b[;m", "\x1b[<m", "\x1b\x1b\x1b",
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What the robot says of times to come: how long a job takes, and what could be asked of it here."""
+"""What can be foreseen: how long a job takes, and what could be asked of the robot here."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def examples(where: Setting, X_WS: SE3 | None) -> tuple[str, ...]:
 def _possible(where: Setting, X_WS: SE3 | None) -> Iterator[str]:
     known = where.world_map
     surfaces = [place.name for place in known.places if not place.floor]
-    things = [info.full_name for info in known.objects]
+    things = [info.full_name.removeprefix("the ") for info in known.objects]
     for said, names in (
         ("go to the {}", surfaces),
         ("pick up the {}", things),

@@ -1,8 +1,8 @@
 """The keyboard, heard in a thread of its own before the input library gets what is typed.
 
 The library may be anywhere when a person wants the robot to stand: in a paste without an end, half
-an escape sequence, a search, a key that waits for another, a mistake of its own, or stuck writing to
-a terminal that does not read. So Ctrl-C, and a line that is a cry to stop, act here.
+an escape sequence, a search, a key that waits for another, a mistake of its own, or stuck writing
+to a terminal that does not read. So Ctrl-C, and a line that is a cry to stop, act here.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Lines that are nearly a command: what was meant is asked, rather than a robot set going.
 
-`move 3 1` is what follows `goals`, and would be a walk to (3, 1); `cancle 2` would be read as a wish
-to end whatever is under way.
+`move 3 1` is what follows `goals`, and would be a walk to (3, 1); `cancle 2` would be read as a
+wish to end whatever is under way.
 """
 
 from __future__ import annotations

@@ -21,6 +21,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.errors import ProcessError
 from robot.failures import Failure
+from robot.model.description import RobotDescription
 
 LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
@@ -62,7 +63,7 @@ class Robot(Closing):
         """
         self.where = setup.where
         self.view = View()
-        self.observer = Observer()
+        self.observer = Observer(low_base_m=_low_base_m(setup.where.description))
         self.interrupts = Interrupts()
         self._setup = setup
         self._wall = wall
@@ -185,3 +186,8 @@ class Robot(Closing):
             raise ProcessError(f"the robot did not come to rest within {LEAVE_S:.0f} s")
         if self._error is not None:
             raise self._error
+
+
+def _low_base_m(robot: RobotDescription) -> float:
+    """A base below this is that of a squat: half way down to it."""
+    return 0.5 * (robot.balance.squat_base_m + robot.walking.base_height_m)

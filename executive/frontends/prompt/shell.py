@@ -184,7 +184,8 @@ class Shell:
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
         still = self.dialogue.question
         if still is not None and not isinstance(turn, Question):
-            self.answer(f"Still open: {still.question}")
+            about = f"“{still.text}”: " if still.text else ""
+            self.answer(f"Still open: {about}{still.question}")
         return understood
 
     def _state(self) -> RobotState:

@@ -25,8 +25,14 @@ STYLES: dict[str, str] = {
 }
 
 
+MOST_LINES = 4
+"""Of the state; the least needed is left out after that."""
+
+
 def toolbar(view: View, *, columns: int, rows: int) -> StyleAndTextTuples:
     """The toolbar for a terminal of that width, with at most `rows` lines of tree."""
+    if columns < 2:
+        return []
     parts: StyleAndTextTuples = []
     for depth, shown in window(view.tree, rows):
         parts += _tree_line(depth, shown, columns)
@@ -42,7 +48,7 @@ def _tree_line(depth: int, shown: Shown, columns: int) -> StyleAndTextTuples:
 
 
 def _status(view: View, columns: int) -> StyleAndTextTuples:
-    """Mode, goal, health, pose, pace: the most needed first, cut at the terminal's width."""
+    """Mode, help, health, goal, pose, pace: the most needed first, on as many lines as it takes."""
     fields: list[tuple[str, str]] = [("class:status", f" {_mode(view)} ")]
     if view.help:
         fields.append(("class:status.note", f" asks: {view.help} "))
@@ -52,8 +58,10 @@ def _status(view: View, columns: int) -> StyleAndTextTuples:
     else:
         fields.append(("class:status", " healthy "))
     if view.goal:
-        phase = f" ({view.phase})" if view.phase else ""
-        fields.append(("class:status", f" {view.goal}{phase} "))
+        doing = [f" {view.goal} ({view.phase}) "] if view.phase else [f" {view.goal} "]
+        if cell_len(doing[0]) > columns and view.phase:
+            doing = [f" {view.goal} ", f" {view.phase} "]
+        fields += [("class:status", text) for text in doing]
     if view.waiting:
         fields.append(("class:status", f" +{view.waiting} waiting "))
     if view.held:
@@ -62,30 +70,40 @@ def _status(view: View, columns: int) -> StyleAndTextTuples:
         x_m, y_m, yaw_deg = view.pose
         fields.append(("class:status", f" at {x_m:.1f}, {y_m:.1f} m, {yaw_deg:.0f}° "))
     fields.append(("class:status", f" {view.time_s:.0f} s, {view.pace:.1f}x "))
-    return _cut(fields, columns)
+    return _laid_out(fields, columns)
 
 
 def _mode(view: View) -> str:
+    mode = "low" if view.mode == "stand" and view.low else view.mode
     if view.state in ("idle", "working"):
-        return view.mode
-    return f"{view.mode}, {view.state}"
+        return mode
+    return f"{mode}, {view.state}"
 
 
-def _cut(fields: list[tuple[str, str]], columns: int) -> StyleAndTextTuples:
-    """As much of the fields as fits, and the rest of the line in the status' colour."""
-    shown: StyleAndTextTuples = []
-    left = columns
+def _laid_out(fields: list[tuple[str, str]], columns: int) -> StyleAndTextTuples:
+    """The fields on lines of that width; one that is longer than a line is cut at its end."""
+    lines: list[list[tuple[str, str]]] = [[]]
     for style, text in fields:
-        if left <= 0:
-            break
-        cropped = _cropped(text if not shown else f"|{text}", left)
-        shown.append((style, cropped))
-        left -= cell_len(cropped)
-    shown.append(("class:status", " " * max(0, left)))
+        told = _cropped(text, columns)
+        used = sum(cell_len(one) + 1 for _, one in lines[-1])
+        if lines[-1] and used + cell_len(told) > columns:
+            if len(lines) == MOST_LINES:
+                break
+            lines.append([])
+        lines[-1].append((style, told))
+    shown: StyleAndTextTuples = []
+    for line in lines:
+        shown += [("", "\n")] if shown else []
+        width = sum(cell_len(text) for _, text in line) + len(line) - 1
+        for number, (style, text) in enumerate(line):
+            shown.append((style, f"|{text}" if number else text))
+        shown.append(("class:status", " " * max(0, columns - width)))
     return shown
 
 
 def _cropped(text: str, columns: int) -> str:
     """As much of a text as fits into so many columns of one line."""
     line = printable(text.replace("\n", " ").replace("\t", " "))
-    return set_cell_size(line, max(0, min(columns, cell_len(line))))
+    if cell_len(line) <= columns:
+        return line
+    return f"{set_cell_size(line, max(0, columns - 1))}…"

@@ -26,6 +26,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
         time_s: the runtime's time.
         state: of the executive: idle, working, pausing, paused, stopping.
         mode: of the body: damping, stand, walk, fallen; "gone" when nothing is left of it.
+        low: whether it squats, which to the body is standing as well.
         pose: estimated x [m], y [m] and heading [degrees] in the world, None before the first fix.
         goal: what the first job under way was asked for.
         phase: what the newest skill does.
@@ -41,6 +42,7 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
     time_s: float = 0.0
     state: str = "idle"
     mode: str = "damping"
+    low: bool = False
     pose: tuple[float, float, float] | None = None
     goal: str = ""
     phase: str = ""
@@ -64,8 +66,9 @@ def view_of_lost(last: View, lost: Failure) -> View:
 class Observer:
     """Makes views of an executive; called by the thread that ticks it."""
 
-    def __init__(self) -> None:
-        """Nobody looks at the tree yet."""
+    def __init__(self, *, low_base_m: float = 0.0) -> None:
+        """Nobody looks at the tree yet; a base below `low_base_m` is that of a squat."""
+        self._low_base_m = low_base_m
         self.tree_wanted = False
         self._tree: tuple[tuple[int, Shown], ...] = ()
         self._tree_wall_s = -math.inf
@@ -91,6 +94,7 @@ class Observer:
             time_s=now_s,
             state=executive.state,
             mode=body.mode if body else "damping",
+            low=body is not None and body.X_NB.p[2] - body.X_NS.p[2] < self._low_base_m,
             pose=pose,
             goal=running[0].text if running else "",
             phase="" if phase == "done" else phase,

@@ -16,11 +16,11 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
     ("operator", r"(?:where|whereabouts|where in \w+ \w+) (?:am i|i am|do i stand|are we|we are)"
                  r"(?: standing)?|what is my (?:position|location|place)"),
     ("remaining", r"(?:and )?how (?:much|many) (?:longer|more|time|seconds|minutes)\b"
-                  r"(?: (?:time|seconds|minutes|is|are|do|will|does|it|that|this|you|need|take|be|left"
-                  r"|remaining|to|go|still|until|the|job|task|have|there|for|are|done|ready|finished"
+                  r"(?: (?:time|seconds|minutes|is|are|do|will|does|it|that|this|you|need|take|be"
+                  r"|left|remaining|to|go|still|until|the|job|task|have|there|for|are|done|ready|finished"
                   r"))*"),
-    ("remaining", r"how (?:long|far)(?: (?:is|are|will|does|do|it|that|this|you|need|take|be|left|to"
-                  r"|go|still|until|the|job|task|for|done|ready|finished|there|away|more|till|have"
+    ("remaining", r"how (?:long|far)(?: (?:is|are|will|does|do|it|that|this|you|need|take|be|left"
+                  r"|to|go|still|until|the|job|task|for|done|ready|finished|there|away|more|till|have"
                   r"|got|way))*"),
     ("remaining", r"what (?:time|distance) (?:is|remains)(?: (?:left|remaining|to go))?"
                   r"|(?:what is the )?(?:time|distance|eta)(?: (?:left|remaining|to go))"

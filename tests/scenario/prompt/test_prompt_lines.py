@@ -1,15 +1,14 @@
 """Lines of all kinds, given to a robot in the fast runtime."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from prompt_toolkit.application import create_app_session
 from prompt_toolkit.buffer import Buffer
 from prompt_toolkit.keys import Keys
-from prompt_toolkit.output import DummyOutput
 
 from benchmarks.intents.endpoint import Reply, serving
 from executive.frontends.prompt import commands
@@ -131,6 +130,89 @@ def test_a_question_is_open_until_it_is_answered(shell: Shell):
     shell.line("stop")
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "cancelled"
+
+
+def test_two_open_questions_are_both_answered(shell: Shell):
+    shell.line("look at the cup")
+    shell.line("where are you?")
+    assert "Still open" in shell.out[-1]
+    shell.line("pick up the cup")
+    before = len(shell.robot.executive.jobs)
+    shell.line("the red one")
+    assert any("“look at the cup”" in said for said in shell.out)
+    shell.line("the blue one")
+    texts = [job.text for job in shell.robot.executive.jobs[-2:]]
+    assert len(shell.robot.executive.jobs) == before + 2
+    assert texts[0].startswith("pick up the red cup")
+    assert texts[1] == "look at the blue cup"
+    shell.line("stop")
+    shell.robot.wait()
+
+
+def test_counting_waits_for_the_walk_before_it(shell: Shell):
+    shell.line("walk half a metre forward")
+    shell.line("count the cups")
+    assert eventually(shell.under_way)
+    assert eventually(lambda: shell.robot.view.goal == "walk half a metre forward")
+    shell.line("why")
+    assert "Asked for: walk half a metre forward" in shell.out.text
+    shell.robot.wait()
+    walk, count = shell.robot.executive.jobs[-2:]
+    assert count.began_s is not None
+    assert walk.began_s is not None
+    assert walk.took_s is not None
+    assert count.began_s >= walk.began_s + walk.took_s
+
+
+def test_why_names_the_job_that_is_meant_and_not_the_one_that_spoke_beside_it(shell: Shell):
+    shell.line("walk 0.3 metres back")
+    shell.line("say hello")
+    shell.robot.wait()
+    first, _ = sorted(job.number for job in shell.robot.executive.jobs[-2:])
+    shell.line("why")
+    assert "Asked for: walk 0.3 metres back" in shell.out.text
+    shell.line(f"why {first + 1}")
+    assert "Asked for: say hello" in shell.out.text
+
+
+@pytest.mark.parametrize("line", ["move 3 1", "drop 2", "cancle 2"])
+def test_a_mistyped_command_moves_nothing(shell: Shell, line: str):
+    before = len(shell.robot.executive.jobs)
+    shell.line(line)
+    assert "Did you mean" in shell.out.text
+    assert len(shell.robot.executive.jobs) == before
+
+
+def test_a_line_from_before_a_stop_comes_to_nothing(shell: Shell):
+    typed = shell.stops
+    shell.line("stop")
+    before = len(shell.robot.executive.jobs)
+    shell.line("squat for 5 seconds", stops=typed)
+    assert "when you said stop" in shell.out.text
+    assert len(shell.robot.executive.jobs) == before
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["where am I?", "how much longer?", "what time is left", "how far is it", "are you done yet",
+     "when will you be done", "how long will it take", "are we there yet"],
+)  # fmt: skip
+def test_how_far_it_is_can_be_asked(shell: Shell, line: str):
+    shell.line("wait 20 seconds")
+    shell.out.clear()
+    shell.line(line)
+    assert shell.out
+    assert "Not understood" not in shell.out.text
+    shell.line("stop")
+    shell.robot.wait()
+
+
+def test_what_is_suggested_can_be_done(shell: Shell):
+    shell.line("what can you do?")
+    examples = re.findall(r"“([^”]+)”", shell.out[-1])[:-1]
+    assert examples
+    for example in examples:
+        assert isinstance(request.request(example, shell.robot.where), request.Understood), example
 
 
 def test_questions_about_the_robot_are_answered_without_a_job(shell: Shell):
@@ -312,9 +394,8 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
     voice = Loudspeaker()
     shell.speech = Speech(voice)
     try:
-        with create_app_session(output=DummyOutput()):
-            keys = Terminal(shell, history=None)._keys()
-        (ctrl_c,) = keys.get_bindings_for_keys((Keys.ControlC,))
+        terminal = Terminal(shell, history=None)
+        (ctrl_c,) = terminal._keys().get_bindings_for_keys((Keys.ControlC,))
         ctrl_c.handler(SimpleNamespace(current_buffer=Buffer()))
         assert voice.told == ["(hush)"]
     finally:

@@ -62,3 +62,44 @@ def test_no_text_takes_long(text: str) -> None:
         is_stop(text)
         took_s.append(time.perf_counter() - began)
     assert min(took_s) < 0.005
+
+
+HIDDEN = (
+    "st\u200bop", "s\u00adtop", "st\u200dop", "\ufeffstop", "s\u2060t\u2061o\u2062p", "st\u202eop",
+    "st\ufe0fop", "st\u034fop", "st\u3164op", "s\u0323\u0307t\u20ddop", "st\0op", "st\x9bop",
+    "ѕtop", "ѕтор", "ѕτορ", "hаlt", "ꜱᴛᴏᴘ", "ſtop", "ⓢⓣⓞⓟ", "🅢🅣🅞🅟", "🆂🆃🅾🅿", "🇸🇹🇴🇵", "𝐬𝐭𝐨𝐩",
+    "🅂🅃🄾🄿", "st op", "s-t.op", "🛑", "st" + "\u200b" * 1500 + "op", "don\u200b't move",
+    "bring the cup st\u200bop now",
+)  # fmt: skip
+GLUED = ("asdfstop", "[31mstop", "walk to thestop", "stopstop", "stopnow")
+
+
+@pytest.mark.parametrize("cry", HIDDEN)
+def test_letters_that_are_unseen_or_look_alike_hide_no_cry(cry: str) -> None:
+    assert is_stop(cry)
+
+
+@given(
+    st.sampled_from(["stop", "halt", "freeze", "стоп", "detente"]),
+    st.lists(st.sampled_from("\u00ad\u200b\u200c\u200d\u200e\u202e\u2060\ufeff\ufe0f\u0336\0")),
+    st.randoms(),
+)
+def test_whatever_is_unseen_hides_no_cry(word: str, unseen: list[str], random) -> None:  # type: ignore[no-untyped-def]
+    for one in unseen:
+        at = random.randint(0, len(word))
+        word = word[:at] + one + word[at:]
+    assert is_stop(word)
+
+
+@pytest.mark.parametrize("cry", GLUED)
+def test_a_cry_that_runs_into_other_words_is_heard(cry: str) -> None:
+    assert is_stop(cry)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["nonstop", "pick up the doorstop", "don\u200bt stop", "тор", "the asphalt", "antifreeze",
+     "чашка на стол"],
+)  # fmt: skip
+def test_names_that_end_like_a_cry_are_none(text: str) -> None:
+    assert not is_stop(text)

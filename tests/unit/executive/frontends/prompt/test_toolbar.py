@@ -3,7 +3,7 @@ from hypothesis import strategies as st
 from prompt_toolkit.formatted_text import to_plain_text
 from rich.cells import cell_len
 
-from executive.frontends.prompt.toolbar import toolbar
+from executive.frontends.prompt.toolbar import MOST_LINES, toolbar
 from executive.frontends.prompt.view import View, view_of_lost
 from executive.health import Level
 from executive.journal.snapshot import Shown, window
@@ -41,7 +41,7 @@ def test_the_toolbar_fits_any_terminal(tree, goal, phase, unwell, columns, rows)
         goal=goal, phase=phase, unwell=unwell, level=level, tree=tuple(tree), pose=(1, 2, 3)
     )
     lines = to_plain_text(toolbar(view, columns=columns, rows=rows)).split("\n")
-    assert len(lines) <= rows + 1
+    assert len(lines) <= rows + MOST_LINES
     assert all(cell_len(line) <= columns for line in lines)
     assert cell_len(lines[-1]) == columns
     assert all(map(is_printable, lines))
@@ -72,3 +72,21 @@ def test_a_robot_that_is_gone_is_not_called_healthy():
     assert "the simulation died" in text
     assert "healthy" not in text
     assert "table" not in text
+
+
+def test_at_sixty_columns_nothing_is_cut_off():
+    view = View(
+        mode="walk", goal="put the red cup on the shelf", phase="walking to the table", waiting=2,
+        held=("right: red cup",), pose=(-1.2, 3.4, 120.0), time_s=123.0,
+    )  # fmt: skip
+    text = to_plain_text(toolbar(view, columns=60, rows=0))
+    for told in ("walk", "healthy", view.goal, view.phase, "+2 waiting", "holds right: red cup",
+                 "at -1.2, 3.4 m, 120°", "123 s"):  # fmt: skip
+        assert told in text
+
+
+def test_a_robot_that_squats_is_not_said_to_stand():
+    view = View(mode="stand", low=True, state="working", goal="squat for 5 s")
+    text = to_plain_text(toolbar(view, columns=100, rows=0))
+    assert "low |" in text
+    assert "stand" not in text
