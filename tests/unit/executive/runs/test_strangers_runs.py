@@ -178,6 +178,13 @@ def test_what_is_no_folder_is_refused(tmp_path, kind):
         run_folder.claim(path)
 
 
+def test_a_folder_that_cannot_be_made_is_refused_where_somebody_named_it(tmp_path):
+    folder = tmp_path / ("x" * 300)
+    run_folder.claim(folder, wanted=False)
+    with pytest.raises(ConfigError, match="too long"):
+        run_folder.claim(folder)
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
 def test_a_folder_of_another_user_is_refused(tmp_path):
     os.chown(tmp_path, 65534, 65534)
