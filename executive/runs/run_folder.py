@@ -125,7 +125,9 @@ def claim(folder: Path, *, wanted: bool = True) -> None:
             folder.mkdir(mode=PRIVATE)
         opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     except (NotADirectoryError, FileExistsError):
-        raise _taken(folder, "is no folder") from None
+        if os.path.lexists(folder):
+            raise _taken(folder, "is no folder") from None
+        return
     except OSError as error:
         if os.path.lexists(folder) or (wanted and error.errno not in FULL):
             raise _taken(folder, f"cannot be used: {error.strerror}") from None
