@@ -28,6 +28,11 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, KeyboardInterrupt):
         return last_words("Stopped on request.", [], "", status=ExitStatus.FAILED, as_json=as_json)
+    if isinstance(error, OSError) and error.filename is not None:
+        # Not what was foreseen, but of the machine and not of this software all the same.
+        lines = [f"{error.filename}: {error.strerror}"]
+        cure = "see to it that the file is there and yours to use, then try again"
+        return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
     if wrong := namesakes.explained(error):
         status = ExitStatus.BROKEN
         return last_words("Broken:", wrong, namesakes.CURE, status=status, as_json=as_json)

@@ -103,6 +103,6 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
         run_folder.claim(Path(there.folder))
         return Path(there.folder)
     folder = wanted or run_folder.folder_for(text, stamp=now_stamp())
-    run_folder.claim(folder)
+    run_folder.claim(folder, wanted=wanted is not None)
     run_folder.check_free(folder)
     return folder

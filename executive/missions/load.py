@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import msgspec
@@ -34,10 +35,11 @@ class Mission(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 def find(name: str) -> Path:
     """The file of a mission: a path, or the name of a shipped one."""
     path = Path(name)
-    if path.exists() or path.suffix:
+    # Unlike `Path.exists` this raises nothing where a folder on the way may not be entered.
+    if path.suffix or os.access(path, os.F_OK):
         return path
     shipped = FOLDER / f"{name}{SUFFIX}"
-    return shipped if shipped.exists() else path
+    return shipped if os.access(shipped, os.F_OK) else path
 
 
 def shipped() -> list[Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import os
 import re
@@ -66,6 +67,7 @@ def carry_missions_over(left_by: Path, folder: Path) -> None:
 
 
 MOST_AT_ONCE = 100
+FULL = (errno.ENOSPC, errno.EDQUOT)
 PRIVATE = 0o700
 """Mode of a run's folder: it says what was said, by whom, and where people and things were."""
 
@@ -106,10 +108,13 @@ _claimed: dict[tuple[int, int], int] = {}
 """By device and inode, the descriptors that hold this process's folders until it ends."""
 
 
-def claim(folder: Path) -> None:
+def claim(folder: Path, *, wanted: bool = True) -> None:
     """Make a folder for this process's run, and keep all others out of it until it ends.
 
-    One that cannot be made, on a disk that is full, say, is no obstacle: the journal tells of it.
+    Args:
+        folder: of the run.
+        wanted: whether somebody named it, and is told if it cannot be made; else the journal tells
+            of it, and the run goes on without. A disk that is full stops nobody.
 
     Raises:
         ConfigError: if it is in use, of another user, or no folder.
@@ -120,9 +125,11 @@ def claim(folder: Path) -> None:
             folder.mkdir(mode=PRIVATE)
         opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     except (NotADirectoryError, FileExistsError):
-        raise _taken(folder, "is no folder") from None
-    except OSError as error:
         if os.path.lexists(folder):
+            raise _taken(folder, "is no folder") from None
+        return
+    except OSError as error:
+        if os.path.lexists(folder) or (wanted and error.errno not in FULL):
             raise _taken(folder, f"cannot be used: {error.strerror}") from None
         return
     try:

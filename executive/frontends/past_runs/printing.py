@@ -122,7 +122,7 @@ def _table(shown: Iterable[Past]) -> Table:
     table.add_column("how it ended", no_wrap=True, min_width=15)
     table.add_column("what", overflow="ellipsis", no_wrap=True, ratio=1)
     for one in shown:
-        name = one.folder.rpartition("/")[2]
+        name = one.folder.rpartition("/")[2].replace("\n", "\\n")
         stamp = re.match(r"\d{8}-\d{6}", name)
         table.add_row(
             stamp[0] if stamp else name,

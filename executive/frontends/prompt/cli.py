@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Generator
@@ -92,7 +93,8 @@ def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None) -> int:
         say("The prompt is back; the robot goes on with what was open.")
     kind = "fast" if handle is None else "live"
     say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
-    Terminal(shell, history=HISTORY.expanduser()).run()
+    history = Path(os.path.expanduser(HISTORY))  # noqa: PTH111 - without a home it stays as it is
+    Terminal(shell, history=history if history.is_absolute() else None).run()
     shell.speech.hush()
     if shell.gone:
         return ExitStatus.BROKEN

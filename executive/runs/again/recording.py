@@ -129,9 +129,8 @@ def discreet(folder: Path) -> Generator[None]:
     try:
         yield
     except ConfigError as error:
-        raise ConfigError(
-            [_without_content(problem, folder) for problem in error.problems]
-        ) from None
+        told = dict.fromkeys(_without_content(problem, folder) for problem in error.problems)
+        raise ConfigError(list(told)) from None
 
 
 def _without_content(problem: Problem, folder: Path) -> Problem:

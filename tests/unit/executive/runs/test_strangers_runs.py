@@ -161,7 +161,7 @@ def test_a_folder_is_one_runs_at_a_time(tmp_path):
     assert folder.stat().st_mode & 0o777 == 0o700
 
 
-@pytest.mark.parametrize("kind", ["file", "pipe", "dangling", "below a file"])
+@pytest.mark.parametrize("kind", ["file", "pipe", "dangling"])
 def test_what_is_no_folder_is_refused(tmp_path, kind):
     path = tmp_path / "run"
     match kind:
@@ -169,13 +169,17 @@ def test_what_is_no_folder_is_refused(tmp_path, kind):
             path.write_text("")
         case "pipe":
             os.mkfifo(path)
-        case "dangling":
-            path.symlink_to(tmp_path / "nowhere")
         case _:
-            path.write_text("")
-            path /= "below"
+            path.symlink_to(tmp_path / "nowhere")
     with pytest.raises(ConfigError, match=r"no folder|cannot be used"):
         run_folder.claim(path)
+
+
+def test_a_folder_that_cannot_be_made_is_refused_where_somebody_named_it(tmp_path):
+    folder = tmp_path / ("x" * 300)
+    run_folder.claim(folder, wanted=False)
+    with pytest.raises(ConfigError, match="too long"):
+        run_folder.claim(folder)
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
