@@ -163,13 +163,15 @@ class Eval:
         list[str] | None,
         typer.Argument(help="Sentences or mission files; none: those of the cases themselves."),
     ] = None
-    seeds: Annotated[int, typer.Option("--seeds", "-n", min=1, help="Runs of each case.")] = 3
+    seeds: Annotated[
+        int, typer.Option("--seeds", "-n", min=1, max=10_000, help="Runs of each case.")
+    ] = 3
     faults: Annotated[
         str,
         typer.Option("--faults", "-f", help="Cases by name, or campaign files; commas between."),
     ] = ""
     processes: Annotated[
-        int, typer.Option("--processes", "-j", min=1, help="Runs at the same time.")
+        int, typer.Option("--processes", "-j", min=1, max=1000, help="Runs at the same time.")
     ] = max(1, os.cpu_count() or 1)
     no_recovery: Annotated[
         bool,
@@ -186,10 +188,12 @@ class Eval:
     ray: Annotated[
         bool, typer.Option("--ray", help="On a Ray cluster, or a local Ray (extra: ray).")
     ] = False
-    world: Annotated[str, typer.Option("--world", "-w", help="Of the missions given here.")] = (
-        "kitchen"
-    )
-    robot: Annotated[str, typer.Option("--robot", "-r", help="By name or file (YAML).")] = "juno"
+    world: Annotated[
+        str, typer.Option("--world", "-w", help="In place of that of the missions given here.")
+    ] = ""
+    robot: Annotated[
+        str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
+    ] = ""
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )
