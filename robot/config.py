@@ -12,6 +12,7 @@ import msgspec
 
 from robot import yaml_nodes
 from robot.errors import ConfigError, Problem
+from robot.type_words import said
 from robot.yaml_nodes import Node
 
 T = TypeVar("T")
@@ -37,8 +38,8 @@ def convert(node: Node, kind: type[T]) -> T:
     except msgspec.ValidationError as error:
         message, _, where = str(error).partition(" - at `")
         where = where.rstrip("`")
-        said = f" at {where.removeprefix('$.')}" if where else ""
-        raise ConfigError([place(node, where).problem(message + said)]) from None
+        at = f" at {where.removeprefix('$.')}" if where else ""
+        raise ConfigError([place(node, where).problem(said(message) + at)]) from None
 
 
 def place(node: Node, where: str) -> Node:

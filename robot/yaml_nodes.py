@@ -10,6 +10,7 @@ judged before anything is built of them.
 from __future__ import annotations
 
 import errno
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -94,7 +95,10 @@ def resolve(text: str) -> Scalar:
         return text
     if _INTEGER.fullmatch(text):
         return int(text)
-    return float(text) if _NUMBER.fullmatch(text) else text
+    if not _NUMBER.fullmatch(text):
+        return text
+    found = float(text)
+    return found if math.isfinite(found) else text  # 1e999, or hundreds of digits: no number
 
 
 def text_node(text: str, like: Node, *, plain: bool = False) -> Node:

@@ -10,14 +10,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal, get_args
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import msgspec
+from msgspec import Meta
 
 from robot.bus.topics import Topic
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.se3 import SE3, Vector3
+from robot.se3 import SE3
+from robot.type_words import in_words, shown
+
+MAX_IMPULSE_N_S = 1000.0
+"""A car that hits the robot at 70 km/h."""
+MAX_AWAY_M = 1000.0
+Impulse: TypeAlias = Annotated[float, Meta(ge=-MAX_IMPULSE_N_S, le=MAX_IMPULSE_N_S)]
+Distance: TypeAlias = Annotated[float, Meta(ge=-MAX_AWAY_M, le=MAX_AWAY_M)]
+Near: TypeAlias = Annotated[float, Meta(ge=-10.0, le=10.0)]
+Angle: TypeAlias = Annotated[float, Meta(ge=-720.0, le=720.0)]
+Span: TypeAlias = Annotated[float, Meta(gt=0.0)]
+Moment: TypeAlias = Annotated[float, Meta(ge=0.001, le=60.0)]
+"""At least a step of the physics."""
 
 
 def _name(kind: str) -> str:
@@ -25,44 +38,44 @@ def _name(kind: str) -> str:
     return "".join(f"_{c.lower()}" if c.isupper() else c for c in kind).lstrip("_")
 
 
-class _Fault(
+class FaultRecord(
     msgspec.Struct, frozen=True, kw_only=True, tag=_name, tag_field="fault",
     forbid_unknown_fields=True,
 ):  # fmt: skip
-    """A fault; it begins when it is applied."""
+    """What all faults have in common: their name in plain data. A fault begins when applied."""
 
 
-class Push(_Fault, frozen=True, kw_only=True):
+class Push(FaultRecord, frozen=True, kw_only=True):
     """A force on the robot's torso, or on an object, a piece of furniture, or a body by name.
 
     `impulse_n_s` in the world's axes, spread evenly over `duration_s`. A push down on a held
     object pulls it out of the hand.
     """
 
-    impulse_n_s: Vector3
+    impulse_n_s: tuple[Impulse, Impulse, Impulse]
     target: str = "robot"
-    duration_s: float = 0.1
+    duration_s: Moment = 0.1
 
 
-class Shove(_Fault, frozen=True, kw_only=True):
+class Shove(FaultRecord, frozen=True, kw_only=True):
     """A level push on the robot's torso of `strength_n_s`, towards an angle from where it faces.
 
     0 degrees pushes it forwards, 90 to its left.
     """
 
-    strength_n_s: float
-    towards_deg: float = 0.0
-    duration_s: float = 0.1
+    strength_n_s: Annotated[float, Meta(ge=0.0, le=MAX_IMPULSE_N_S)]
+    towards_deg: Angle = 0.0
+    duration_s: Moment = 0.1
 
 
-class KnockOver(_Fault, frozen=True, kw_only=True):
+class KnockOver(FaultRecord, frozen=True, kw_only=True):
     """An object is hit at its rim and goes over, towards an angle of the world."""
 
     target: str
-    towards_deg: float = 0.0
+    towards_deg: Angle = 0.0
 
 
-class Move(_Fault, frozen=True, kw_only=True):
+class Move(FaultRecord, frozen=True, kw_only=True):
     """An object, a person or a movable piece of furniture is suddenly elsewhere, at rest.
 
     `X_WO` says where, or `by_m` how far from where it is.
@@ -70,7 +83,7 @@ class Move(_Fault, frozen=True, kw_only=True):
 
     target: str
     X_WO: SE3 | None = None
-    by_m: Vector3 | None = None
+    by_m: tuple[Distance, Distance, Distance] | None = None
 
     def __post_init__(self) -> None:
         """Check that there is one destination."""
@@ -78,59 +91,59 @@ class Move(_Fault, frozen=True, kw_only=True):
             raise ValueError("give exactly one of X_WO, by_m")
 
 
-class Occupy(_Fault, frozen=True, kw_only=True):
+class Occupy(FaultRecord, frozen=True, kw_only=True):
     """Another object suddenly stands on a place, at `at_m` from the middle of it."""
 
     place: str
     target: str
-    at_m: tuple[float, float] = (0.0, 0.0)
+    at_m: tuple[Near, Near] = (0.0, 0.0)
 
 
-class StandInWay(_Fault, frozen=True, kw_only=True):
+class StandInWay(FaultRecord, frozen=True, kw_only=True):
     """Somebody, or a chair, stands in the way for `duration_s`, then where it was again.
 
     That is before the robot, or at a point of the floor.
     """
 
     target: str
-    ahead_m: float = 0.9
-    left_m: float = 0.0
-    at_m: tuple[float, float] | None = None
-    duration_s: float = math.inf
+    ahead_m: Near = 0.9
+    left_m: Near = 0.0
+    at_m: tuple[Distance, Distance] | None = None
+    duration_s: Span = math.inf
 
 
-class Remove(_Fault, frozen=True, kw_only=True):
+class Remove(FaultRecord, frozen=True, kw_only=True):
     """An object or a person is suddenly gone."""
 
     target: str
 
 
-class Silence(_Fault, frozen=True, kw_only=True):
+class Silence(FaultRecord, frozen=True, kw_only=True):
     """A sensor (`camera`), or one topic (`sensors/depth`), says nothing for `duration_s`."""
 
     topic: str
-    duration_s: float = math.inf
+    duration_s: Span = math.inf
 
 
-class Mislead(_Fault, frozen=True, kw_only=True):
+class Mislead(FaultRecord, frozen=True, kw_only=True):
     """The oracle's fixes of the robot's pose are off for `duration_s`."""
 
-    by_m: tuple[float, float]
-    by_deg: float = 0.0
-    duration_s: float = math.inf
+    by_m: tuple[Distance, Distance]
+    by_deg: Angle = 0.0
+    duration_s: Span = math.inf
 
 
-class Heat(_Fault, frozen=True, kw_only=True):
+class Heat(FaultRecord, frozen=True, kw_only=True):
     """A motor's winding is suddenly that hot; it cools down as it does."""
 
     motor: str
-    temperature_c: float
+    temperature_c: Annotated[float, Meta(ge=-50.0, le=300.0)]
 
 
-class Discharge(_Fault, frozen=True, kw_only=True):
+class Discharge(FaultRecord, frozen=True, kw_only=True):
     """The emulated battery is suddenly left with that part of its charge."""
 
-    charge: float
+    charge: Annotated[float, Meta(ge=0.0, le=1.0)]
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -138,14 +151,14 @@ class Discharge(_Fault, frozen=True, kw_only=True):
             raise ValueError(f"charge is a part, 0 to 1, not {self.charge}")
 
 
-class MotorOff(_Fault, frozen=True, kw_only=True):
+class MotorOff(FaultRecord, frozen=True, kw_only=True):
     """One motor no longer obeys: it damps, whatever it is told (`off=False`: it obeys again)."""
 
     motor: str
     off: bool = True
 
 
-class Kill(_Fault, frozen=True, kw_only=True):
+class Kill(FaultRecord, frozen=True, kw_only=True):
     """A process dies. The runtime does this, not the plant."""
 
     process: Literal["controller", "perception"]
@@ -155,7 +168,7 @@ Fault = (
     Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead | Heat
     | Discharge | MotorOff | Kill
 )  # fmt: skip
-KINDS: dict[str, type[_Fault]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
+KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""
 
 FAULT: Topic[Fault] = Topic("sim/fault", Fault, None, "executive")
@@ -166,18 +179,72 @@ def parse(data: Mapping[str, Any]) -> Fault:
     """A fault out of plain data.
 
     Raises:
-        ConfigError: if it is none, with the nearest name of a fault or of a key.
+        ConfigError: if it is none, with everything that is wrong in it.
     """
+    problems = wrong_in(data)
+    if problems:
+        raise ConfigError([problem for _, problem in problems])
+    return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
+
+
+def wrong_in(
+    data: Mapping[str, Any], kinds: Mapping[str, type[FaultRecord]] = KINDS
+) -> list[tuple[str, Problem]]:
+    """Everything wrong in the plain data of a fault, each with the key at which it stands."""
     name = str(data.get("fault", ""))
-    check_name(name, list(KINDS), "fault")
-    keys = [field.name for field in msgspec.structs.fields(KINDS[name])]
-    for key in data:
-        if key != "fault":
-            check_name(key, keys, f"key of the fault {name!r}:")
+    if name not in kinds:
+        text = f"unknown fault {name!r}" if name else "the key 'fault' is missing"
+        return [("fault", Problem(text, suggestion=nearest(name, list(kinds))))]
+    kind, what = kinds[name], f"the fault {name!r}"
+    given = {key: value for key, value in data.items() if key != "fault"}
+    found = wrong_fields(given, kind, what)
+    if not found:
+        try:
+            msgspec.convert(dict(data), kind)
+        except msgspec.ValidationError as error:  # what its `__post_init__` says
+            found.append(("fault", Problem(f"{what}: {error}")))
+    return found
+
+
+def wrong_fields(
+    data: Mapping[str, Any], kind: type[msgspec.Struct], what: str
+) -> list[tuple[str, Problem]]:
+    """Every key that a struct does not have, or lacks, and every value that does not fit.
+
+    Args:
+        data: plain data.
+        kind: the struct.
+        what: it is, for people.
+    """
+    infos = {one.encode_name: one.type for one in _info(kind).fields}
+    fields = {one.encode_name: one for one in msgspec.structs.fields(kind)}
+    found: list[tuple[str, Problem]] = []
+    for key, value in data.items():
+        if key not in fields:
+            text = f"unknown key of {what}: {key!r}"
+            found.append((key, Problem(text, suggestion=nearest(key, list(fields)))))
+        elif not _fits(value, fields[key].type):
+            text = f"{key} of {what} should be {in_words(infos[key])}, not {shown(value)}"
+            found.append((key, Problem(text)))
+    for key, field in fields.items():
+        if field.required and key not in data:
+            cure = f"{key} is {in_words(infos[key])}"
+            found.append(("fault", Problem(f"{what} needs the key {key!r}", suggestion=cure)))
+    return found
+
+
+def _info(kind: type[msgspec.Struct]) -> msgspec.inspect.StructType:
+    info = msgspec.inspect.type_info(kind)
+    assert isinstance(info, msgspec.inspect.StructType)
+    return info
+
+
+def _fits(value: object, kind: Any) -> bool:
     try:
-        return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"the fault {name!r}: {error}") from None
+        msgspec.convert(value, kind)
+    except msgspec.ValidationError:
+        return False
+    return True
 
 
 def check_name(name: str, valid: list[str], what: str) -> None:

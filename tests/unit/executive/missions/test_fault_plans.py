@@ -82,7 +82,10 @@ def test_draws_follow_the_seed():
         ({"fault": "fill_disk", "duration": 3}, "did you mean 'duration_s'"),
         ({"fault": "fill_disk", "duration_s": "long"}, "a number"),
         ({**PUSH, "phase": 3}, "phase"),
-        ({**PUSH, "times": 0}, "times from 1"),
+        (
+            {**PUSH, "times": 0},
+            "times of the trigger should be a whole number from 1 to 1000, not 0",
+        ),
         ({**PUSH, "at_s": 1.0, "step": "pick"}, "either"),
         ({"fault": "shove", "strength_n_s": {"uniform": 3}}, "a list to draw from"),
     ],
