@@ -107,7 +107,7 @@ def new(
 
 @app.command(name="import", no_args_is_help=True)
 def import_(
-    file: Annotated[Path, typer.Argument(help="BehaviorTree.CPP v4 XML, or Nav2 waypoints.")],
+    file: Annotated[Path, typer.Argument(help="BehaviorTree.CPP XML, or Nav2 waypoints.")],
     *,
     output: Output = None,
 ) -> None:
