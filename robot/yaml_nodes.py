@@ -166,9 +166,9 @@ def parse(text: str, file: str, *, begin_with: str = "") -> Node:
         mark: Any = error.problem_mark or error.context_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (None, None)
         what = ", ".join(part for part in (error.context, error.problem) if part)
-        raise _refusal(
-            file, f"not valid YAML: {what}", _cure(what), line=line, column=column
-        ) from None
+        here = text.splitlines()[line - 1 : line] if line else []
+        cure = "indent with spaces, not with a tab" if "\t" in "".join(here) else _cure(what)
+        raise _refusal(file, f"not valid YAML: {what}", cure, line=line, column=column) from None
     except yaml.YAMLError as error:
         what = str(error).splitlines()[0]
         raise _refusal(file, f"not a text file: {what}", "save it as plain text") from None

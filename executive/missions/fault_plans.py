@@ -161,7 +161,8 @@ def drawn(data: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
 
     def draw(how: str, values: list[Any]) -> Any:
         if how == "uniform":
-            return round(float(rng.uniform(*values)), 4)
+            low, high = (float(value) for value in values)
+            return round(float(rng.uniform(low, high)), 4)
         return values[int(rng.integers(len(values)))]
 
     return {key: _with(key, value, draw) for key, value in data.items()}
@@ -191,14 +192,14 @@ def _with(key: str, value: Any, choose: Callable[[str, list[Any]], Any]) -> Any:
     if isinstance(value, dict) and len(cast("dict[str, Any]", value)) == 1:
         ((how, of),) = cast("dict[str, Any]", value).items()
         if how in DRAWS:
-            return choose(how, _values(key, how, of))
+            return choose(how, _values(key, how, cast("object", of)))
     return cast(Any, value)
 
 
-def _values(key: str, how: str, of: Any) -> list[Any]:
+def _values(key: str, how: str, of: object) -> list[Any]:
     """What is drawn from. Raises ConfigError."""
     values = cast("list[Any]", of) if isinstance(of, list) else []
-    numbers = [value for value in values if isinstance(value, int | float)]
+    numbers: list[float] = [value for value in values if isinstance(value, int | float)]
     fits = (
         len(values) == len(numbers) == 2 and abs(numbers[0]) < LONG_S and abs(numbers[1]) < LONG_S
         if how == "uniform"

@@ -79,7 +79,7 @@ def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
         return None
     if abs(p_W[2]) > FLOOR_M:
         text = f"{name} lies {p_W[2]:g} m from the floor"
-        problems.add(position, text, "a robot stands on the floor: z: 0")
+        problems.add(position or node, text, "a robot stands on the floor: z: 0")
     w, x, y, z = (value / norm for value in quat_wxyz)
     lean_rad = math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
     if lean_rad > UPRIGHT_RAD:

@@ -107,7 +107,8 @@ class Reader:
             field = fields.get(name)
             if field is None:
                 bad = True
-                self._problems.add(key, f"unknown key {name!r}", nearest(name, list(fields)))
+                cure = _belongs_below(node, name, fields) or nearest(name, list(fields))
+                self._problems.add(key, f"unknown key {name!r}", cure)
                 continue
             self._key = name
             try:
@@ -169,7 +170,7 @@ class Reader:
                 if node.text in info.values:
                     return node.text
                 valid = [str(v) for v in info.values]
-                text = f"{self._key}: {_shape(node)} is none of {', '.join(valid)}"
+                text = f"{self._key}: {_shape(node)} is none of the words that may stand here"
                 raise self._wrong(node, text, nearest(node.text, valid))
             case _:
                 text = f"{self._key}: {_shape(node)} where {in_words(info)} should be"
@@ -242,6 +243,18 @@ def _members(info: types.UnionType) -> list[types.Type]:
             elif not isinstance(bare, types.NoneType) and not _is_parameter(bare):
                 known.append(bare)
     return known
+
+
+def _belongs_below(node: Node, name: str, fields: dict[str, types.Field]) -> str:
+    """The cure for a key that was not indented far enough; empty if it was not that."""
+    for key, (_, value) in node.entries.items():
+        if key not in fields or value.kind != "text" or value.value is not None:
+            continue
+        info = fields[key].type
+        kinds = _members(info) if isinstance(info, types.UnionType) else [info]
+        if any(isinstance(kind, types.StructType) and name in _fields(kind) for kind in kinds):
+            return f"indent it further: it belongs below {key!r}"
+    return ""
 
 
 def _is_parameter(info: types.Type) -> bool:

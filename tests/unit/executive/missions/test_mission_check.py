@@ -453,3 +453,18 @@ def test_everything_wrong_in_faults_is_said_at_its_line_in_our_words(write):
         assert f":{line}:" in said
         assert "Expected" not in said
         assert "$" not in said
+
+
+@pytest.mark.parametrize(
+    ("steps", "words"),
+    [
+        ("  - bring:\n    object: red cup\n    to: table\n", "indent it further: it belongs below 'bring'"),  # noqa: E501
+        ("\t- say: hi\n", "indent with spaces, not with a tab"),
+        ("  - balance: {mode: jump}\n", "valid: lean, one_leg, sit, squat, stand"),
+        ("  - wait: 5 seconds\n", "wait: '5 seconds' where a number from 0 to 600"),
+        ("  - go_to: {by: {}}\n", "neither how far nor how much to turn"),
+        ("  - goto: table\n", "did you mean 'go_to'"),
+    ],
+)  # fmt: skip
+def test_what_a_newcomer_gets_wrong_is_told_with_its_cure(steps, words, write):
+    assert any(words in text for text in problems(write(mission(steps))))
