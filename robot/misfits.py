@@ -114,7 +114,7 @@ def _of_struct(data: object, kind: inspect.StructType, path: Path) -> Iterator[M
         if name in fields:
             yield from _of(entries[name], fields[name].type, (*path, name), "")
         elif name != kind.tag_field and kind.forbid_unknown_fields:
-            text = f"unknown key {_shown(name)}"
+            text = f"unknown key {shown(name)}"
             yield Misfit((*path, name), text, nearest(name, list(fields)))
     if any(name not in fields and name != kind.tag_field for name in entries):
         return  # what is missing is most likely there, misspelt
@@ -189,7 +189,7 @@ def _of_word(
         case inspect.LiteralType():
             if data not in kind.values:
                 valid = [str(value) for value in kind.values]
-                text = f"{dotted(path)} cannot be {_shown(data)}"
+                text = f"{dotted(path)} cannot be {shown(data)}"
                 yield Misfit(path, text, nearest(str(data), valid))
         case inspect.StrType():
             if not isinstance(data, str):
@@ -204,10 +204,11 @@ def _of_word(
 
 def _wrong(data: object, path: Path, wanted: str, *, cure: str = "") -> Misfit:
     where = dotted(path) or "the whole"
-    return Misfit(path, f"{where} is {_shown(data)}, and must be {wanted}", cure)
+    return Misfit(path, f"{where} is {shown(data)}, and must be {wanted}", cure)
 
 
-def _shown(data: object) -> str:
+def shown(data: object) -> str:
+    """A value as a message repeats it, short."""
     if isinstance(data, Mapping):
         return "a mapping"
     if isinstance(data, list | tuple):

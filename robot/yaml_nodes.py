@@ -97,7 +97,10 @@ def resolve(text: str) -> Scalar:
         return text
     if _INTEGER.fullmatch(text):
         return int(text)
-    return float(text) if _NUMBER.fullmatch(text) else text
+    if not _NUMBER.fullmatch(text):
+        return text
+    found = float(text)
+    return found if math.isfinite(found) else text  # 1e999, or hundreds of digits: no number
 
 
 def _is_infinite(text: str) -> bool:
@@ -173,9 +176,9 @@ def parse(text: str, file: str, *, begin_with: str = "") -> Node:
         mark: Any = error.problem_mark or error.context_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (None, None)
         what = ", ".join(part for part in (error.context, error.problem) if part)
-        raise _refusal(
-            file, f"not valid YAML: {what}", _cure(what), line=line, column=column
-        ) from None
+        here = text.splitlines()[line - 1 : line] if line else []
+        cure = "indent with spaces, not with a tab" if "\t" in "".join(here) else _cure(what)
+        raise _refusal(file, f"not valid YAML: {what}", cure, line=line, column=column) from None
     except yaml.YAMLError as error:
         what = str(error).splitlines()[0]
         raise _refusal(file, f"not a text file: {what}", "save it as plain text") from None

@@ -29,7 +29,7 @@ def compile_scene(
     motors.install(spec, description)
     for key in list(spec.keys):
         spec.delete(key)
-    _set_physics(spec)
+    set_physics(spec)
     spec.option.timestep = timestep_s
     furnish(spec, world)
     return spec.compile()
@@ -52,7 +52,7 @@ def furnish(spec: mujoco.MjSpec, world: World) -> None:
         bodies.add_object(spec, item, poses[item.id], paint)
 
 
-def _set_physics(spec: mujoco.MjSpec) -> None:
+def set_physics(spec: mujoco.MjSpec) -> None:
     """Options that hold grasps, and cost little.
 
     An elliptic cone and impratio 100 stop the creep of friction. What rests sleeps until touched

@@ -27,7 +27,7 @@ from robot.reality.faults import (
     check_name,
 )
 from robot.se3 import SE3, Vector3
-from sim import atlas
+from sim import atlas, furniture
 from sim.world_schema import World
 
 if TYPE_CHECKING:
@@ -53,9 +53,19 @@ def verify(fault: Fault, world: World, robot: RobotDescription) -> None:
         ConfigError: for a name that is not there, with the nearest one.
     """
     objects = [item.id for item in world.objects]
-    bodies = ["robot", *objects, *(item.id for item in (*world.furniture, *world.people))]
+    people = [item.id for item in world.people]
+    loose = [item.id for item in world.furniture if furniture.movable(item)]
+    bodies = ["robot", *objects, *(item.id for item in world.furniture), *people]
+    if isinstance(fault, KnockOver | Occupy):
+        targets = objects
+    elif isinstance(fault, Push):
+        targets = bodies
+    else:  # what is put elsewhere must not stand fast
+        targets = [*objects, *people, *loose]
+    if isinstance(fault, Discharge) and robot.battery is None:
+        raise ConfigError(f"the robot {robot.name!r} describes no battery")
     known = {
-        "target": objects if isinstance(fault, KnockOver | Occupy) else bodies,
+        "target": targets,
         "place": list(atlas.places(world)),
         "motor": list(robot.motor_names),
         "topic": [*SENSORS, *SENT],

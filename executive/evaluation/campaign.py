@@ -5,7 +5,10 @@ A case is a short mission, the faults that strike in it, and the outcome that is
 
 from __future__ import annotations
 
+import hashlib
 import math
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +27,8 @@ from robot.reality.contract import Reality
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
+BENCH, JUNO = "bench", "juno"
+"""Where a sentence is done, and by whom, if nothing else is said."""
 
 
 class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -32,7 +37,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     Attributes:
         name: unique in its campaign.
         mission: a sentence, or the path of a mission file.
-        world: by name or path.
+        world: by name or path; by default a mission file's own, and the bench for a sentence.
         start: where the robot starts (x [m], y [m], heading [deg]); the world's start by default.
         faults: what strikes, and when (`executive.runs.faults`).
         expect: "recovered", or the codes of failure with which it may end safely; a run that is
@@ -46,7 +51,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
     name: str
     mission: str
-    world: str = "bench"
+    world: str = ""
     start: tuple[float, float, float] | None = None
     faults: tuple[dict[str, Any], ...] = ()
     expect: str | tuple[str, ...] = RECOVERED
@@ -74,20 +79,28 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):
-    """One run of a case: all that a worker needs to know."""
+    """One run of a case: all that a worker needs to know.
+
+    `robot`, by name or path, stands for that of the mission where it is not empty.
+    """
 
     case: Case
     seed: int
     recovery: bool = True
-    robot: str = "juno"
+    robot: str = ""
 
     @property
     def key(self) -> str:
         """Unique in a campaign."""
         return f"{self.case.name}/{self.seed}" + ("" if self.recovery else "/no-recovery")
 
+    @property
+    def digest(self) -> str:
+        """Of all that is run (not of the code): equal keys may be of different missions."""
+        return hashlib.sha256(msgspec.json.encode(self, order="deterministic")).hexdigest()[:16]
 
-def load(path: Path | str, reality: Reality, *, robot: str = "juno") -> tuple[Case, ...]:
+
+def load(path: Path | str, reality: Reality, *, robot: str = "") -> tuple[Case, ...]:
     """Read a campaign, and check every word of it before anything is run.
 
     Raises:
@@ -101,14 +114,28 @@ def load(path: Path | str, reality: Reality, *, robot: str = "juno") -> tuple[Ca
         for index, case in enumerate(cases)
         for text in problems_of(case, settings)
     ]
-    names = [case.name for case in cases]
     problems += [
-        Problem(f"there are two cases {name!r}", file=str(path))
-        for name in sorted({name for name in names if names.count(name) > 1})
+        config.place(node, f"$.cases[{index}]").problem(f"there are two cases {case.name!r}")
+        for index, case in enumerate(cases)
+        if case.name in {other.name for other in cases[:index]}
     ]
+    if not cases:
+        problems.append(node.problem("there are no cases in it", "see docs/evaluation.md"))
     if problems:
         raise ConfigError(problems)
     return cases
+
+
+def check_names(cases: Sequence[Case]) -> None:
+    """Refuse cases that cannot be told apart. Raises ConfigError."""
+    several = Counter(case.name for case in cases)
+    problems = [
+        Problem(f"{count} cases are called {name!r}", suggestion="name each once")
+        for name, count in several.items()
+        if count > 1
+    ]
+    if problems:
+        raise ConfigError(problems)
 
 
 class Meant(msgspec.Struct, frozen=True, kw_only=True):
@@ -123,33 +150,34 @@ class Settings:
 
     Attributes:
         reality: that the worlds are of.
+        robot: in place of the missions' own; empty: theirs.
     """
 
-    def __init__(self, reality: Reality, robot: str) -> None:
+    def __init__(self, reality: Reality, robot: str = "") -> None:
         """Read nothing yet."""
         self.reality = reality
-        self._robot = robot
+        self.robot = robot
         self._known: dict[str, request.Setting] = {}
 
     def of(self, world: str) -> request.Setting:
         """The robot in a world, by name or path. Raises ConfigError as `request.setting` does."""
         if world not in self._known:
-            self._known[world] = request.setting(self.reality, world, robot=self._robot)
+            self._known[world] = request.setting(self.reality, world, robot=self.robot or JUNO)
         return self._known[world]
 
 
 def meant(case: Case, settings: Settings) -> Meant:
-    """Understand a case's mission: a sentence, or a mission file, which brings its own world.
+    """Understand a case's mission: a sentence, or a mission file, which may bring its own world.
 
     Raises:
         ConfigError: if it cannot be meant.
     """
     if case.mission.endswith((".yaml", ".yml")):
-        options = check.Options(samples=True)
+        options = check.Options(samples=True, world=case.world, robot=settings.robot)
         checked = check.check(find(case.mission), settings.reality, options)
         made = mission_task.assignment(checked, options, path=case.mission)
         return Meant(assignment=made, where=checked.where)
-    where = settings.of(case.world)
+    where = settings.of(case.world or BENCH)
     understood = request.request(case.mission, where)
     if isinstance(understood, request.Refused):
         raise ConfigError(f"{case.mission!r}: {understood.reason}")

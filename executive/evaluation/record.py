@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 from collections.abc import Iterable
@@ -11,13 +12,15 @@ from typing import TypeVar
 import msgspec
 
 from executive.evaluation.campaign import Run
-from robot.errors import ConfigError
+from robot.closing import Closing
+from robot.config import nearest
+from robot.errors import ConfigError, Problem
 from robot.ordinary_files import open_to_append, read_ordinary
 
-MAX_BYTES = 200_000_000
-"""Of a campaign's records: one of them has about 1 kB."""
-
 FILE = "results.jsonl"
+MAX_BYTES = 500_000_000
+"""A record has some 300 bytes: more than that nobody has run."""
+OTHER_FOLDER = "name another folder, or leave --resume out"
 S = TypeVar("S", bound=msgspec.Struct)
 CODE = ("executive", "intents", "robot", "sim")
 
@@ -27,6 +30,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         key: of the run.
+        digest: of what was run; empty in results of earlier versions.
         case, seed, recovery: which run.
         ok: whether it ended as expected, judged by the simulator's truth.
         code: "done", a failure's code, or "exception".
@@ -41,6 +45,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     key: str
+    digest: str = ""
     case: str
     seed: int
     recovery: bool
@@ -62,7 +67,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     code: str
 
 
-class Results:
+class Results(Closing):
     """The file of a campaign: a run that is in it is not run again.
 
     Every line is on the disk before `add` returns; a line that was torn is left out.
@@ -74,16 +79,28 @@ class Results:
     """
 
     def __init__(self, folder: Path, *, fingerprint: str) -> None:
-        """Open the file in `folder`, or begin one. Raises ConfigError if that cannot be done."""
+        """Open the file in `folder`, or begin one, and keep others from writing into it.
+
+        Raises:
+            ConfigError: the file is none of results, cannot be written, or another evaluation is
+                at work on it.
+        """
         self.path = folder / FILE
-        self.records: dict[str, Record] = {}
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            self._file = os.fdopen(open_to_append(self.path), "ab")
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            data = read_ordinary(self.path, limit=MAX_BYTES)
+        except BlockingIOError:
+            cure = "wait for it, or leave --resume out"
+            raise _refusal(self.path, "another evaluation writes into it", cure) from None
         except OSError as error:
-            raise ConfigError(f"{folder} cannot be made: {error.strerror}") from None
-        data = self._read()
+            raise _refusal(self.path, f"cannot be used: {error.strerror}", OTHER_FOLDER) from None
         lines = data.splitlines()
         header = _decode(lines[0], Header) if lines else None
+        if lines and header is None:
+            raise _refusal(self.path, "this is no file of `humanoid eval`", OTHER_FOLDER)
+        self.records: dict[str, Record] = {}
         self.stale = header is not None and header.code != fingerprint
         for line in lines[1:]:
             record = _decode(line, Record)
@@ -95,30 +112,53 @@ class Results:
             self._write(_line(Header(code=fingerprint)))
 
     def left(self, runs: Iterable[Run]) -> list[Run]:
-        """The runs that are not done yet."""
-        return [run for run in runs if run.key not in self.records]
+        """The runs that are not done yet.
+
+        Raises:
+            ConfigError: under the name of one of them something else was run.
+        """
+        found: list[Run] = []
+        for run in runs:
+            record = self.records.get(run.key)
+            if record is None:
+                found.append(run)
+            elif record.digest and record.digest != run.digest:
+                text = f"the results of {run.key!r} are of another mission, world or robot"
+                raise _refusal(self.path, text, "the same options as then, or no --resume")
+        return found
 
     def add(self, record: Record) -> None:
-        """Keep a record; it survives whatever comes next."""
+        """Keep a record; it survives whatever comes next. Raises ConfigError on a full disk."""
         self.records[record.key] = record
         self._write(_line(record))
 
+    def close(self) -> None:
+        """Let others write into the file."""
+        self._file.close()
+
     def _write(self, data: bytes) -> None:
         try:
-            with os.fdopen(open_to_append(self.path), "ab") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
+            self._file.write(data)
+            self._file.flush()
+            os.fsync(self._file.fileno())
         except OSError as error:
-            raise ConfigError(f"{self.path} cannot be written: {error.strerror}") from None
+            cure = "make room; what is in it is kept"
+            raise _refusal(self.path, f"cannot be written: {error.strerror}", cure) from None
 
-    def _read(self) -> bytes:
-        try:
-            return read_ordinary(self.path, limit=MAX_BYTES)
-        except FileNotFoundError:
-            return b""
-        except OSError as error:
-            raise ConfigError(f"{self.path} cannot be read: {error.strerror}") from None
+
+def folder_to_resume(folder: Path) -> Path:
+    """A folder of results that is there. Raises ConfigError with the nearest one that is."""
+    if (folder / FILE).is_file():
+        return folder
+    there = sorted(str(path.parent) for path in folder.parent.glob(f"*/{FILE}"))
+    cure = nearest(str(folder), there) if there else "leave --resume out to begin anew"
+    raise ConfigError(
+        [Problem("there are no results in this folder", str(folder), suggestion=cure)]
+    )
+
+
+def _refusal(path: Path, message: str, cure: str) -> ConfigError:
+    return ConfigError([Problem(message, str(path), suggestion=cure)])
 
 
 def fingerprint(root: Path) -> str:

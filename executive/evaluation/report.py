@@ -45,18 +45,33 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Report(msgspec.Struct, frozen=True, kw_only=True):
-    """A whole campaign. `worst` is the lowest share of any case, with recovery."""
+    """A whole campaign. `worst` is the lowest share of any case, with recovery.
+
+    `left` runs were asked for and are not done; of the others some were made by other code than
+    this one where `mixed` says so.
+    """
 
     rows: tuple[Row, ...]
     runs: int
+    left: int = 0
+    mixed: bool = False
     worst: float
     unsafe: int
     without_code: int
     judged_by: str = "oracle"
 
 
-def report(cases: Sequence[Case], records: Iterable[Record]) -> Report:
-    """Sum a campaign up."""
+def report(
+    cases: Sequence[Case], records: Iterable[Record], *, left: int = 0, mixed: bool = False
+) -> Report:
+    """Sum a campaign up.
+
+    Args:
+        cases: what was run.
+        records: how each run ended.
+        left: how many runs are not done.
+        mixed: whether other code made some of the records.
+    """
     all_records = list(records)
     rows: list[Row] = []
     for case in cases:
@@ -80,6 +95,8 @@ def report(cases: Sequence[Case], records: Iterable[Record]) -> Report:
     return Report(
         rows=tuple(rows),
         runs=len(counted),
+        left=left,
+        mixed=mixed,
         worst=min((row.with_recovery.share for row in rows), default=0.0),
         unsafe=sum(record.unsafe for record in counted if record.recovery),
         without_code=sum(record.code in ("", "exception") for record in counted),
@@ -115,9 +132,11 @@ def markdown(found: Report) -> str:
 
 
 def _caption(found: Report) -> str:
+    left = f" ({found.left} are not done)" if found.left else ""
+    mixed = "; some were made by other code" if found.mixed else ""
     return (
-        f"{found.runs} runs, judged by the simulator's truth ({found.judged_by}); "
-        f"{found.unsafe} unsafe ends, {found.without_code} ends without a code"
+        f"{found.runs} runs{left}, judged by the simulator's truth ({found.judged_by}); "
+        f"{found.unsafe} unsafe ends, {found.without_code} ends without a code{mixed}"
     )
 
 

@@ -37,8 +37,8 @@ def perform(run: Run, reality: Reality) -> Record:
     except Exception as error:  # a run that breaks is a result as well
         text = traceback.format_exception_only(error)[-1].strip()
         record = Record(
-            key=run.key, case=run.case.name, seed=run.seed, recovery=run.recovery, ok=False,
-            code="exception", cause=text, unsafe=True,
+            key=run.key, digest=run.digest, case=run.case.name, seed=run.seed,
+            recovery=run.recovery, ok=False, code="exception", cause=text, unsafe=True,
         )  # fmt: skip
     return msgspec.structs.replace(record, wall_s=round(time.perf_counter() - begin_s, 2))
 
@@ -129,6 +129,7 @@ class _Trial:
         as_expected = done or code in case.codes
         return Record(
             key=run.key,
+            digest=run.digest,
             case=case.name,
             seed=run.seed,
             recovery=run.recovery,

@@ -136,7 +136,7 @@ def walk(options: Walk) -> None:
 def parse(
     sentence: Annotated[list[str] | None, typer.Argument(help="What was said.")] = None,
     *,
-    world: World = "kitchen",
+    world: World = "",
     vocabulary: Annotated[
         Path | None, typer.Option("--vocabulary", help="Names from a JSON file, not a world.")
     ] = None,
@@ -158,9 +158,16 @@ def parse(
 
     if sentence is None and file is None:
         raise typer.BadParameter("give a sentence, or --file")
+    if vocabulary is not None and world:
+        raise typer.BadParameter("names come from --world or from --vocabulary, not from both")
     texts = [" ".join(sentence)] if sentence is not None else []
     status = parse_all(
-        texts, world=world, vocabulary=vocabulary, file=file, model=model, as_json=as_json
+        texts,
+        world=world or "kitchen",
+        vocabulary=vocabulary,
+        file=file,
+        model=model,
+        as_json=as_json,
     )
     raise typer.Exit(status)
 

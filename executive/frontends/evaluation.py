@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+import shlex
+import sys
 from pathlib import Path
 
 import msgspec
@@ -11,7 +12,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 import executive
 from executive.evaluation import campaign, pool, report
 from executive.evaluation.campaign import Case, Run
-from executive.evaluation.record import Record, Results, fingerprint
+from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
+from executive.frontends.ending import Ending
+from executive.frontends.exit import last_words
+from executive.frontends.launching import now_stamp
 from executive.frontends.options import Eval
 from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
@@ -24,34 +28,72 @@ from robot.ordinary_files import write_ordinary
 MAX_WIDTH = 1000
 """Of any table: how wide it would be is asked without a bound of the terminal."""
 
+WORLD = "kitchen"
+"""Where a sentence of one's own is done if nothing else is said, as by `humanoid do`."""
+
 
 def evaluate(options: Eval) -> int:
     """Run a campaign, or what is left of one; returns the exit status.
 
+    A signal that asks for the end gives up the runs that are under way; what is done is kept.
+
     Raises:
         ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
+        ProcessError: a worker died.
     """
     cases = chosen(options)
     wanted = campaign.runs(
         cases, seeds=options.seeds, without_too=options.no_recovery, robot=options.robot
     )
-    folder = options.resume or Path("runs") / f"{datetime.now().astimezone():%Y%m%d-%H%M%S}-eval"
     root = Path(executive.__file__).parent.parent
-    run_folder.claim(folder)
-    results = Results(folder, fingerprint=fingerprint(root))
-    console = Screen(err=True, quiet=options.as_json)
-    if results.stale:
-        console.print("some results there were made by other code", style="yellow")
-    _go_through(results, results.left(wanted), options, console)
-    found = report.report(cases, results.records.values())
+    with Results(_folder(options), fingerprint=fingerprint(root)) as results:
+        screen = Screen(err=True, quiet=options.as_json)
+        left = results.left(wanted)
+        mixed = results.stale and len(left) < len(wanted)
+        if mixed:
+            screen.print("some results there were made by other code", style="yellow")
+        with Ending() as ending:
+            _go_through(results, left, options, screen, ending=ending)
+        records = results.records.values()
+        found = report.report(cases, records, left=len(results.left(wanted)), mixed=mixed)
+        _say(found, results.path.parent, options)
+        if ending.asked:
+            return _stopped(found, results.path.parent)
+        well = found.worst >= options.require and not found.without_code
+        return ExitStatus.DONE if well else ExitStatus.FAILED
+
+
+def _folder(options: Eval) -> Path:
+    """Where the results are, or are to be. Raises ConfigError if there are none to go on with."""
+    if options.resume is not None:
+        return folder_to_resume(options.resume)
+    return run_folder.folder_for("eval", stamp=now_stamp())
+
+
+def _say(found: report.Report, folder: Path, options: Eval) -> None:
+    """Keep the table, and print it."""
     save(folder, found)
     if options.as_json:
         write_json(found)
-    else:
+        return
+    if found.runs:
         show(found)
-        say(f"results: {results.path}; go on with: --resume {folder}")
-    well = found.worst >= options.require and not found.without_code
-    return ExitStatus.DONE if well else ExitStatus.FAILED
+    if not found.left:
+        say(f"results: {folder / FILE}; more seeds with: --resume {folder}")
+
+
+def _stopped(found: report.Report, folder: Path) -> int:
+    """Say what is kept, and how to go on; returns the exit status."""
+    words = iter(sys.argv[1:])
+    said = [
+        word
+        for word in words
+        if not word.startswith("--resume=") and not (word == "--resume" and next(words, True))
+    ]
+    again = shlex.join(["humanoid", *said, "--resume", str(folder)])
+    lines = [f"{found.runs} runs are kept, {found.left} are left (those under way were given up)"]
+    cure = f"go on with: {again}"
+    return last_words("Stopped on request.", lines, cure, status=ExitStatus.FAILED, as_json=False)
 
 
 def show(found: report.Report) -> None:
@@ -84,70 +126,99 @@ def chosen(options: Eval) -> tuple[Case, ...]:
     with the faults of those cases, and without any when no fault is named.
 
     Raises:
-        ConfigError: if a name or a file is wrong.
+        ConfigError: with everything that is wrong in names and files.
     """
-    cases: list[Case] = []
-    shipped: dict[str, Case] | None = None
-    for word in options.cases:
-        if word.endswith((".yaml", ".yml")):
-            cases += campaign.load(word, REALITY, robot=options.robot)
-            continue
-        if shipped is None:
-            shipped = {one.name: one for one in campaign.load(campaign.SHIPPED, REALITY)}
-        if word not in shipped:
-            hint = nearest(word, list(shipped))
-            raise ConfigError([Problem(f"unknown fault {word!r}", suggestion=hint)])
-        cases.append(shipped[word])
-    if not options.missions:
-        return tuple(cases) or campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)
-    every: list[Case | None] = [*cases] or [None]
-    own = [_own(mission, case, options) for mission in options.missions for case in every]
+    if options.world and not options.missions:
+        cure = "leave --world out, or give a mission"
+        raise ConfigError([Problem("each case names its own world", "--world", suggestion=cure)])
     settings = campaign.Settings(REALITY, options.robot)
-    problems = [
-        Problem(f"{case.name}: {text}")
-        for case in own
-        for text in campaign.problems_of(case, settings)
-    ]
+    if options.robot:
+        settings.of(campaign.BENCH)  # so that a robot that is not there is said once
+    cases = _named(options)
+    if options.missions:
+        every: list[Case | None] = [*cases] or [None]
+        cases = [_own(mission, case, options) for mission in options.missions for case in every]
+        problems = [
+            Problem(f"{case.name}: {text}")
+            for case in cases
+            for text in campaign.problems_of(case, settings)
+        ]
+        if problems:
+            raise ConfigError(problems)
+    cases = cases or [*campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)]
+    campaign.check_names(cases)
+    return tuple(cases)
+
+
+def _named(options: Eval) -> list[Case]:
+    """The cases that --faults names. Raises ConfigError with all that are not there."""
+    words = options.cases
+    if options.faults and not words:
+        raise ConfigError([Problem("no case is named", "--faults", suggestion="a name, or a file")])
+    found: list[Case] = []
+    problems: list[Problem] = []
+    shipped: dict[str, Case] = {}
+    if any(not _is_file(word) for word in words):
+        every = campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)
+        shipped = {case.name: case for case in every}
+    for word in words:
+        if _is_file(word):
+            found += campaign.load(word, REALITY, robot=options.robot)
+        elif word in shipped:
+            found.append(shipped[word])
+        else:
+            text = f"there is no case {word!r}"
+            problems.append(Problem(text, "--faults", suggestion=nearest(word, list(shipped))))
     if problems:
         raise ConfigError(problems)
-    return tuple(own)
+    return found
+
+
+def _is_file(word: str) -> bool:
+    return word.endswith((".yaml", ".yml"))
 
 
 def _own(mission: str, fault: Case | None, options: Eval) -> Case:
     """A mission of one's own, with the fault of a case."""
-    name = Path(mission).stem if mission.endswith((".yaml", ".yml")) else mission
+    in_file = _is_file(mission)
+    name = Path(mission).stem if in_file else mission
+    own = Case(name=name, mission=mission, world=options.world or ("" if in_file else WORLD))
     if fault is None:
-        return Case(name=name, mission=mission, world=options.world)
-    return Case(
+        return own
+    return msgspec.structs.replace(
+        own,
         name=f"{name}, {fault.name}",
-        mission=mission,
-        world=options.world,
         faults=fault.faults,
         expect=fault.expect,
+        helped=fault.helped,
         damped=fault.damped,
         limit_s=600.0,
     )
 
 
-def _go_through(results: Results, runs: list[Run], options: Eval, console: Screen) -> None:
+def _go_through(
+    results: Results, runs: list[Run], options: Eval, screen: Screen, *, ending: Ending
+) -> None:
     """Do the runs that are left, keeping each record as it comes."""
     work = (
-        pool.on_ray(runs, REALITY)
+        pool.on_ray(runs, REALITY, stop=lambda: ending.asked)
         if options.ray
-        else pool.in_processes(runs, REALITY, processes=options.processes)
+        else pool.in_processes(
+            runs, REALITY, processes=options.processes, stop=lambda: ending.asked
+        )
     )
     done = len(results.records)
     columns = (
         TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
         TextColumn("{task.fields[last]}", markup=False),
     )  # fmt: skip
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+    with Progress(*columns, console=screen, disable=not screen.is_terminal) as bar:
         task = bar.add_task("eval", total=done + len(runs), completed=done, last="")
         for record in work:
             results.add(record)
             bar.update(task, advance=1, last=_short(record))
-            if not console.is_terminal:
-                console.print(f"{len(results.records)}/{done + len(runs)} {_short(record)}")
+            if not screen.is_terminal:
+                screen.print(f"{len(results.records)}/{done + len(runs)} {_short(record)}")
 
 
 def _short(record: Record) -> str:

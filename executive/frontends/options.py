@@ -193,10 +193,12 @@ class Eval:
     ray: Annotated[
         bool, typer.Option("--ray", help="On a Ray cluster, or a local Ray (extra: ray).")
     ] = False
-    world: Annotated[str, typer.Option("--world", "-w", help="Of the missions given here.")] = (
-        "kitchen"
-    )
-    robot: Annotated[str, typer.Option("--robot", "-r", help="By name or file (YAML).")] = "juno"
+    world: Annotated[
+        str, typer.Option("--world", "-w", help="In place of that of the missions given here.")
+    ] = ""
+    robot: Annotated[
+        str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
+    ] = ""
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )

@@ -17,10 +17,13 @@ from executive.missions.load import Mission, load
 from executive.missions.names import Names
 from executive.missions.problems import Enough, Problems
 from executive.missions.values import Bound
+from executive.skills.motions.path_follower import LEAST_SPEED_M_S
 from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.model import description
+from robot.model.body import BodyModel
 from robot.reality.contract import Reality
 from robot.yaml_nodes import Node, parse, text_node
 
@@ -125,6 +128,7 @@ def _check(path: Path, reality: Reality, options: Options, *, problems: Problems
         mission, given, where=mission.node.key("parameters"), samples=options.samples
     )
     task = compiler.mission(mission, values)
+    _check_speed(mission, where, problems)
     plans = _faults(mission, where, problems)
     done = _done(task, options.first, problems)
     return Checked(
@@ -141,20 +145,38 @@ def _check(path: Path, reality: Reality, options: Options, *, problems: Problems
 def _setting(
     mission: Mission, reality: Reality, options: Options, *, problems: Problems
 ) -> Setting | None:
-    world = options.world or mission.beside(mission.record.world)
+    """Robot and world; None if there are mistakes in them, each noted where it is named."""
     robot = options.robot or mission.beside(mission.record.robot)
-    node = mission.node
+    world = options.world or mission.beside(mission.record.world)
     try:
         return setting(reality, world, robot=robot, vary_seed=options.vary_seed)
+    except ConfigError:
+        with _noted(problems, _named(mission, "robot", said=options.robot)):
+            BodyModel(description.load(robot))
+        with _noted(problems, _named(mission, "world", said=options.world)):
+            reality.world(world, vary_seed=options.vary_seed)
+        return None
+
+
+def _named(mission: Mission, key: str, *, said: str) -> Node:
+    """Where a robot or a world is named: beside the file, or in it."""
+    if said:
+        return Node("text", f"--{key}", 0, 0)
+    return mission.node.get(key) or mission.node
+
+
+@contextmanager
+def _noted(problems: Problems, at: Node) -> Generator[None]:
+    """Note what is refused inside the block; what has no place of its own, at a node."""
+    try:
+        yield
     except ConfigError as error:
-        at = node.get("world") or node.get("robot") or node
         for problem in error.problems:
             if problem.file is None:
                 problems.add(at, problem.message, problem.suggestion or "")
             else:
                 place = Node("text", problem.file, problem.line or 1, problem.column or 1)
                 problems.add(place, problem.message, problem.suggestion or "")
-        return None
 
 
 def _typed(name: str, text: str) -> Node:
@@ -165,19 +187,45 @@ def _typed(name: str, text: str) -> Node:
     return text_node(text, Node("text", file, 0, 0), plain=True)
 
 
+def _check_speed(mission: Mission, where: Setting, problems: Problems) -> None:
+    """Note a limit that the robot cannot keep, or that is none for it."""
+    speed_m_s = mission.record.limits.speed_m_s
+    most = where.description.walking.max_forward_m_s
+    if speed_m_s is not None and not LEAST_SPEED_M_S <= speed_m_s <= most:
+        limits = mission.node.get("limits")
+        node = limits.get("speed_m_s") if limits is not None else None
+        text = (
+            f"speed_m_s {speed_m_s:g}: {where.robot_name} walks {LEAST_SPEED_M_S:g} to {most:g} m/s"
+        )
+        problems.add(node or mission.node, text, "a speed in that range, or no limit")
+
+
 def _faults(mission: Mission, where: Setting, problems: Problems) -> tuple[FaultPlan, ...]:
     """What goes wrong on purpose, each fault checked against the world and the robot."""
-    node = mission.node.get("faults")
-    plans: list[FaultPlan] = []
-    for item, data in zip(node.items if node else [], mission.record.faults, strict=True):
-        try:
-            plan = fault_plans.plan(data)
-            fault_plans.verify(plan.fault, where.world, where.description)
-        except ConfigError as error:
-            problems.take(error, item)
-            continue
-        plans.append(plan)
-    return tuple(plans)
+    plans = [_fault(node, where, problems) for node in mission.record.faults]  # pyright: ignore[reportArgumentType]
+    return tuple(plan for plan in plans if plan is not None)
+
+
+def _fault(node: Node, where: Setting, problems: Problems) -> FaultPlan | None:
+    if node.kind != "map":
+        cure = 'for example: {phase: "lifting*", fault: remove, target: red cup}'
+        problems.add(node, "a fault is a mapping", cure)
+        return None
+    data = node.plain_data
+    wrong = fault_plans.wrong_in(data)
+    for key, problem in wrong:
+        problems.add(node.get(key) or node, problem.message, problem.suggestion or "")
+    if wrong:
+        return None
+    plan = fault_plans.plan(data)
+    try:
+        fault_plans.verify(plan.fault, where.world, where.description)
+    except ConfigError as error:
+        for problem in error.problems:
+            key = next((key for key in data if f"unknown {key} " in problem.message), "")
+            problems.add(node.get(key) or node, problem.message, problem.suggestion or "")
+        return None
+    return plan
 
 
 def _done(task: Part, first: str, problems: Problems) -> frozenset[str]:

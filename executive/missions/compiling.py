@@ -72,7 +72,7 @@ class Compiler:
 
     def _mission(self, mission: Mission, bound: dict[str, Bound]) -> p.Part:
         record, node = mission.record, mission.node
-        scope = Scope(bound, self.problems)
+        scope = Scope(bound, self.problems, wrong=mission.declared - bound.keys())
         steps = list(self.steps(record.steps, scope))
         findings = [
             self._conditions.read(item, scope, self.scene) for item in _items(node.get("expect"))
@@ -141,8 +141,9 @@ class Compiler:
 
     def _look_inside(self, node: Node, scope: Scope) -> None:
         """Look for more mistakes in the steps inside a step that is wrong itself."""
-        if "for_each" in node.entries:
-            return  # its steps would name what is not known
+        name = node.get("for_each")
+        if name is not None:
+            scope = scope.inside(name.text, None)
         for key in ("do", "then", "else", "always"):
             self.steps(_items(node.get(key)), scope)
         for branch in _items(node.get("parallel")):
@@ -165,8 +166,6 @@ class Compiler:
             times = self._within(record.retry, 1, MAX_TRIES, node, "retry")
             part = p.Retry(name=name, part=part, attempts=times + 1)
         if record.timeout_s is not None:
-            if float(record.timeout_s) <= 0.0:
-                self.problems.add(node.entries["timeout_s"][1], "should be more than 0 s")
             part = p.Timeout(name=name, part=part, limit_s=float(record.timeout_s))
         if handlers:
             part = p.OnFail(name=name, part=part, handlers=handlers)
@@ -330,6 +329,8 @@ class Compiler:
             inside = scope.inside(record.for_each, value)
             parts = self.steps(record.do, inside)
             rounds.append(p.Series(name=f"with {value.value}", parts=parts))
+        if not items:
+            self.steps(record.do, scope.inside(record.for_each, None))
         return p.Series(name=f"for each {record.for_each}", parts=tuple(rounds)) if rounds else None
 
     def each(self, record: s.ForEachStep, node: Node) -> list[Bound]:
@@ -364,8 +365,6 @@ class Compiler:
         if called is None:
             return None
         bound = self.calls.arguments(called, node, scope, where)
-        if called.record.parameters.keys() - bound.keys():
-            return None
         return self.mission(called, bound)
 
 

@@ -12,35 +12,57 @@ evaluation a number may be drawn for each seed: ``towards_deg: {uniform: [-180, 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, cast
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, TypeAlias, cast
 
 import msgspec
 import numpy as np
+from msgspec import Meta
 
-from robot import misfits
 from robot import quantities as q
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.misfits import shown
 from robot.model.description import RobotDescription
 from robot.reality import faults
 from robot.reality.contract import World
 
-OWN: dict[str, dict[str, Any]] = {
-    "fill_disk": {"duration_s": q.Span},
-    "slow_planner": {"requests": q.Times},
-    "kill_executive": {},
+LONG_S = 1e6
+"""Longer than any run, in which it still tells milliseconds apart."""
+
+
+class FillDisk(faults.FaultRecord, frozen=True, kw_only=True):
+    """The journal's file is on a full device for `duration_s`."""
+
+    duration_s: q.Span = math.inf
+
+
+class SlowPlanner(faults.FaultRecord, frozen=True, kw_only=True):
+    """The next requests use up the planner's budget, and fail."""
+
+    requests: q.Times = 1
+
+
+class KillExecutive(faults.FaultRecord, frozen=True, kw_only=True):
+    """The executive dies."""
+
+
+OWN: dict[str, type[faults.FaultRecord]] = {
+    "fill_disk": FillDisk,
+    "slow_planner": SlowPlanner,
+    "kill_executive": KillExecutive,
 }
-"""Faults of this software: name to keys with their types. All of them may be left out."""
+"""Faults of this software."""
 
-TRIGGER = ("at_s", "step", "phase", "after_s", "times")
+_KINDS = {**faults.KINDS, **OWN}
+
+Pattern: TypeAlias = Annotated[str, Meta(min_length=1)]
 
 
-class FaultPlan(msgspec.Struct, frozen=True, kw_only=True):
-    """A fault and its trigger: a time of the run, the beginning of a step or of a phase.
+class Trigger(msgspec.Struct, frozen=True, kw_only=True):
+    """When a fault strikes: at a time of the run, or at the beginning of a step or of a phase.
 
     Attributes:
-        fault: as plain data, its name under `fault`.
         at_s: time since the run began (without `step` and `phase`; 0 by default).
         step: pattern (`pick*`) on a step's name or id.
         phase: pattern on what the skill says it is doing.
@@ -48,42 +70,71 @@ class FaultPlan(msgspec.Struct, frozen=True, kw_only=True):
         times: how often at most; a trigger that comes again strikes again.
     """
 
-    fault: dict[str, Any]
     at_s: q.Moment = 0.0
-    step: str = ""
-    phase: str = ""
+    step: Pattern = ""
+    phase: Pattern = ""
     after_s: q.Moment = 0.0
     times: q.Times = 1
 
 
+class FaultPlan(Trigger, frozen=True, kw_only=True):
+    """A trigger, and the fault as plain data, its name under `fault`."""
+
+    fault: dict[str, Any]
+
+
+TRIGGER = Trigger.__struct_fields__
+
+
+MAX_CHOICES = 1000
+DRAWS = {"uniform": "uniform: [low, high]", "choice": "choice: [one, or, another]"}
+"""How a value is drawn, each with how it is written."""
+
+
 def names() -> list[str]:
     """Every fault there is."""
-    return sorted([*faults.KINDS, *OWN])
+    return sorted(_KINDS)
 
 
 def plan(data: Mapping[str, Any]) -> FaultPlan:
     """A fault with its trigger out of one flat mapping.
 
     Raises:
-        ConfigError: if it cannot be meant, with the nearest valid name.
+        ConfigError: if it cannot be meant, with everything that is wrong in it.
     """
+    problems = wrong_in(data)
+    if problems:
+        raise ConfigError([problem for _, problem in problems])
+    when, fault = _parted(data)
+    return msgspec.convert({**when, "fault": fault}, FaultPlan)
+
+
+def wrong_in(data: Mapping[str, Any]) -> list[tuple[str, Problem]]:
+    """Everything wrong in a fault with its trigger, each with the key at which it stands."""
+    when, fault = _parted(data)
+    found = faults.wrong_fields(when, Trigger, "the trigger")
+    if "at_s" in when and ("step" in when or "phase" in when):
+        text = "a trigger has either at_s, or step and phase"
+        found.append(("at_s", Problem(text, suggestion="after_s waits after a step or a phase")))
+    try:
+        for variant in _variants(fault):
+            found += [one for one in faults.wrong_in(variant, _KINDS) if one not in found]
+    except ConfigError as error:
+        found += [("fault", problem) for problem in error.problems]
+    return found
+
+
+def _parted(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The keys of the trigger, and those of the fault."""
     when = {key: value for key, value in data.items() if key in TRIGGER}
-    fault = {str(key): value for key, value in data.items() if key not in TRIGGER}
-    _parse(drawn(fault, np.random.default_rng(0)))
-    wrong = list(misfits.misfits({**when, "fault": fault}, FaultPlan))
-    if wrong:
-        head = f"the trigger of the fault {fault['fault']!r}"
-        raise ConfigError([Problem(f"{head}: {one.message}") for one in wrong])
-    made = msgspec.convert({**when, "fault": fault}, FaultPlan)
-    if "at_s" in when and (made.step or made.phase):
-        raise ConfigError("a trigger has either at_s, or step and phase")
-    return made
+    return when, {str(key): value for key, value in data.items() if key not in TRIGGER}
 
 
 def verify(fault: Mapping[str, Any], world: World, robot: RobotDescription) -> None:
     """Check that what a fault names is there. Raises ConfigError with the nearest name."""
     if fault.get("fault") not in OWN:
-        world.verify(faults.parse(drawn(dict(fault), np.random.default_rng(0))), robot)
+        for variant in _variants(fault):
+            world.verify(faults.parse(variant), robot)
 
 
 def in_words(text: str) -> dict[str, Any]:
@@ -99,52 +150,65 @@ def in_words(text: str) -> dict[str, Any]:
         if not equals:
             raise ConfigError(f"{word!r} is no key=value")
         fault[key] = _value(value)
-    _parse(fault)
+    problems = faults.wrong_in(fault, _KINDS)
+    if problems:
+        raise ConfigError([problem for _, problem in problems])
     return fault
 
 
-def drawn(data: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+def drawn(data: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """The same with `{uniform: [low, high]}` and `{choice: [...]}` replaced by draws."""
-    return {key: _draw(value, rng) for key, value in data.items()}
+
+    def draw(how: str, values: list[Any]) -> Any:
+        if how == "uniform":
+            low, high = (float(value) for value in values)
+            return round(float(rng.uniform(low, high)), 4)
+        return values[int(rng.integers(len(values)))]
+
+    return {key: _with(key, value, draw) for key, value in data.items()}
 
 
-def _parse(fault: dict[str, Any]) -> None:
-    """Check a fault. Raises ConfigError."""
-    name = str(fault.get("fault", ""))
-    if name not in OWN:
-        if name not in faults.KINDS:
-            hint = nearest(name, names())
-            raise ConfigError([Problem(f"unknown fault {name!r}", suggestion=hint)])
-        faults.parse(fault)
-        return
-    for key, value in fault.items():
-        kind = OWN[name].get(key)
-        if key != "fault" and kind is None:
-            hint = nearest(key, list(OWN[name]))
-            raise ConfigError([Problem(f"unknown key {key!r} of {name!r}", suggestion=hint)])
-        for wrong in misfits.misfits({key: value}, dict[str, kind]) if kind is not None else ():
-            raise ConfigError(f"the fault {name!r}: {wrong.message}")
+def _variants(data: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """A fault with both ends of what is drawn evenly, and everything else that may be drawn."""
+    counts = [1]
+
+    def count(_how: str, values: list[Any]) -> Any:
+        counts.append(len(values))
+        return values[0]
+
+    yield {key: _with(key, value, count) for key, value in data.items()}
+    for number in range(1, max(counts)):
+
+        def pick(_how: str, values: list[Any], number: int = number) -> Any:
+            return values[number % len(values)]
+
+        yield {key: _with(key, value, pick) for key, value in data.items()}
 
 
-def _draw(value: Any, rng: np.random.Generator) -> Any:
+def _with(key: str, value: Any, choose: Callable[[str, list[Any]], Any]) -> Any:
+    """A value, with what is to be drawn replaced by what is chosen. Raises ConfigError."""
     if isinstance(value, list):
-        return [_draw(item, rng) for item in cast("list[Any]", value)]
+        return [_with(key, item, choose) for item in cast("list[Any]", value)]
     if isinstance(value, dict) and len(cast("dict[str, Any]", value)) == 1:
         ((how, of),) = cast("dict[str, Any]", value).items()
-        if how in ("uniform", "choice"):
-            return _draw_from(how, of, rng)
+        if how in DRAWS:
+            return choose(how, _values(key, how, cast("object", of)))
     return cast(Any, value)
 
 
-def _draw_from(how: str, of: Any, rng: np.random.Generator) -> Any:
-    try:
-        values = msgspec.convert(of, list[float] if how == "uniform" else list[Any])
-        if how == "uniform":
-            low, high = values
-            return round(float(rng.uniform(low, high)), 4)
-        return values[int(rng.integers(len(values)))]
-    except (msgspec.ValidationError, ValueError):
-        raise ConfigError(f"{how} takes a list to draw from, not {of!r}") from None
+def _values(key: str, how: str, of: object) -> list[Any]:
+    """What is drawn from. Raises ConfigError."""
+    values = cast("list[Any]", of) if isinstance(of, list) else []
+    numbers: list[float] = [value for value in values if isinstance(value, int | float)]
+    fits = (
+        len(values) == len(numbers) == 2 and abs(numbers[0]) < LONG_S and abs(numbers[1]) < LONG_S
+        if how == "uniform"
+        else 0 < len(values) <= MAX_CHOICES
+    )
+    if not fits:
+        text = f"{key}: {how} takes a list to draw from, not {shown(of)}"
+        raise ConfigError([Problem(text, suggestion=DRAWS[how])])
+    return values
 
 
 def _value(text: str) -> Any:

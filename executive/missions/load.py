@@ -9,7 +9,7 @@ import msgspec
 
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
-from executive.missions.schema import MissionRecord
+from executive.missions.schema import MissionRecord, ParameterRecord
 from robot.yaml_nodes import Node, read, text_node
 
 SUFFIX = ".yaml"
@@ -19,11 +19,15 @@ FOLDER = _PACKED if _PACKED.is_dir() else _BESIDE
 
 
 class Mission(msgspec.Struct, frozen=True, kw_only=True, eq=False):
-    """A mission file that was read: its record, and its nodes for the places of what is wrong."""
+    """A mission file that was read: its record, and its nodes for the places of what is wrong.
+
+    `declared` are the names of all its parameters, those that cannot be read as well.
+    """
 
     path: Path
     record: MissionRecord
     node: Node
+    declared: frozenset[str] = frozenset()
 
     def beside(self, name: str) -> str:
         """A name of a file beside this one as a path, other names as they are."""
@@ -58,10 +62,14 @@ def load(path: Path, problems: Problems) -> Mission | None:
         problems.add(node, "a mission is a mapping", "begin with: name: ...")
         return None
     record = Reader(problems, _as_it_is).record(node, MissionRecord)
+    parameters = node.get("parameters")
+    declared = frozenset(parameters.entries) if parameters is not None else frozenset[str]()
     if record is None:
         node = _sound(node)
         record = Reader(Problems(), _as_it_is).record(node, MissionRecord)
-    return None if record is None else Mission(path=path, record=record, node=node)
+    if record is None:
+        return None
+    return Mission(path=path, record=record, node=node, declared=declared)
 
 
 def _as_it_is(node: Node) -> Node:
@@ -76,6 +84,15 @@ def _sound(node: Node) -> Node:
         key: entry for key, entry in node.entries.items() if reader.fits(node, MissionRecord, key)
     }
     if "parameters" in node.entries and "parameters" not in sound.entries:
-        return Node("map", node.file, node.line, node.column)
+        key, parameters = node.entries["parameters"]
+        if parameters.kind != "map":  # nobody knows what it declares
+            return Node("map", node.file, node.line, node.column)
+        kept = Node("map", node.file, parameters.line, parameters.column)
+        kept.entries = {
+            name: entry
+            for name, entry in parameters.entries.items()
+            if reader.record(entry[1], ParameterRecord) is not None
+        }
+        sound.entries["parameters"] = (key, kept)
     sound.entries.setdefault("name", (node, text_node("mission", node)))
     return sound

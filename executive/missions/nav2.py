@@ -7,7 +7,8 @@ Two forms are read: what the RViz panel of Nav2 saves, and a list of poses as RO
         pose: [x, y, z]                                 position: {x: 1.0, y: 0.0, z: 0.0}
         orientation: [w, x, y, z]                       orientation: {x: 0, y: 0, z: 0, w: 1}
 
-Positions are taken in the world's frame; of the orientation the heading is kept.
+Positions are in the map, so a header has to say `frame_id: map`, or nothing; of the orientation the
+heading is kept.
 """
 
 from __future__ import annotations
@@ -23,6 +24,12 @@ from robot.yaml_nodes import Node, dump, read
 UPRIGHT_RAD = math.radians(5.0)
 """More than that a waypoint may not lean: nobody walks on a wall."""
 
+MAPS = ("map", "/map", "")
+"""Frames that are the world's own. Others (odom, base_link) lie somewhere in it, by transforms that
+only the robot knows that wrote them."""
+FLOOR_M = 0.3
+"""A waypoint that far from the floor is not on it."""
+
 
 def mission_of(path: Path) -> str:
     """The text of a mission that walks along the waypoints of a file.
@@ -32,6 +39,7 @@ def mission_of(path: Path) -> str:
     """
     root = read(path)
     problems = Problems()
+    _check_frame(root, problems)
     steps = [step for step in (_step(node, problems) for node in _points(root)) if step]
     if not steps and len(problems) == 0:
         problems.add(root, "there are no waypoints in it", "waypoints: or poses:")
@@ -52,6 +60,7 @@ def _points(root: Node) -> list[tuple[str, Node]]:
 
 def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
     name, node = point
+    _check_frame(node, problems)
     pose = node.get("pose")
     if pose is not None and pose.kind == "map":  # PoseStamped
         position, orientation = pose.get("position"), pose.get("orientation")
@@ -68,6 +77,9 @@ def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
     if not 0.99 < norm < 1.01:
         problems.add(orientation or node, f"the quaternion has length {norm:.3g}, not 1")
         return None
+    if abs(p_W[2]) > FLOOR_M:
+        text = f"{name} lies {p_W[2]:g} m from the floor"
+        problems.add(position or node, text, "a robot stands on the floor: z: 0")
     w, x, y, z = (value / norm for value in quat_wxyz)
     lean_rad = math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
     if lean_rad > UPRIGHT_RAD:
@@ -77,6 +89,17 @@ def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
     yaw_rad = SE3((0.0, 0.0, 0.0), (w, x, y, z)).yaw_rad
     target = {"x_m": p_W[0], "y_m": p_W[1], "yaw_rad": round(yaw_rad, 6)}
     return {"go_to": {"pose": target}, "name": name}
+
+
+def _check_frame(node: Node, problems: Problems) -> None:
+    """Note a frame that is not the map's, at a waypoint or above all of them."""
+    header = node.get("header")
+    for place in (node.get("frame_id"), header.get("frame_id") if header is not None else None):
+        if place is not None and place.text not in MAPS:
+            text = (
+                f"poses in the frame {place.text!r}: where that lies in the map nobody here knows"
+            )
+            problems.add(place, text, "transform them into the frame map")
 
 
 def _numbers(node: Node, keys: str, problems: Problems) -> list[float] | None:

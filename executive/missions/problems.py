@@ -37,6 +37,12 @@ class Problems:
         for problem in error.problems:
             self.add(node, problem.message, problem.suggestion or "")
 
+    def take_here(self, error: ConfigError) -> None:
+        """Note what is wrong in an error whose problems have their places."""
+        for problem in error.problems:
+            place = Node("text", problem.file or "", problem.line or 0, problem.column or 0)
+            self.add(place, problem.message, problem.suggestion or "")
+
     @property
     def all(self) -> list[Problem]:
         """The problems in the order of their places."""

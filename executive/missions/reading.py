@@ -13,8 +13,11 @@ from msgspec import inspect as types
 from executive.missions.problems import Problems
 from executive.missions.schema import Record
 from robot.config import nearest
+from robot.type_words import in_words
 from robot.yaml_nodes import Node
 
+BEYOND = 1e9
+"""Numbers of that size and more mean nothing here."""
 T = TypeVar("T", bound=Record)
 
 Fill = Callable[[Node], "Node | None"]
@@ -32,6 +35,7 @@ class Reader:
         """Note problems in `problems`; texts go through `fill` first."""
         self._problems = problems
         self._fill = fill
+        self._key = ""
 
     def record(self, node: Node, kind: type[T]) -> T | None:
         """A mapping as a record; None if anything in it is wrong."""
@@ -89,8 +93,8 @@ class Reader:
         found = next(fitting, None)
         if found is not None:
             return found
-        words = " or ".join(dict.fromkeys(_words(t) for t in members))
-        raise self._wrong(node, f"{_shape(node)} where {words} should be")
+        words = " or ".join(dict.fromkeys(in_words(t) for t in members))
+        raise self._wrong(node, f"{self._key}: {_shape(node)} where {words} should be")
 
     def _struct(self, node: Node, info: types.StructType) -> Any:
         fields = _fields(info)
@@ -103,8 +107,10 @@ class Reader:
             field = fields.get(name)
             if field is None:
                 bad = True
-                self._problems.add(key, f"unknown key {name!r}", nearest(name, list(fields)))
+                cure = _belongs_below(node, name, fields) or nearest(name, list(fields))
+                self._problems.add(key, f"unknown key {name!r}", cure)
                 continue
+            self._key = name
             try:
                 found[field.name] = self._value(value, field.type)
             except Mistake:
@@ -164,11 +170,11 @@ class Reader:
                 if node.text in info.values:
                     return node.text
                 valid = [str(v) for v in info.values]
-                raise self._wrong(
-                    node, f"{_shape(node)} is none of those", nearest(node.text, valid)
-                )
+                text = f"{self._key}: {_shape(node)} is none of the words that may stand here"
+                raise self._wrong(node, text, nearest(node.text, valid))
             case _:
-                raise self._wrong(node, f"{_shape(node)} where {_words(info)} should be")
+                text = f"{self._key}: {_shape(node)} where {in_words(info)} should be"
+                raise self._wrong(node, text)
 
     def _text(self, node: Node, info: types.StrType) -> str:
         text = node.text
@@ -184,10 +190,18 @@ class Reader:
         return text
 
     def _bounded(self, node: Node, value: float, info: types.IntType | types.FloatType) -> float:
-        if not -1e9 < value < 1e9:
-            raise self._wrong(node, f"{node.text} is beyond anything that can be meant")
-        if info.gt is not None and value <= info.gt:
-            raise self._wrong(node, f"{node.text} should be more than {info.gt:g}")
+        fits = (
+            -BEYOND < value < BEYOND
+            and (info.gt is None or value > info.gt)
+            and (info.ge is None or value >= info.ge)
+            and (info.le is None or value <= info.le)
+            and (info.lt is None or value < info.lt)
+        )
+        if not fits:
+            words = in_words(info)
+            limits = "" if words != in_words(type(info)()) else f" of less than {BEYOND:g}"
+            text = f"{self._key}: {_shape(node)} where {words}{limits} should be"
+            raise self._wrong(node, text)
         return value
 
     def _wrong(self, node: Node, message: str, cure: str = "") -> Mistake:
@@ -233,6 +247,18 @@ def _members(info: types.UnionType) -> list[types.Type]:
     return known
 
 
+def _belongs_below(node: Node, name: str, fields: dict[str, types.Field]) -> str:
+    """The cure for a key that was not indented far enough; empty if it was not that."""
+    for key, (_, value) in node.entries.items():
+        if key not in fields or value.kind != "text" or value.value is not None:
+            continue
+        info = fields[key].type
+        kinds = _members(info) if isinstance(info, types.UnionType) else [info]
+        if any(isinstance(kind, types.StructType) and name in _fields(kind) for kind in kinds):
+            return f"indent it further: it belongs below {key!r}"
+    return ""
+
+
 def _is_parameter(info: types.Type) -> bool:
     """Whether it stands for a parameter; those are filled in by now."""
     return isinstance(info, types.StrType) and (info.pattern or "").startswith(r"^\{\{")
@@ -248,23 +274,6 @@ def _shape(node: Node) -> str:
         return "a list" if node.kind == "list" else "a mapping"
     if node.value is None:
         return "nothing"
+    if node.plain and not isinstance(node.value, str) and len(node.text) <= 40:
+        return node.text
     return repr(node.text if len(node.text) <= 40 else node.text[:37] + "...")
-
-
-def _words(info: types.Type) -> str:
-    """What should stand there, for people."""
-    match info:
-        case types.StrType():
-            return "a text"
-        case types.BoolType():
-            return "true or false"
-        case types.IntType():
-            return "a whole number"
-        case types.FloatType():
-            return "a number"
-        case types.LiteralType():
-            return "one of " + ", ".join(str(value) for value in info.values)
-        case types.VarTupleType() | types.ListType():
-            return "a list"
-        case _:
-            return "a mapping"

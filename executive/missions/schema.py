@@ -7,11 +7,14 @@ first field is the key that it is known by.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
 from msgspec import Meta
 
+from executive.skills.navigate import MAX_DISPLACEMENT_M, MAX_TURN_RAD
+from executive.skills.parameters import MAX_DURATION_S
 from intents import goals
 
 Parameter: TypeAlias = Annotated[
@@ -19,6 +22,15 @@ Parameter: TypeAlias = Annotated[
 ]
 Number: TypeAlias = float | Parameter
 Whole: TypeAlias = int | Parameter
+DAY_S = 86_400.0
+Limit: TypeAlias = Annotated[float, Meta(gt=0.0, le=DAY_S)]
+"""A longest time [s]."""
+Span: TypeAlias = Annotated[float, Meta(ge=0.0, le=MAX_DURATION_S)]
+Displacement: TypeAlias = Annotated[float, Meta(ge=-MAX_DISPLACEMENT_M, le=MAX_DISPLACEMENT_M)]
+Turn: TypeAlias = Annotated[float, Meta(ge=-MAX_TURN_RAD, le=MAX_TURN_RAD)]
+TurnDegrees: TypeAlias = Annotated[
+    float, Meta(ge=-math.degrees(MAX_TURN_RAD), le=math.degrees(MAX_TURN_RAD))
+]
 
 ParameterType = Literal[
     "object", "objects", "place", "places", "person", "text", "number", "integer", "flag"
@@ -33,6 +45,10 @@ class StepNode:
 
 class BranchNode:
     """A branch of a `parallel`: a step, or a list of steps."""
+
+
+class FaultNode:
+    """A fault on purpose, read when robot and world are known."""
 
 
 Steps: TypeAlias = tuple[StepNode, ...]
@@ -55,7 +71,7 @@ class Record(
 class LimitsRecord(Record, frozen=True, kw_only=True):
     """What the whole mission may take; what is done `always` comes on top."""
 
-    duration_s: Annotated[float, Meta(gt=0, description="Longest time at work [s].")] | None = None
+    duration_s: Annotated[Limit, Meta(description="Longest time at work [s].")] | None = None
     speed_m_s: Annotated[float, Meta(gt=0, description="Fastest walk [m/s].")] | None = None
 
 
@@ -84,7 +100,7 @@ class MissionRecord(Record, frozen=True, kw_only=True):
         tuple[ConditionRecord | str, ...], Meta(description="What has to be so at the end.")
     ] = ()
     faults: Annotated[
-        tuple[dict[str, Any], ...],
+        tuple[FaultNode, ...],
         Meta(description="What goes wrong on purpose; in simulation only."),
     ] = ()
 
@@ -123,7 +139,8 @@ class StepRecord(Record, frozen=True, kw_only=True):
         None
     )
     timeout_s: (
-        Annotated[Number, Meta(description="Longest time, all its tries together [s].")] | None
+        Annotated[Limit | Parameter, Meta(description="Longest time, all its tries together [s].")]
+        | None
     ) = None
     on_fail: (
         Annotated[
@@ -143,17 +160,17 @@ class PoseSlots(Record, frozen=True, kw_only=True):
 
     x_m: Number
     y_m: Number
-    yaw_rad: Number | None = None
-    yaw_deg: Number | None = None
+    yaw_rad: Turn | Parameter | None = None
+    yaw_deg: TurnDegrees | Parameter | None = None
 
 
 class DisplacementSlots(Record, frozen=True, kw_only=True):
     """A motion relative to where the robot stands: first turn, then walk."""
 
-    forward_m: Number | None = None
-    left_m: Number | None = None
-    turn_rad: Number | None = None
-    turn_deg: Number | None = None
+    forward_m: Displacement | Parameter | None = None
+    left_m: Displacement | Parameter | None = None
+    turn_rad: Turn | Parameter | None = None
+    turn_deg: TurnDegrees | Parameter | None = None
 
 
 class GoToSlots(Record, frozen=True, kw_only=True):
@@ -208,13 +225,13 @@ class BalanceSlots(Record, frozen=True, kw_only=True):
 
     mode: goals.BalanceMode
     side: goals.Side | None = None
-    duration_s: Number | None = None
+    duration_s: Span | Parameter | None = None
 
 
 class WaitSlots(Record, frozen=True, kw_only=True):
     """For how long."""
 
-    duration_s: Number
+    duration_s: Span | Parameter
 
 
 class GoToStep(StepRecord, frozen=True, kw_only=True):
@@ -286,7 +303,7 @@ class BalanceStep(StepRecord, frozen=True, kw_only=True):
 class WaitStep(StepRecord, frozen=True, kw_only=True):
     """Do nothing for some seconds."""
 
-    wait: Number | WaitSlots
+    wait: Span | Parameter | WaitSlots
 
 
 class ReportStep(StepRecord, frozen=True, kw_only=True):
@@ -394,6 +411,7 @@ def json_schema() -> dict[str, Any]:
     """The JSON Schema of a mission file, for editors."""
     places: dict[type, dict[str, Any]] = {
         StepNode: {"$ref": "#/$defs/Step"},
+        FaultNode: {"type": "object"},
         BranchNode: {
             "anyOf": [
                 {"$ref": "#/$defs/Step"},

@@ -88,6 +88,10 @@ class Slots:
                                yaw_rad=yaw_rad)  # fmt: skip
             return goals.GoTo(pose=pose)
         assert value.by is not None
+        if value.by == s.DisplacementSlots():
+            cure = "for example: {forward_m: 0.5}"
+            self._problems.add(where, "by says neither how far nor how much to turn", cure)
+            raise Missing
         turn_rad = self._angle(value.by.turn_rad, value.by.turn_deg, where, "turn")
         by = goals.Displacement(
             forward_m=_maybe(value.by.forward_m), left_m=_maybe(value.by.left_m), turn_rad=turn_rad

@@ -8,7 +8,7 @@ cannot turn a sentence into another one.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import msgspec
 
@@ -33,14 +33,22 @@ class Bound(msgspec.Struct, frozen=True, kw_only=True):
 class Scope:
     """The parameters that a step sees."""
 
-    def __init__(self, bound: Mapping[str, Bound], problems: Problems) -> None:
-        """See `bound`; what is wrong goes to `problems`."""
+    def __init__(
+        self, bound: Mapping[str, Bound], problems: Problems, *, wrong: Iterable[str] = ()
+    ) -> None:
+        """See `bound`; what is wrong goes to `problems`.
+
+        Parameters in `wrong` are there as well, but what is wrong with them is noted already.
+        """
         self.bound = dict(bound)
         self._problems = problems
+        self._wrong = frozenset(wrong)
 
-    def inside(self, name: str, value: Bound) -> Scope:
-        """The same with one more, for a loop's body."""
-        return Scope({**self.bound, name: value}, self._problems)
+    def inside(self, name: str, value: Bound | None) -> Scope:
+        """The same with one more, for a loop's body; without a value it is a wrong one."""
+        if value is None:
+            return Scope(self.bound, self._problems, wrong={*self._wrong, name})
+        return Scope({**self.bound, name: value}, self._problems, wrong=self._wrong - {name})
 
     def fill(self, node: Node) -> Node | None:
         """A text with its parameters filled in; a text that is only a parameter gets its type."""
@@ -72,8 +80,8 @@ class Scope:
 
     def _find(self, name: str, node: Node) -> Bound | None:
         found = self.bound.get(name)
-        if found is None:
-            known = list(self.bound)
+        if found is None and name not in self._wrong:
+            known = [*self.bound, *self._wrong]
             cure = nearest(name, known) if known else "this mission has no parameters"
             self._problems.add(node, f"there is no parameter {name!r} here", cure)
         return found

@@ -27,14 +27,14 @@ def _name(kind: str) -> str:
     return "".join(f"_{c.lower()}" if c.isupper() else c for c in kind).lstrip("_")
 
 
-class _Fault(
+class FaultRecord(
     msgspec.Struct, frozen=True, kw_only=True, tag=_name, tag_field="fault",
     forbid_unknown_fields=True,
 ):  # fmt: skip
-    """A fault; it begins when it is applied."""
+    """What all faults have in common: their name in plain data. A fault begins when applied."""
 
 
-class Push(_Fault, frozen=True, kw_only=True):
+class Push(FaultRecord, frozen=True, kw_only=True):
     """A force on the robot's torso, or on an object, a piece of furniture, or a body by name.
 
     `impulse_n_s` in the world's axes, spread evenly over `duration_s`. A push down on a held
@@ -46,7 +46,7 @@ class Push(_Fault, frozen=True, kw_only=True):
     duration_s: q.Span = 0.1
 
 
-class Shove(_Fault, frozen=True, kw_only=True):
+class Shove(FaultRecord, frozen=True, kw_only=True):
     """A level push on the robot's torso of `strength_n_s`, towards an angle from where it faces.
 
     0 degrees pushes it forwards, 90 to its left.
@@ -57,14 +57,14 @@ class Shove(_Fault, frozen=True, kw_only=True):
     duration_s: q.Span = 0.1
 
 
-class KnockOver(_Fault, frozen=True, kw_only=True):
+class KnockOver(FaultRecord, frozen=True, kw_only=True):
     """An object is hit at its rim and goes over, towards an angle of the world."""
 
     target: str
     towards_deg: q.Heading = 0.0
 
 
-class Move(_Fault, frozen=True, kw_only=True):
+class Move(FaultRecord, frozen=True, kw_only=True):
     """An object, a person or a movable piece of furniture is suddenly elsewhere, at rest.
 
     `X_WO` says where, or `by_m` how far from where it is.
@@ -80,7 +80,7 @@ class Move(_Fault, frozen=True, kw_only=True):
             raise ValueError("give exactly one of X_WO, by_m")
 
 
-class Occupy(_Fault, frozen=True, kw_only=True):
+class Occupy(FaultRecord, frozen=True, kw_only=True):
     """Another object suddenly stands on a place, at `at_m` from the middle of it."""
 
     place: str
@@ -88,7 +88,7 @@ class Occupy(_Fault, frozen=True, kw_only=True):
     at_m: tuple[q.Place, q.Place] = (0.0, 0.0)
 
 
-class StandInWay(_Fault, frozen=True, kw_only=True):
+class StandInWay(FaultRecord, frozen=True, kw_only=True):
     """Somebody, or a chair, stands in the way for `duration_s`, then where it was again.
 
     That is before the robot, or at a point of the floor.
@@ -101,20 +101,20 @@ class StandInWay(_Fault, frozen=True, kw_only=True):
     duration_s: q.Span = math.inf
 
 
-class Remove(_Fault, frozen=True, kw_only=True):
+class Remove(FaultRecord, frozen=True, kw_only=True):
     """An object or a person is suddenly gone."""
 
     target: str
 
 
-class Silence(_Fault, frozen=True, kw_only=True):
+class Silence(FaultRecord, frozen=True, kw_only=True):
     """A sensor (`camera`), or one topic (`sensors/depth`), says nothing for `duration_s`."""
 
     topic: str
     duration_s: q.Span = math.inf
 
 
-class Mislead(_Fault, frozen=True, kw_only=True):
+class Mislead(FaultRecord, frozen=True, kw_only=True):
     """The oracle's fixes of the robot's pose are off for `duration_s`."""
 
     by_m: tuple[q.Place, q.Place]
@@ -122,27 +122,27 @@ class Mislead(_Fault, frozen=True, kw_only=True):
     duration_s: q.Span = math.inf
 
 
-class Heat(_Fault, frozen=True, kw_only=True):
+class Heat(FaultRecord, frozen=True, kw_only=True):
     """A motor's winding is suddenly that hot; it cools down as it does."""
 
     motor: str
     temperature_c: q.Heat
 
 
-class Discharge(_Fault, frozen=True, kw_only=True):
+class Discharge(FaultRecord, frozen=True, kw_only=True):
     """The emulated battery is suddenly left with that part of its charge."""
 
     charge: q.Charge
 
 
-class MotorOff(_Fault, frozen=True, kw_only=True):
+class MotorOff(FaultRecord, frozen=True, kw_only=True):
     """One motor no longer obeys: it damps, whatever it is told (`off=False`: it obeys again)."""
 
     motor: str
     off: bool = True
 
 
-class Kill(_Fault, frozen=True, kw_only=True):
+class Kill(FaultRecord, frozen=True, kw_only=True):
     """A process dies. The runtime does this, not the plant."""
 
     process: Literal["controller", "perception"]
@@ -152,7 +152,7 @@ Fault = (
     Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead | Heat
     | Discharge | MotorOff | Kill
 )  # fmt: skip
-KINDS: dict[str, type[_Fault]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
+KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""
 
 FAULT: Topic[Fault] = Topic("sim/fault", Fault, None, "executive")
@@ -163,22 +163,52 @@ def parse(data: Mapping[str, Any]) -> Fault:
     """A fault out of plain data.
 
     Raises:
-        ConfigError: if it is none, with the nearest name of a fault or of a key.
+        ConfigError: if it is none, with everything that is wrong in it.
     """
+    problems = wrong_in(data)
+    if problems:
+        raise ConfigError([problem for _, problem in problems])
+    return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
+
+
+def wrong_in(
+    data: Mapping[str, Any], kinds: Mapping[str, type[FaultRecord]] = KINDS
+) -> list[tuple[str, Problem]]:
+    """Everything wrong in the plain data of a fault, each with the key at which it stands."""
     name = str(data.get("fault", ""))
-    check_name(name, list(KINDS), "fault")
-    kind = KINDS[name]
-    found = list(misfits.misfits(dict(data), kind))
-    if found:
-        told = (
-            Problem(f"the fault {name!r}: {one.message}", None, None, None, one.cure or None)
-            for one in found
+    if name not in kinds:
+        text = f"unknown fault {name!r}" if name else "the key 'fault' is missing"
+        return [("fault", Problem(text, suggestion=nearest(name, list(kinds))))]
+    kind, what = kinds[name], f"the fault {name!r}"
+    given = {key: value for key, value in data.items() if key != "fault"}
+    found = wrong_fields(given, kind, what)
+    if not found:
+        try:
+            msgspec.convert(dict(data), kind)
+        except msgspec.ValidationError as error:  # what its `__post_init__` says
+            found.append(("fault", Problem(f"{what}: {error}")))
+    return found
+
+
+def wrong_fields(
+    data: Mapping[str, Any], kind: type[msgspec.Struct], what: str
+) -> list[tuple[str, Problem]]:
+    """Everything that keeps plain data from being of a kind, each with the key at which it stands.
+
+    What is missing is said to stand at `fault`.
+
+    Args:
+        data: plain data.
+        kind: the struct.
+        what: it is, for people.
+    """
+    return [
+        (
+            str(one.path[0]) if one.path else "fault",
+            Problem(f"{what}: {one.message}", suggestion=one.cure or None),
         )
-        raise ConfigError(list(told))
-    try:
-        return msgspec.convert(dict(data), Fault)  # pyright: ignore[reportArgumentType, reportReturnType]
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"the fault {name!r}: {error}") from None
+        for one in misfits.misfits(dict(data), kind)
+    ]
 
 
 def check_name(name: str, valid: list[str], what: str) -> None:

@@ -107,7 +107,7 @@ def new(
 
 @app.command(name="import", no_args_is_help=True)
 def import_(
-    file: Annotated[Path, typer.Argument(help="BehaviorTree.CPP v4 XML, or Nav2 waypoints.")],
+    file: Annotated[Path, typer.Argument(help="BehaviorTree.CPP XML, or Nav2 waypoints.")],
     *,
     output: Output = None,
 ) -> None:
@@ -126,10 +126,12 @@ def import_(
 def export(
     file: File,
     *,
-    xml: Annotated[bool, typer.Option("--xml", help="BehaviorTree.CPP v4 XML.")] = True,
+    xml: Annotated[  # noqa: ARG001, there is one format
+        bool, typer.Option("--xml", help="BehaviorTree.CPP v4 XML (the one format there is).")
+    ] = True,
     output: Output = None,
 ) -> None:
     """Write a mission as BehaviorTree.CPP v4 XML with a TreeNodesModel (Groot2 shows it)."""
     from executive.frontends.missions import commands
 
-    raise typer.Exit(commands.export_file(file, output, xml=xml))
+    raise typer.Exit(commands.export_file(file, output))

@@ -132,11 +132,10 @@ def import_file(file: Path, output: Path | None) -> int:
     return _write(make(file), output)
 
 
-def export_file(name: str, output: Path | None, *, xml: bool) -> int:
+def export_file(name: str, output: Path | None) -> int:
     """Write a mission as BehaviorTree.CPP XML. Raises ConfigError if the file is wrong."""
     from executive.missions.btcpp import exporting
 
-    assert xml, "there is one format"
     return _write(exporting.xml_of(load.find(name), REALITY), output)
 
 

@@ -14,7 +14,7 @@ from xml.etree import ElementTree as Tree
 import msgspec
 
 from executive.missions.btcpp import leaves
-from executive.missions.btcpp.importing import JSON
+from executive.missions.btcpp.steps import JSON
 from executive.missions.expanding import expanded
 from robot.reality.contract import Reality
 

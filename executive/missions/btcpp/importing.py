@@ -9,65 +9,104 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeAlias, cast
-
-import msgspec
+from typing import Any
 
 from executive.missions.btcpp import leaves
+from executive.missions.btcpp.including import trees_of
+from executive.missions.btcpp.poses import poses_of
+from executive.missions.btcpp.steps import (
+    Ports,
+    Step,
+    checked,
+    condition_in,
+    fields,
+    flat,
+    named,
+    whole,
+    with_option,
+)
 from executive.missions.btcpp.xml import Element, read
-from executive.missions.compiling import MAX_STEPS
+from executive.missions.compiling import MAX_STEPS, MAX_TRIES
+from executive.missions.problems import Enough, Problems
 from robot import yaml_nodes
 from robot.config import nearest
+from robot.errors import ConfigError
 
-Step: TypeAlias = Any
-Ports: TypeAlias = dict[str, str]
-JSON = "json:"
-"""Before a condition that is no sentence; a brace alone would be a blackboard entry."""
 NOTHING: dict[str, Any] = {"do": []}
-OPTIONS = ("retry", "timeout_s", "on_fail", "always")
+MAX_RECOVERIES = 5
+"""In one another; what is in them is written out two to that power times."""
+_AUTOREMAP = ("_autoremap", "__autoremap", "__shared_blackboard")
+_FOR_PEOPLE = ("_description", "_uid", "_fullpath")
+"""What Groot2 writes."""
 
 
 def mission_of(path: Path) -> str:
-    """The text of a mission that does what a tree says.
+    """The text of a mission that does what a tree says; what was left out stands above it.
 
     Raises:
-        ConfigError: the file is wrong, or something in it has no equivalent.
+        ConfigError: the file is wrong, or something in it has no equivalent: all of it, by line.
     """
-    return yaml_nodes.dump(mission_data(read(path), file_name=path.stem))
+    notes: list[str] = []
+    root = read(path)
+    text = yaml_nodes.dump(mission_data(root, file_name=path.stem, notes=notes))
+    try:
+        yaml_nodes.parse(text, str(path))
+    except ConfigError as error:
+        what = error.problems[0].message
+        raise root.wrong(f"the mission that it becomes cannot be read: {what}") from None
+    return "".join(f"# {note}\n" for note in notes) + text
 
 
-def mission_data(root: Element, *, file_name: str = "imported") -> dict[str, Any]:
-    """The same as plain data; `file_name` is for a tree without a name."""
+def mission_data(
+    root: Element, *, file_name: str = "imported", notes: list[str] | None = None
+) -> dict[str, Any]:
+    """The same as plain data.
+
+    Args:
+        root: of the XML.
+        file_name: for a tree without a name.
+        notes: takes what was left out, a line each.
+    """
     if root.tag != "root":
         raise root.wrong(f"<{root.tag}> is no BehaviorTree.CPP file", "it begins with <root>")
     version = root.attributes.get("BTCPP_format", "3")
-    if version != "4":
-        cure = 'convert it, then say BTCPP_format="4"'
-        raise root.wrong(f"format {version} of BehaviorTree.CPP is not read", cure)
-    trees = {
-        child.attributes.get("ID", ""): child
-        for child in root.children
-        if child.tag == "BehaviorTree"
-    }
+    if version not in ("3", "4"):
+        raise root.wrong(f"format {version} of BehaviorTree.CPP is not read", "3 and 4 are")
+    problems = Problems()
+    try:
+        mission = _mission(root, file_name, problems, [] if notes is None else notes)
+    except Enough:
+        mission = {}
+    except ConfigError as error:
+        problems.take_here(error)
+        mission = {}
+    problems.raise_any()
+    return mission
+
+
+def _mission(root: Element, file_name: str, problems: Problems, notes: list[str]) -> dict[str, Any]:
+    trees = trees_of(root, problems)
     if not trees:
         raise root.wrong("there is no <BehaviorTree> in it", "add one")
-    main = root.attributes.get("main_tree_to_execute", next(iter(trees)))
+    own = [name for name, tree in trees.items() if tree.file == root.file] or [*trees]
+    main = root.attributes.get("main_tree_to_execute", own[0])
     if main not in trees:
         raise root.wrong(f"there is no tree {main!r}", nearest(main, list(trees)))
-    whole = _Importer(trees).tree(main, root, {})
+    older = root.attributes.get("BTCPP_format", "3") == "3"
+    step = _Importer(trees, problems, notes, older=older).tree(main, root, {})
     mission: dict[str, Any] = {"name": main or file_name}
-    outside = _fields(whole)
+    outside = fields(step)
     if "do" in outside and set(outside) <= {"do", "timeout_s", "always"}:
         if "timeout_s" in outside:
             mission["limits"] = {"duration_s": outside["timeout_s"]}
         if "always" in outside:
             mission["always"] = outside["always"]
-        whole = {"do": outside["do"]}
-    mission["steps"] = steps = _flat(whole)
+        step = {"do": outside["do"]}
+    mission["steps"] = steps = flat(step)
     expected = _expected(steps)
     if expected:
         mission["expect"] = expected
-    if not steps:
+    if not steps and len(problems) == 0:
         raise root.wrong(f"the tree {main!r} does nothing", "add a leaf")
     return mission
 
@@ -75,16 +114,23 @@ def mission_data(root: Element, *, file_name: str = "imported") -> dict[str, Any
 def _expected(steps: list[Step]) -> list[Any]:
     """What the last steps expect; they become the mission's `expect`."""
     found: list[Any] = []
-    while steps and "expect" in _fields(steps[-1]):
+    while steps and "expect" in fields(steps[-1]):
         found.insert(0, steps.pop()["expect"])
     return found
 
 
 class _Importer:
-    """Writes trees out as steps."""
+    """Writes trees out as steps; `older` ones are of format 3."""
 
-    def __init__(self, trees: dict[str, Element]) -> None:
+    def __init__(
+        self, trees: dict[str, Element], problems: Problems, notes: list[str], *, older: bool
+    ) -> None:
         self._trees = trees
+        self._problems = problems
+        self._notes = notes
+        self._older = older
+        self._seen: set[int] = set()
+        self._recoveries = 0
         self._calls: list[str] = []
         self._count = 0
 
@@ -102,26 +148,47 @@ class _Importer:
         return step
 
     def step(self, element: Element, ports: Ports) -> Step:
-        """What an element becomes."""
+        """What an element becomes; nothing if that cannot be, which is noted."""
+        self._seen.add(id(element))
+        try:
+            return self._step(element, ports)
+        except ConfigError as error:
+            self._problems.take_here(error)
+            for child in element.children:
+                if id(child) not in self._seen:
+                    self.step(child, ports)
+            return NOTHING
+
+    def _step(self, element: Element, ports: Ports) -> Step:
         self._count += 1
         if self._count > MAX_STEPS:
-            raise element.wrong(f"more than {MAX_STEPS} nodes, SubTrees written out", "")
-        attributes = self._attributes(element, ports)
-        kind = attributes.get("ID", "") if element.tag in _KINDS else element.tag
+            self._problems.take_here(
+                element.wrong(f"more than {MAX_STEPS} nodes, SubTrees written out", "")
+            )
+            raise Enough
+        kind = element.attributes.get("ID", "") if element.tag in _KINDS else element.tag
+        kind = _OLDER.get(kind, kind) if self._older else kind
+        if kind in leaves.refused():
+            raise element.wrong(f"{kind} has no equivalent: {leaves.refused()[kind]}", "")
+        attributes = self._attributes(element, ports, kind)
         make = _NODES.get(kind)
         if make is not None:
             return make(self, element, attributes, ports)
-        if kind in _REFUSED:
-            raise element.wrong(f"{kind} has no equivalent: {_REFUSED[kind]}", "")
         if element.children:
             raise element.wrong(f"{kind} has no equivalent", nearest(kind, sorted(_NODES)))
         return leaves.step_of(element, attributes)
 
-    def _attributes(self, element: Element, ports: Ports) -> dict[str, str]:
+    def _attributes(self, element: Element, ports: Ports, kind: str = "") -> dict[str, str]:
         """The attributes with the values of the ports in them."""
         found: dict[str, str] = {}
+        leaf = leaves.table().get(kind)
         for key, text in element.attributes.items():
-            if key.startswith("_") and key != "_autoremap":
+            if key in _FOR_PEOPLE:
+                continue
+            if leaf is not None and key in leaf.left_out:
+                self._note(element, key, kind, leaf.left_out[key])
+                continue
+            if key.startswith("_") and key not in _AUTOREMAP:
                 raise element.wrong(f"the condition {key!r} has no equivalent", "use IfThenElse")
             entry = re.fullmatch(r"\{(\w+)\}", text)
             if entry is None:
@@ -129,9 +196,15 @@ class _Importer:
             elif entry[1] in ports:
                 found[key] = ports[entry[1]]
             else:
-                cure = "give it a value as a port of the SubTree"
+                cure = "write the value itself, or give it as a port of the SubTree"
                 raise element.wrong(f"the blackboard entry {text} has no value", cure)
         return found
+
+    def _note(self, element: Element, port: str, kind: str, why: str) -> None:
+        """Tell that a port was left out, where anybody would miss it."""
+        note = f"left out: line {element.line}, {port} of {kind}: {why}"
+        if why and note not in self._notes:
+            self._notes.append(note)
 
     # --- nodes ---
 
@@ -151,7 +224,7 @@ class _Importer:
         """One after the other."""
         if not element.children:
             raise element.wrong(f"{element.tag} without children", "add one")
-        return _named({"do": self.children(element, ports)}, attributes)
+        return named({"do": self.children(element, ports)}, attributes)
 
     def fallback(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """One after the other until one succeeds."""
@@ -159,8 +232,8 @@ class _Importer:
             raise element.wrong("Fallback without children", "add one")
         *others, step = [self.step(child, ports) for child in element.children]
         for other in reversed(others):
-            step = {"do": _flat(other), "on_fail": {"any": _flat(step)}}
-        return _named(_fields(step), attributes) if _fields(step) else step
+            step = {"do": flat(other), "on_fail": {"any": flat(step)}}
+        return named(fields(step), attributes) if fields(step) else step
 
     def parallel(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """All at the same time."""
@@ -173,70 +246,114 @@ class _Importer:
             cure = 'success_count="-1" failure_count="1"'
             raise element.wrong(f"{text} has no equivalent", cure)
         branches = [
-            _flat(step) if set(_fields(step)) == {"do"} else step
+            flat(step) if set(fields(step)) == {"do"} else step
             for step in self.children(element, ports)
         ]
-        return _named({"parallel": branches}, attributes)
+        return named({"parallel": branches}, attributes)
 
     def retry(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Again, until it succeeds."""
-        attempts = _whole(element, attributes, "num_attempts")
+        attempts = whole(element, attributes, "num_attempts")
         step = self.only(element, ports)
-        return step if attempts == 1 else _with(step, "retry", attempts - 1)
+        return step if attempts == 1 else with_option(step, "retry", attempts - 1)
 
     def repeat(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Again, so many times."""
-        cycles = _whole(element, attributes, "num_cycles")
+        cycles = whole(element, attributes, "num_cycles")
         step = self.only(element, ports)
-        return _named({"repeat": cycles, "do": _flat(step)}, attributes)
+        return named({"repeat": cycles, "do": flat(step)}, attributes)
 
     def timeout(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Not longer than that."""
-        limit_s = _whole(element, attributes, "msec") / 1000.0
-        return _with(self.only(element, ports), "timeout_s", limit_s)
+        limit_s = whole(element, attributes, "msec") / 1000.0
+        return with_option(self.only(element, ports), "timeout_s", limit_s)
 
     def delay(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Some time later."""
-        wait_s = _whole(element, attributes, "delay_msec") / 1000.0
+        wait_s = whole(element, attributes, "delay_msec") / 1000.0
         return {"do": [{"wait": wait_s}, self.only(element, ports)]}
 
     def force_success(self, element: Element, _attributes: Ports, ports: Ports) -> Step:
         """Whether it succeeds or not."""
-        return _with(self.only(element, ports), "on_fail", {"any": []})
+        return with_option(self.only(element, ports), "on_fail", {"any": []})
 
     def inverter(self, element: Element, _attributes: Ports, ports: Ports) -> Step:
         """The other way round: of conditions only."""
         (child,) = element.children if len(element.children) == 1 else (element,)
         if child.tag not in _CONDITIONS:
             raise element.wrong("Inverter of an action has no equivalent", "invert a condition")
-        return _checked({"not": self.condition(child, ports)})
+        return checked({"not": self.condition(child, ports)})
 
     def if_then_else(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """One or the other."""
         if len(element.children) not in (2, 3):
             raise element.wrong("IfThenElse takes two or three children", "")
         asked, *others = element.children
-        branches = [_flat(self.step(child, ports)) for child in others]
+        branches = [flat(self.step(child, ports)) for child in others]
         found: dict[str, Any] = {"if": self.condition(asked, ports), "then": branches[0]}
         if len(branches) > 1:
             found["else"] = branches[1]
-        return _named(found, attributes)
+        return named(found, attributes)
 
     def subtree(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Another tree, with its ports."""
         name = attributes.get("ID", "")
         if name not in self._trees:
             raise element.wrong(f"there is no tree {name!r}", nearest(name, list(self._trees)))
-        remapped = {k: v for k, v in attributes.items() if k not in ("ID", "name", "_autoremap")}
-        inherited = ports if attributes.get("_autoremap") in ("1", "true") else {}
+        remapped = {
+            key: self._remapped(element, key, text, ports)
+            for key, text in attributes.items()
+            if key not in ("ID", "name", *_AUTOREMAP)
+        }
+        shared = any(attributes.get(key) in ("1", "true") for key in _AUTOREMAP)
+        inherited = ports if shared else {}
         steps = self.tree(name, element, {**inherited, **remapped})
-        return _named({"do": _flat(steps)}, attributes)
+        return named({"do": flat(steps)}, attributes)
+
+    def _remapped(self, element: Element, key: str, text: str, ports: Ports) -> str:
+        """The value of a port of a SubTree; format 3 names the caller's entry without braces."""
+        if not self._older or element.tag != "SubTree" or "{" in element.attributes[key]:
+            return text
+        if text not in ports:
+            cure = "write it as SubTreePlus with a value, or as a port of the SubTree around it"
+            raise element.wrong(f"the blackboard entry {text!r} has no value", cure)
+        return ports[text]
+
+    def recovery(self, element: Element, attributes: Ports, ports: Ports) -> Step:
+        """Nav2's: the first child; as often as it fails, the second and the first again."""
+        tries = whole(element, {"number_of_retries": "1", **attributes}, "number_of_retries")
+        if len(element.children) != 2 or tries > MAX_TRIES:
+            text = f"RecoveryNode takes two children, and at most {MAX_TRIES} retries"
+            raise element.wrong(text, "")
+        if self._recoveries == MAX_RECOVERIES:
+            text = f"RecoveryNodes in one another: at most {MAX_RECOVERIES}"
+            raise element.wrong(text, "each is written out twice")
+        self._recoveries += 1
+        first, second = (flat(self.step(child, ports)) for child in element.children)
+        self._recoveries -= 1
+        if tries == 1:
+            return named({"do": first, "on_fail": {"any": [*second, *first]}}, attributes)
+        again = {"fail": "recovered, to be tried again"}
+        step = {"do": first, "on_fail": {"any": [*second, again]}}
+        tried = {"do": [step], "retry": tries - 1, "on_fail": {"any": first}}
+        return named(tried, attributes)
+
+    def navigate(self, element: Element, attributes: Ports, _ports: Ports) -> Step:
+        """Nav2's: to one pose, or through several."""
+        several = (
+            element.tag == "NavigateThroughPoses" or attributes.get("ID") == "NavigateThroughPoses"
+        )
+        port = "goals" if several else "goal"
+        steps = [{"go_to": {"pose": pose}} for pose in poses_of(element, attributes.get(port, ""))]
+        if len(steps) > 1 and not several:
+            raise element.wrong("NavigateToPose takes one pose", "use NavigateThroughPoses")
+        return named(steps[0] if len(steps) == 1 else {"do": steps}, attributes)
 
     def check(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """A condition among actions: it fails where it does not hold."""
         if element.tag == "Expect":
             return {"expect": self.condition(element, ports)}
-        return _named(_checked(self.condition(element, ports)), attributes)
+        return named(checked(self.condition(element, ports)), attributes)
 
     def nothing(self, _element: Element, _attributes: Ports, _ports: Ports) -> Step:
         """Success at once."""
@@ -254,21 +371,21 @@ class _Importer:
         codes = attributes.get("codes", "").split(";")
         if first is None or len(codes) != len(handlers):
             raise element.wrong("OnFail takes a child, and one for each code", "")
-        steps = [_flat(handler) for handler in handlers]
-        return _with(first, "on_fail", dict(zip(codes, steps, strict=True)))
+        steps = [flat(handler) for handler in handlers]
+        return with_option(first, "on_fail", dict(zip(codes, steps, strict=True)))
 
     def always(self, element: Element, _attributes: Ports, ports: Ports) -> Step:
         """The first child, then the second in any case."""
         if len(element.children) != 2:
             raise element.wrong("Always takes two children", "")
         first, after = (self.step(child, ports) for child in element.children)
-        return _with(first, "always", _flat(after))
+        return with_option(first, "always", flat(after))
 
     def while_(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """As long as a condition holds."""
-        at_most = _whole(element, attributes, "at_most")
-        found = {"while": _condition(attributes), "at_most": at_most}
-        return _named({**found, "do": _flat(self.only(element, ports))}, attributes)
+        at_most = whole(element, attributes, "at_most")
+        found = {"while": condition_in(element, attributes), "at_most": at_most}
+        return named({**found, "do": flat(self.only(element, ports))}, attributes)
 
     def condition(self, element: Element, ports: Ports) -> Any:
         """The condition that an element states."""
@@ -279,52 +396,7 @@ class _Importer:
         if kind not in _CONDITIONS:
             raise element.wrong(f"the condition {kind!r} has no equivalent",
                                 nearest(kind, sorted(_CONDITIONS)))  # fmt: skip
-        return _CONDITIONS[kind](attributes)
-
-
-def _whole(element: Element, attributes: Ports, key: str) -> int:
-    text = attributes.get(key, "")
-    if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) == 0:
-        message = f"{element.tag} with {key}={text!r} has no equivalent"
-        raise element.wrong(message, "a whole number from 1: nothing here is without an end")
-    return int(text)
-
-
-def _named(step: dict[str, Any], attributes: Ports) -> Step:
-    return {**step, "name": attributes["name"]} if "name" in attributes else step
-
-
-def _flat(step: Step) -> list[Step]:
-    """A step as a list of steps."""
-    fields = _fields(step)
-    return fields["do"] if set(fields) == {"do"} else [step]
-
-
-def _fields(step: Step) -> dict[str, Any]:
-    """The keys of a step that is a mapping."""
-    return cast("dict[str, Any]", step) if isinstance(step, dict) else {}
-
-
-def _with(step: Step, option: str, value: Any) -> Step:
-    """A step with one more option; options have their order, so it may have to be wrapped."""
-    order = OPTIONS.index(option)
-    fields = _fields(step)
-    plain = fields and not any(key in fields for key in OPTIONS[order:])
-    inner = fields if plain else {"do": [step]}
-    return {**inner, option: value}
-
-
-def _checked(condition: Any) -> Step:
-    return {"if": condition, "then": [], "else": [{"fail": f"not so: {_words(condition)}"}]}
-
-
-def _words(condition: Any) -> str:
-    return condition if isinstance(condition, str) else msgspec.json.encode(condition).decode()
-
-
-def _condition(attributes: Ports) -> Any:
-    text = attributes.get("condition", "")
-    return msgspec.json.decode(text[len(JSON) :]) if text.startswith(JSON) else text
+        return _CONDITIONS[kind](element, attributes)
 
 
 Make = Callable[[_Importer, Element, Ports, Ports], Step]
@@ -346,6 +418,9 @@ _NODES: dict[str, Make] = {
     "SubTree": _Importer.subtree,
     "AlwaysSuccess": _Importer.nothing,
     "AlwaysFailure": _Importer.failing,
+    "RecoveryNode": _Importer.recovery,
+    "NavigateToPose": _Importer.navigate,
+    "NavigateThroughPoses": _Importer.navigate,
     "OnFail": _Importer.on_fail,
     "Always": _Importer.always,
     "While": _Importer.while_,
@@ -355,31 +430,19 @@ _NODES: dict[str, Make] = {
     "IsHolding": _Importer.check,
     "IsAt": _Importer.check,
 }
-_CONDITIONS: dict[str, Callable[[Ports], Any]] = {
-    "Check": _condition,
-    "Expect": _condition,
-    "IsSeen": lambda ports: {"seen": ports.get("object", ""), **_some(ports, "on")},
-    "IsHolding": lambda ports: {"holding": ports.get("object", True)},
-    "IsAt": lambda ports: {"robot_at": ports.get("place", "")},
+_CONDITIONS: dict[str, Callable[[Element, Ports], Any]] = {
+    "Check": condition_in,
+    "Expect": condition_in,
+    "IsSeen": lambda _, ports: {"seen": ports.get("object", ""), **_some(ports, "on")},
+    "IsHolding": lambda _, ports: {"holding": ports.get("object", True)},
+    "IsAt": lambda _, ports: {"robot_at": ports.get("place", "")},
 }
-_REFUSED: dict[str, str] = {
-    "ReactiveSequence": "conditions are asked once here, not at every tick",
-    "ReactiveFallback": "conditions are asked once here, not at every tick",
-    "WhileDoElse": "conditions are asked once here, not at every tick",
-    "KeepRunningUntilFailure": "it has no end",
-    "RunOnce": "a mission is run once",
-    "ForceFailure": "nothing fails on purpose after it succeeded",
-    "Script": "nothing is computed in a mission",
-    "ScriptCondition": "nothing is computed in a mission",
-    "SetBlackboard": "a mission has parameters, and no variables",
-    "UnsetBlackboard": "a mission has parameters, and no variables",
-    "Precondition": "nothing is computed in a mission",
-    "LoopString": "use for_each",
-    "LoopInt": "use for_each",
-    "LoopDouble": "use for_each",
-    **{f"Switch{n}": "use if" for n in range(2, 7)},
+_OLDER: dict[str, str] = {
+    "SequenceStar": "SequenceWithMemory",
+    "RetryUntilSuccesful": "RetryUntilSuccessful",
+    "SubTreePlus": "SubTree",
 }
-"""Nodes of BehaviorTree.CPP that cannot be meant here, and why."""
+"""What nodes of format 3 are called since."""
 
 
 def _some(ports: Ports, *keys: str) -> dict[str, str]:

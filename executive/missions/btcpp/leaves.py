@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any, cast
@@ -17,16 +18,32 @@ TEXTS = ("object", "person", "place", "on", "in", "to", "at", "", "mode", "side"
 
 
 class Leaf(msgspec.Struct, frozen=True, kw_only=True):
-    """A leaf: the step that it becomes, and which slot each port fills."""
+    """A leaf: the step that it becomes, and which slot each port fills.
+
+    Attributes:
+        step: its key.
+        ports: the slot of each.
+        defaults: what ports are taken to be that are not given.
+        left_out: ports that change nothing here, each with the reason where it is worth a word.
+    """
 
     step: str
     ports: dict[str, str]
+    defaults: dict[str, str] = {}
+    left_out: dict[str, str] = {}
 
 
 @cache
 def table() -> dict[str, Leaf]:
     """All leaves by name."""
     return load(Path(__file__).with_name("leaves.yaml"), dict[str, Leaf])
+
+
+@cache
+def refused() -> dict[str, str]:
+    """Nodes that have no meaning here, each with the reason."""
+    reasons = load(Path(__file__).with_name("refused.yaml"), dict[str, list[str]])
+    return {name: reason for reason, names in reasons.items() for name in names}
 
 
 @cache
@@ -49,7 +66,7 @@ def step_of(element: Element, attributes: dict[str, str]) -> Any:
         cure = nearest(name, sorted(table()))
         raise element.wrong(f"the leaf {name!r} has no equivalent", cure)
     value: Any = {}
-    for port, text in attributes.items():
+    for port, text in {**leaf.defaults, **attributes}.items():
         if port in ("ID", "name"):
             continue
         if port not in leaf.ports:
@@ -66,10 +83,14 @@ def _filled(value: Any, slot: str, text: str, element: Element) -> Any:
     """Put a port's text into a slot, such as `pose.x_m` or `duration_s * 0.001`."""
     slot, _, factor = slot.partition(" * ")
     last = slot.rpartition(".")[2]
+    if not text.strip():
+        raise element.wrong(f"a port of {element.tag} is empty", "give it a value")
     found: Any = text if last in TEXTS else resolve(text)
+    if isinstance(found, str) and re.fullmatch(r"[-+0-9.eE]*[0-9][-+0-9.eE]*", found):
+        raise element.wrong(f"{found[:40]!r} is no number that can be meant", "a smaller one")
     if factor:
         if not isinstance(found, int | float):
-            raise element.wrong(f"{text!r} should be a number")
+            raise element.wrong(f"{text[:40]!r} should be a number")
         found = found * float(factor)
     if not slot:
         return found

@@ -1,12 +1,16 @@
 """Campaigns are checked before they run, resumed after a kill, and summed up by the truth."""
 
 import json
+import os
+import signal
 
 import pytest
 
-from executive.evaluation import campaign, report
-from executive.evaluation.campaign import Case
-from executive.evaluation.record import Record, Results, fingerprint
+from executive.evaluation import campaign, pool, report
+from executive.evaluation.campaign import Case, Run
+from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
+from executive.frontends import ending, evaluation
+from executive.frontends.options import Eval
 from robot.errors import ConfigError
 from sim.reality import Simulation
 
@@ -70,11 +74,13 @@ def test_results_survive_a_kill_in_the_middle_of_a_line(tmp_path):
     first = Results(tmp_path, fingerprint="x")
     first.add(record(seed=0))
     first.add(record(seed=1))
+    first.close()
     data = first.path.read_bytes()
     first.path.write_bytes(data[:-20])
     second = Results(tmp_path, fingerprint="x")
     assert [run.key for run in second.left(runs)] == ["a/1", "a/2"]
     second.add(record(seed=1))
+    second.close()
     third = Results(tmp_path, fingerprint="y")
     assert [run.key for run in third.left(runs)] == ["a/2"]
     assert (first.stale, third.stale) == (False, True)
@@ -110,3 +116,111 @@ def test_the_fingerprint_follows_the_code(tmp_path):
     code.write_text("2")
     assert fingerprint(tmp_path) != before
     assert json.dumps(before)
+
+
+# --- going on, and ending early -----------------------------------------------------------------
+
+
+def test_results_that_are_not_there_are_no_results_to_go_on_with(tmp_path):
+    Results(tmp_path / "20260101-eval", fingerprint="x").close()
+    assert folder_to_resume(tmp_path / "20260101-eval")
+    with pytest.raises(ConfigError, match=r"did you mean '.*20260101-eval'"):
+        folder_to_resume(tmp_path / "20260101-evl")
+    assert not (tmp_path / "20260101-evl").exists()
+
+
+def test_two_evaluations_do_not_write_into_one_file(tmp_path):
+    first = Results(tmp_path, fingerprint="x")
+    with pytest.raises(ConfigError, match="another evaluation writes into it"):
+        Results(tmp_path, fingerprint="x")
+    first.close()
+    Results(tmp_path, fingerprint="x").close()
+
+
+def test_a_file_of_something_else_is_left_alone(tmp_path):
+    (tmp_path / FILE).write_text("dear diary\n")
+    with pytest.raises(ConfigError, match="no file of `humanoid eval`"):
+        Results(tmp_path, fingerprint="x")
+    (tmp_path / FILE).unlink()
+    os.mkfifo(tmp_path / FILE)
+    with pytest.raises(ConfigError, match="no ordinary file"):
+        Results(tmp_path, fingerprint="x")
+    assert (tmp_path / FILE).is_fifo()
+
+
+def test_results_of_another_mission_are_not_taken_for_those_of_this_one(tmp_path):
+    here, there = (Run(case=Case(name="a", mission=m), seed=0) for m in ("stand", "squat"))
+    with Results(tmp_path, fingerprint="x") as results:
+        results.add(Record(**{**_plain(record()), "digest": here.digest}))
+        assert results.left([here]) == []
+        with pytest.raises(ConfigError, match="'a/0' are of another mission, world or robot"):
+            results.left([there])
+
+
+def _plain(made):
+    return {name: getattr(made, name) for name in made.__struct_fields__}
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"faults": "missed_grasp, objct gone"}, ["'missed grasp'", "'object gone'"]),
+        ({"faults": " , "}, ["no case is named"]),
+        ({"faults": "disk full,disk full"}, ["2 cases are called 'disk full'"]),
+        ({"world": "kitchen"}, ["each case names its own world"]),
+        ({"world": "kichen", "missions": ["stand"]}, ["did you mean 'kitchen'"]),
+        ({"robot": "junno", "faults": "disk full"}, ["did you mean 'juno'"]),
+        ({"robot": "junno", "missions": ["stand"]}, ["did you mean 'juno'"]),
+        ({"missions": ["stand", "stand"]}, ["2 cases are called 'stand'"]),
+    ],
+)
+def test_options_that_mean_nothing_are_refused(options, words):
+    with pytest.raises(ConfigError) as error:
+        evaluation.chosen(Eval(**options))
+    assert all(word in str(error.value) for word in words)
+    assert len(error.value.problems) == len(words)
+
+
+def test_world_and_robot_stand_for_those_of_a_mission_file(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("name: mine\nsteps: [stand]\n")
+    for world in ("bench", "kitchen"):
+        (case,) = evaluation.chosen(Eval(missions=[str(path)], world=world))
+        found = campaign.meant(case, campaign.Settings(Simulation()))
+        assert found.where.world.name == world
+    with pytest.raises(ConfigError, match="did you mean 'juno'"):
+        campaign.meant(case, campaign.Settings(Simulation(), "junno"))
+
+
+def test_a_fault_brings_the_help_it_takes():
+    asked = Eval(missions=["stand"], faults="knocked down and allowed to get up")
+    (case,) = evaluation.chosen(asked)
+    assert case.helped
+    assert case.damped
+
+
+def test_a_wish_to_end_is_heard_and_a_late_second_one_ends_it_at_once(monkeypatch):
+    clock, left = Hands(), []
+    monkeypatch.setattr(ending.Ending, "_leave", lambda _: left.append(clock.s))
+    with ending.Ending(clock) as heard:
+        for number, at_s in ((signal.SIGINT, 0.0), (signal.SIGTERM, 0.1), (signal.SIGHUP, 9.0)):
+            assert not left
+            clock.s = at_s
+            signal.raise_signal(number)
+            assert heard.asked
+    assert left == [9.0]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+class Hands:
+    """A clock that is set by hand."""
+
+    s = 0.0
+
+    def now_s(self):
+        return self.s
+
+
+def test_runs_that_nobody_wants_any_more_are_not_begun():
+    run = Run(case=Case(name="a", mission="stand"), seed=0)
+    assert list(pool.in_processes([run], Simulation(), processes=1, stop=lambda: True)) == []

@@ -165,10 +165,10 @@ WRONG = [
     ("  - frobnicate the cup\n", "this sentence was not understood"),
     ("  - pick: cup\n", "'cup' is not clear (Which cup"),
     ("  - wait: long\n", ":3:11:"),
-    ("  - wait: -1\n", "duration_s must be 0 to"),
+    ("  - wait: -1\n", "a number from 0 to 600"),
     ("  - balance: {mode: stand, duration_s: soon}\n", ":3:40:"),
     ("  - say: x\n    retry: 1000\n", "retry 1000: 1 to 100 are possible"),
-    ("  - say: x\n    timeout_s: 0\n", "should be more than 0 s"),
+    ("  - say: x\n    timeout_s: 0\n", "timeout_s: 0 where a number above 0 and up to 86400"),
     ("  - {repeat: 2}\n", "the key 'do' is missing"),
     ("  - {say: x, pick: red cup}\n", "a step does one thing: 'pick'"),
     ("  - {}\n", "this step does nothing"),
@@ -185,8 +185,8 @@ WRONG = [
     ("  - for_each: x\n    in: [red cupp]\n    do: [say: x]\n", "did you mean 'red cup'"),
     ("  - place: {object: red cup, on: kitchen}\n", "nothing can be put down"),
     ("  - go_to: {pose: {x_m: 99, y_m: 0}}\n", "outside this world"),
-    ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: '.inf' where a number should be"),
-    ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "beyond anything"),
+    ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: x_m: '.inf' where a number should be"),
+    ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "x_m: 1e300 where a number of less"),
 ]  # fmt: skip
 
 
@@ -201,7 +201,7 @@ def test_a_mistake_is_named_with_its_place_and_cure(steps, words, write):
     ("more", "words"),
     [
         ("world: kitchn\n", ":2:8: unknown world"),
-        ("limits: {duration_s: -1}\n", "should be more than 0"),
+        ("limits: {duration_s: -1}\n", "duration_s: -1 where a number above 0"),
         ("limit: {duration_s: 1}\n", "did you mean 'limits'?"),
         ("parameters: {x: {type: objct}}\n", "did you mean 'object'?"),
         ("parameters: {x: {type: object, default: cupboard}}\n", ":2:41:"),
@@ -375,3 +375,101 @@ def test_any_data_for_steps_is_checked_or_refused(data, tmp_path):
         check(path)
     except ConfigError as error:
         assert error.problems
+
+
+# --- places, and what is wrong all at once --------------------------------------------------------
+
+
+def test_robot_and_world_are_refused_where_each_is_named(write):
+    path = write("name: a\nworld: kichen\nrobot: junno\nsteps: [stand]\n")
+    found = problems(path)
+    assert [text.split(": ")[0][-4:] for text in found] == [":2:8", ":3:8"]
+    assert "did you mean 'kitchen'" in found[0]
+    assert "did you mean 'juno'" in found[1]
+    found = problems(path, world="kitchen", robot="jnuo")
+    assert found == ["--robot: unknown robot 'jnuo' (did you mean 'juno'?)"]
+
+
+def test_a_parameter_that_is_wrong_is_there_all_the_same(write):
+    parameters = (
+        "parameters:\n"
+        "  a: {type: objct}\n"
+        "  b: {type: object, default: red cpu}\n"
+        "  c: {type: text}\n"
+    )
+    steps = '  - pick: "{{a}}"\n  - pick: "{{b}}"\n  - say: "{{c}} {{d}}"\n'
+    found = problems(write(mission(steps, parameters)))
+    assert len(found) == 4, found
+    assert "'c' of 'it' has no value" in found[0]
+    assert "did you mean 'object'" in found[1]
+    assert "no object 'red cpu'" in found[2]
+    assert "there is no parameter 'd' here" in found[3]
+
+
+def test_a_loop_that_is_wrong_keeps_its_name(write):
+    steps = "  - for_each: cup\n    inn: all cups\n    do: [{pick: '{{cup}}'}, {say: '{{cop}}'}]\n"
+    found = problems(write(mission(steps)))
+    assert not any("parameter 'cup'" in text for text in found)
+    assert any("parameter 'cop'" in text for text in found)
+
+
+@pytest.mark.parametrize("speed", [99, 0.51, 0.01, 0])
+def test_a_speed_that_the_robot_does_not_walk_is_refused(speed, write):
+    (found,) = problems(write(mission("  - stand\n", f"limits: {{speed_m_s: {speed}}}\n")))
+    assert "speed_m_s" in found
+    assert ":2:21:" in found
+
+
+FAULTS = [
+    (
+        "{fault: shove, strength_n_s: strong}",
+        "strength_n_s of the fault 'shove' should be a number",
+    ),
+    ("{fault: shove}", "needs the key 'strength_n_s'"),
+    ("{fault: shove, strength_n_s: 1e308}", "from 0 to 1000, not 1e+308"),
+    ("{fault: shove, strength_n_s: 1e999}", "not '1e999'"),
+    ("{fault: shove, strength_n_s: 5, duration_s: 0}", "from 0.001 to 60, not 0"),
+    ("{fault: shove, strength_n_s: {uniform: [5, 5000]}}", "not 5000"),
+    ("{fault: shove, strength_n_s: {uniform: [a, 2]}}", "uniform: [low, high]"),
+    ("{fault: shove, strength_n_s: {choice: []}}", "choice: [one, or, another]"),
+    ("{fault: push, impulse_n_s: [0, 4]}", "a list of 3, each number from -1000 to 1000"),
+    ("{fault: kill, process: planner}", "one of controller, perception, not 'planner'"),
+    ("{fault: heat, motor: left_kne, temperature_c: 90}", "did you mean 'left_knee'"),
+    ("{fault: discharge, charge: 80}", "from 0 to 1, not 80"),
+    ("{fault: silence, topic: camera, duration_s: -3}", "above 0, not -3"),
+    ("{fault: slow_planner, requests: 1.5}", "a whole number from 1 to 1000, not 1.5"),
+    ("{fault: kill_executive, times: 100000000000}", "a whole number from 1 to 1000"),
+    ("{fault: kill_executive, at_s: -1}", "at_s of the trigger should be a number from 0"),
+    ("{fault: kill_executive, step: ''}", "step of the trigger"),
+    ("{fault: remove, target: table}", "unknown target 'table'"),
+    ("{fault: move, target: red_cup, X_WO: 3}", "a mapping of p, quat_wxyz, not 3"),
+    ("{fault: move, target: red_cup}", "exactly one of X_WO, by_m"),
+    ("remove", "a fault is a mapping"),
+    ("{}", "the key 'fault' is missing"),
+]
+
+
+def test_everything_wrong_in_faults_is_said_at_its_line_in_our_words(write):
+    text = "faults:\n" + "".join(f"  - {fault}\n" for fault, _ in FAULTS)
+    found = problems(write(mission("  - stand\n", text)))
+    assert len(found) == len(FAULTS)
+    for line, (said, (_, words)) in enumerate(zip(found, FAULTS, strict=True), start=3):
+        assert words in said
+        assert f":{line}:" in said
+        assert "Expected" not in said
+        assert "$" not in said
+
+
+@pytest.mark.parametrize(
+    ("steps", "words"),
+    [
+        ("  - bring:\n    object: red cup\n    to: table\n", "indent it further: it belongs below 'bring'"),  # noqa: E501
+        ("\t- say: hi\n", "indent with spaces, not with a tab"),
+        ("  - balance: {mode: jump}\n", "valid: lean, one_leg, sit, squat, stand"),
+        ("  - wait: 5 seconds\n", "wait: '5 seconds' where a number from 0 to 600"),
+        ("  - go_to: {by: {}}\n", "neither how far nor how much to turn"),
+        ("  - goto: table\n", "did you mean 'go_to'"),
+    ],
+)  # fmt: skip
+def test_what_a_newcomer_gets_wrong_is_told_with_its_cure(steps, words, write):
+    assert any(words in text for text in problems(write(mission(steps))))

@@ -25,7 +25,7 @@ def test_plain_data_names_a_fault_and_mistakes_get_the_nearest_name():
         ({"fault": "shove", "strength": 3}, "did you mean 'strength_n_s'"),
         ({"fault": "shove", "strength_n_s": "much"}, "strength_n_s"),
         ({"fault": "move", "target": "box"}, "exactly one"),
-        ({}, "unknown fault"),
+        ({}, "the key 'fault' is missing"),
     ):
         with pytest.raises(ConfigError, match=message):
             faults.parse(data)

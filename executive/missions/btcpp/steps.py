@@ -1,0 +1,78 @@
+"""Steps as plain data, as an import writes them: named, given options, put into one another."""
+
+from __future__ import annotations
+
+import re
+from itertools import accumulate
+from typing import Any, TypeAlias, cast
+
+import msgspec
+
+from executive.missions.btcpp.xml import Element
+
+Step: TypeAlias = Any
+Ports: TypeAlias = dict[str, str]
+JSON = "json:"
+"""Before a condition that is no sentence; a brace alone would be a blackboard entry."""
+OPTIONS = ("retry", "timeout_s", "on_fail", "always")
+MAX_NESTING = 50
+"""Of a condition in JSON; the reader of missions takes 60 levels."""
+_NESTING = {"[": 1, "{": 1, "]": -1, "}": -1}
+
+
+def whole(element: Element, attributes: Ports, key: str) -> int:
+    """The whole number in a port, from 1. Raises ConfigError."""
+    text = attributes.get(key, "")
+    if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) == 0:
+        message = f"{element.tag} with {key}={text!r} has no equivalent"
+        raise element.wrong(message, "a whole number from 1: nothing here is without an end")
+    return int(text)
+
+
+def named(step: dict[str, Any], attributes: Ports) -> Step:
+    """A step with the name of its element."""
+    return {**step, "name": attributes["name"]} if "name" in attributes else step
+
+
+def flat(step: Step) -> list[Step]:
+    """A step as a list of steps."""
+    inside = fields(step)
+    return inside["do"] if set(inside) == {"do"} else [step]
+
+
+def fields(step: Step) -> dict[str, Any]:
+    """The keys of a step that is a mapping."""
+    return cast("dict[str, Any]", step) if isinstance(step, dict) else {}
+
+
+def with_option(step: Step, option: str, value: Any) -> Step:
+    """A step with one more option; options have their order, so it may have to be wrapped."""
+    order = OPTIONS.index(option)
+    inside = fields(step)
+    plain = inside and not any(key in inside for key in OPTIONS[order:])
+    inner = inside if plain else {"do": [step]}
+    return {**inner, option: value}
+
+
+def checked(condition: Any) -> Step:
+    """A step that fails where a condition does not hold."""
+    return {"if": condition, "then": [], "else": [{"fail": f"not so: {_words(condition)}"}]}
+
+
+def _words(condition: Any) -> str:
+    return condition if isinstance(condition, str) else msgspec.json.encode(condition).decode()
+
+
+def condition_in(element: Element, attributes: Ports) -> Any:
+    """The condition that stands in a port: a sentence, or data. Raises ConfigError."""
+    text = attributes.get("condition", "")
+    if not text.startswith(JSON):
+        return text
+    data = text[len(JSON) :]
+    cure = 'for example: json:{"holding": true}'
+    if max(accumulate(_NESTING.get(letter, 0) for letter in data), default=0) > MAX_NESTING:
+        raise element.wrong(f"the condition is nested deeper than {MAX_NESTING} levels", cure)
+    try:
+        return msgspec.json.decode(data)
+    except (msgspec.DecodeError, RecursionError):
+        raise element.wrong(f"the condition is no JSON: {data[:40]}", cure) from None
