@@ -48,8 +48,8 @@ OWN = re.compile(r"\x1b\[\??[0-9;]*[A-HJKSTfhlmnr]|\r|\x1b[=>]")
 
 PASSWORDS = "root:x:0:0"
 ANSWERS = re.compile(
-    r"What to do|requires|[Mm]issing|did you mean|cure|\b[Tt]ry\b|[Uu]se |valid|nearest|has to|must|is no |not ",
-    re.I,
+    r"What to do|requires|missing|did you mean|cure|\btry\b|use |valid|nearest|has to|must|not ",
+    re.IGNORECASE,
 )
 
 
