@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from shlex import quote
+from shutil import get_terminal_size
 
 from executive.blackboard import KEYS
 from executive.engine.jobs import OVER, Job
@@ -22,6 +23,8 @@ from robot.errors import ConfigError
 
 KEY_NAMES = tuple(key.name for key in KEYS)
 PAST_SHOWN = 10
+WIDE_COLUMNS = 120
+"""A terminal that shows a command and what it does on one line."""
 
 
 def table(shell: Shell) -> tuple[Command, ...]:
@@ -242,11 +245,13 @@ class _Seeing:
         if rest:
             self._shell.out(f"{commands[rest].usage}\n  {commands[rest].summary}")
             return
+        wide = get_terminal_size().columns >= WIDE_COLUMNS
         self._shell.out("Say what to do in plain English, for example:")
         self._shell.out("  pick up the red cup and put it on the shelf")
         self._shell.out("Or use a command:")
         for command in commands.values():
-            self._shell.out(f"  {command.usage:44} {command.summary}")
+            apart = " " if wide else "\n      "
+            self._shell.out(f"  {command.usage:{44 if wide else 0}}{apart}{command.summary}")
         self._shell.out("Tab completes, the up arrow brings back what was typed. Ctrl-C stops.")
 
 

@@ -38,8 +38,7 @@ class LineCompleter(Completer):
             for command in self._commands.values():
                 if command.name.startswith(first.casefold()):
                     yield Completion(
-                        command.name, -len(first), display=command.usage,
-                        display_meta=command.summary,
+                        command.name, -len(first), display_meta=command.summary,
                     )  # fmt: skip
         yield from _prefixed(OPENINGS, text)
         command = self._commands.get(first.casefold())
