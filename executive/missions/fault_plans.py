@@ -206,7 +206,7 @@ def _values(key: str, how: str, of: object) -> list[Any]:
         else 0 < len(values) <= MAX_CHOICES
     )
     if not fits:
-        text = f"{key}: {how} takes a list to draw from, not {shown(of)}"
+        text = f"{key}: {how} takes a list to draw from, not {shown(cast('object', of))}"
         raise ConfigError([Problem(text, suggestion=DRAWS[how])])
     return values
 
