@@ -124,16 +124,11 @@ def _flood(count: int, line: str, folder: Path) -> None:
         file.write("\n".join(lines[5:]) + "\n")
 
 
-def _request(folder: Path, **fields: Any) -> None:
-    lines = _lines(folder)
-    last = json.loads(lines[-2])
-    event = {"event": "request", "n": last["n"], "t_s": 0.5, **fields}
-    _write(folder, [*lines[:8], flow(event), *lines[8:]])
-
-
 def _asked(fields: dict[str, Any], folder: Path) -> None:
     """Somebody asked for something else as well."""
-    _request(folder, **fields)
+    lines = _lines(folder)
+    event = {"event": "request", "n": json.loads(lines[-2])["n"], "t_s": 0.5, **fields}
+    _write(folder, [*lines[:8], flow(event), *lines[8:]])
 
 
 def _renamed(name: str, folder: Path) -> None:
