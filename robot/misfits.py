@@ -175,9 +175,12 @@ def _of_number(
 
 
 def _range(kind: inspect.FloatType | inspect.IntType, unit: str) -> str:
-    low, high = (f"{limit:g}" if limit is not None else "" for limit in (kind.ge, kind.le))
-    said = f"from {low} to {high}" if low and high else f"{low} or more" if low else f"up to {high}"
-    return f"{said} {unit}".rstrip()
+    low, high = (
+        f"{limit:g} {unit}".rstrip() if limit is not None else "" for limit in (kind.ge, kind.le)
+    )
+    if low and high:
+        return f"from {kind.ge:g} to {high}"
+    return f"{low} or more" if low else f"{high} or less"
 
 
 def _of_word(
@@ -194,6 +197,8 @@ def _of_word(
         case inspect.StrType():
             if not isinstance(data, str):
                 yield _wrong(data, path, "a text", cure="put it into quotes")
+            elif len(data) < (kind.min_length or 0):
+                yield Misfit(path, f"{dotted(path)} is empty", "say something, or leave it out")
         case inspect.BoolType():
             if not isinstance(data, bool):
                 yield _wrong(data, path, "true or false")

@@ -89,6 +89,7 @@ Load: TypeAlias = Annotated[float, _between(0.001, 50.0, "kg")]
 # --- what is done to a world on purpose ---
 
 Impulse: TypeAlias = Annotated[float, _between(-1000.0, 1000.0, "N s")]
+Strength: TypeAlias = Annotated[float, _between(0.0, 1000.0, "N s")]  # 1000: a car at 70 km/h
 Heat: TypeAlias = Annotated[float, _between(-50.0, 500.0, "°C")]
 Span: TypeAlias = Annotated[float, Meta(ge=0.01, extra={"unit": "s"})]  # for ever, left out
 Moment: TypeAlias = Annotated[float, _between(0.0, 1e6, "s")]

@@ -103,14 +103,6 @@ def resolve(text: str) -> Scalar:
     return found if math.isfinite(found) else text  # 1e999, or hundreds of digits: no number
 
 
-def _is_infinite(text: str) -> bool:
-    """Whether it looks like a number and has become infinite; only an exponent or length can."""
-    return (len(text) > 300 or "e" in text or "E" in text) and resolve(text) in (
-        math.inf,
-        -math.inf,
-    )
-
-
 def text_node(text: str, like: Node, *, plain: bool = False) -> Node:
     """A text in the place of another node."""
     node = Node("text", like.file, like.line, like.column)
@@ -225,9 +217,6 @@ class _Builder:
                 if len(node.text) > MAX_TEXT:
                     text = f"a text of {len(node.text)} characters, at most {MAX_TEXT} are taken"
                     self._refuse(event, text, "shorten it, or check the quotes")
-                if node.plain and _is_infinite(node.text):
-                    text = f"{node.text[:40]} is no number that can be held"
-                    self._refuse(event, text, "it is larger than 1.8e308: write a smaller one")
                 self._put(node)
             elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
                 self._open(event, "map" if kind is yaml.MappingStartEvent else "list")

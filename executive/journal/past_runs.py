@@ -7,13 +7,15 @@ import re
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 import msgspec
 
 from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
 from executive.journal.run import Run
+from robot import misfits
+from robot import quantities as q
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import open_ordinary, read_ordinary
@@ -44,7 +46,7 @@ class End(msgspec.Struct, frozen=True):
     """What is shown of `summary.json`."""
 
     code: str
-    simulated_s: float = 0.0
+    simulated_s: q.Moment = 0.0
 
 
 class Past(msgspec.Struct, frozen=True, kw_only=True):
@@ -105,7 +107,7 @@ def look(folder: Path) -> Past:
     else:
         run = _read(folder)
         task = run.task
-        header = header or _about(run)
+        header = header or _sane({**run.about, "text": run.text}, About)
         code = task.reason.code if task.reason else "done" if task.state == "done" else ""
         took_s = run.end_s
         if journal.is_written(folder):
@@ -141,13 +143,6 @@ def _read(folder: Path) -> Run:
         return Run()
 
 
-def _about(run: Run) -> About:
-    try:
-        return msgspec.convert({**run.about, "text": run.text}, About)
-    except msgspec.ValidationError:
-        return About(text=run.text)
-
-
 def _began_s(folder: Path) -> float:
     """Time of day of the first event; of the folder itself where nothing says so."""
     found = None
@@ -163,6 +158,15 @@ def _began_s(folder: Path) -> float:
 def _table(path: Path, kind: type[T]) -> T | None:
     """What a file of a run says; None where there is none, or it says nothing of the kind."""
     try:
-        return msgspec.json.decode(read_ordinary(path, limit=MAX_BYTES), type=kind)
+        data = msgspec.json.decode(read_ordinary(path, limit=MAX_BYTES), type=dict[str, Any])
     except (OSError, ValueError, RecursionError):  # msgspec's errors are ValueErrors
         return None
+    return _sane(data, kind)
+
+
+def _sane(data: dict[str, Any], kind: type[T]) -> T | None:
+    """A table without what is odd in it, which must not hide the rest."""
+    odd = {one.path[0] for one in misfits.misfits(data, kind) if one.path}
+    with contextlib.suppress(msgspec.ValidationError):
+        return msgspec.convert({key: data[key] for key in data if key not in odd}, kind)
+    return None

@@ -52,7 +52,7 @@ class Shove(FaultRecord, frozen=True, kw_only=True):
     0 degrees pushes it forwards, 90 to its left.
     """
 
-    strength_n_s: q.Impulse
+    strength_n_s: q.Strength
     towards_deg: q.Heading = 0.0
     duration_s: q.Span = 0.1
 

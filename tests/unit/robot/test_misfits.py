@@ -124,9 +124,6 @@ def test_every_number_of_a_fault_has_a_range_or_may_last_for_ever(kind):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("a: 1e999", "no number that can be held"),
-        ("a: -1E400", "no number that can be held"),
-        ("a: " + "9" * 5001, "no number that can be held"),
         ("a: " + "x" * 10_001, "a text of 10001 characters"),
         ("'" + "x" * 10_001 + "'", "a text of 10001 characters"),
         ('a: "' + "x" * 1_000_000 + '"', "a text of 1000000 characters"),

@@ -139,5 +139,5 @@ def test_a_hot_motor_and_an_empty_battery(plant, robot):
     before = plant.battery.charge
     plant.step(1000)
     assert 0.0 < before - plant.battery.charge < 0.001
-    with pytest.raises(ValueError, match="0 to 1"):
-        faults.Discharge(charge=1.5)
+    with pytest.raises(ConfigError, match="from 0 to 1"):
+        faults.parse({"fault": "discharge", "charge": 1.5})

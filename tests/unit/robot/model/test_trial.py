@@ -15,7 +15,7 @@ BODY = '<body><freejoint/><geom size=".1" mass="30"/></body>'
 def model(tmp_path, inside="", top=""):
     path = tmp_path / "robot.xml"
     path.write_text(f"<mujoco>{top}<worldbody>{BODY}{inside}</worldbody></mujoco>")
-    return mjcf.Source(str(path))
+    return mjcf.Source(str(path), str(tmp_path))
 
 
 def test_a_small_model_passes_and_is_tried_once(tmp_path, monkeypatch):
@@ -50,7 +50,7 @@ def test_a_model_without_bounds_is_refused_with_the_cure(tmp_path, inside, top, 
 @pytest.mark.parametrize("name", ["missing.xml", "."])
 def test_what_is_no_file_is_said_at_once(tmp_path, name):
     with pytest.raises(DescriptionError, match="cannot be read"):
-        trial.check(mjcf.Source(str(tmp_path / name)))
+        trial.check(mjcf.Source(str(tmp_path / name), str(tmp_path)))
 
 
 def test_our_own_models_are_not_tried_nor_are_copies_of_them(tmp_path, monkeypatch):
