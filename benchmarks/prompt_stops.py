@@ -15,6 +15,7 @@ import signal
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
@@ -192,8 +193,17 @@ def _give(pty: Pty, one: bytes | tuple[int, int] | bool) -> None:
         pty.press(one)
 
 
-def tries(count: int, *, seed: int, folder: Path) -> Result:
-    """Try so many times; every try is drawn from the seed and its number."""
+def tries(
+    count: int, *, seed: int, folder: Path, tell: Callable[[str], None] = lambda _: None
+) -> Result:
+    """Try so many times; every try is drawn from the seed and its number.
+
+    Args:
+        count: how often.
+        seed: of all that is random.
+        folder: for what the prompts write.
+        tell: told from time to time how far it is.
+    """
     result = Result()
     prompt: Prompt | None = None
     for number in range(count):
@@ -202,13 +212,17 @@ def tries(count: int, *, seed: int, folder: Path) -> Result:
             prompt = Prompt(folder)
         if not prompt.walk():
             result.lost.append(f"{number}: the prompt was not there to let it walk")
+            tell(result.lost[-1])
             prompt.close()
             prompt = None
             continue
         stop, said, acted = attempt(prompt, rng)
         result.tried[stop] += 1
+        if (number + 1) % 20 == 0:
+            tell(f"{number + 1} tries, {len(result.lost)} stops lost")
         if not acted:
             result.lost.append(f"{number}: {stop} after {said}")
+            tell(result.lost[-1])
         gone = prompt.left or prompt.pty.process.poll() is not None
         if not acted or gone or stop in LEAVES:
             prompt.close()
@@ -218,6 +232,10 @@ def tries(count: int, *, seed: int, folder: Path) -> Result:
     return result
 
 
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
 def main(
     count: Annotated[int, typer.Option("--tries", help="how often")] = 1000,
     seed: Annotated[int, typer.Option(help="of all that is random")] = 0,
@@ -225,9 +243,7 @@ def main(
     """Try, and say how many stops were lost, and after what."""
     begin_s = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        result = tries(count, seed=seed, folder=Path(folder))
-    for one in result.lost:
-        print(one)
+        result = tries(count, seed=seed, folder=Path(folder), tell=_say)
     print(", ".join(f"{n} x {stop}" for stop, n in result.tried.most_common()))
     took_s = time.monotonic() - begin_s
     print(f"{len(result.lost)} stops lost in {count} tries, {took_s:.0f} s")

@@ -73,6 +73,7 @@ def main(folder: Path, told: int, heard: int) -> None:
 
         def obey() -> None:
             while os.read(heard, 1):
+                robot.executive.resume()  # whatever was pasted before may have paused it
                 robot.submit(errand)
 
         threading.Thread(target=obey, daemon=True).start()

@@ -155,7 +155,9 @@ class Shell:
             if self.stop_at_once(text):
                 return
             text = "".join(one if one.isprintable() else " " for one in seen(plain(text))).strip()
-            if text:
+            if stops not in (None, self.stops):
+                self._refuse(f"Not done: “{text}” was there when you said stop")
+            elif text:
                 self._take(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")

@@ -91,11 +91,11 @@ class Terminal:
     # --- the prompt's thread ---
 
     def _prompting(self) -> None:
-        keyboard = Keyboard(sys.stdin, stop=self._stop_busy, entered=self._entered)
+        keyboard = Keyboard(sys.stdin, stop=self._stop_busy, is_cry=self._is_cry, cried=self._cried)
         try:
             self._prompt = self._session(keyboard)
             with keyboard, patch_stdout(raw=True):
-                asyncio.run(self._run(self._prompt))
+                asyncio.run(self._run(self._prompt, keyboard))
         except BaseException as error:  # told by who waits
             self._error = error
 
@@ -116,12 +116,12 @@ class Terminal:
             style=Style.from_dict(STYLES),
         )
 
-    async def _run(self, session: PromptSession[str]) -> None:
+    async def _run(self, session: PromptSession[str], keyboard: Keyboard) -> None:
         self._loop = asyncio.get_running_loop()
         self._loop.set_exception_handler(self._mistake)
         mourning = asyncio.create_task(self._mourn())
         try:
-            await self._prompt_until_leaving(session)
+            await self._prompt_until_leaving(session, keyboard)
         finally:
             mourning.cancel()
 
@@ -131,7 +131,7 @@ class Terminal:
             await asyncio.sleep(REFRESH_S)
         self._shell.answer(self._shell.gone)
 
-    async def _prompt_until_leaving(self, session: PromptSession[str]) -> None:
+    async def _prompt_until_leaving(self, session: PromptSession[str], keyboard: Keyboard) -> None:
         shell, mistakes = self._shell, 0
         while not shell.leaving:
             try:
@@ -150,8 +150,11 @@ class Terminal:
             if text.strip() in LEAVING:
                 shell.leaving = True
             elif not self._stopped(text):
+                stops = shell.stops  # before looking, so that a stop in between counts
+                if keyboard.behind:
+                    continue
                 self._open_lines += 1
-                self._worker.submit(self._line, text, shell.stops)
+                self._worker.submit(self._line, text, stops)
 
     def _stopped(self, text: str) -> bool:
         """Whether a line was a cry to stop, heeded here and now."""
@@ -192,10 +195,13 @@ class Terminal:
         self._shell.speech.hush()
         return False
 
-    def _entered(self, line: str) -> None:
+    def _is_cry(self, line: str) -> bool:
+        """Whether a line is to stop something, for all that the prompt has not read it yet."""
+        return self._busy and self._shell.is_cry(line)
+
+    def _cried(self) -> None:
         """Heed a cry before the prompt has it, which tells of it when it has."""
-        if self._busy and self._shell.is_cry(line):
-            self._shell.stop_unsaid("the operator said stop")
+        self._shell.stop_unsaid("the operator said stop")
 
     # --- what the library calls ---
 
