@@ -211,7 +211,9 @@ def tries(
         if prompt is None:
             prompt = Prompt(folder)
         if not prompt.walk():
-            result.lost.append(f"{number}: the prompt was not there to let it walk")
+            result.lost.append(
+                f"{number}: no walk (ended {prompt.pty.process.poll()}, {prompt.jobs} jobs, busy {prompt.busy})"
+            )
             tell(result.lost[-1])
             prompt.close()
             prompt = None
