@@ -101,9 +101,17 @@ class Prompt:
         return bool(true())
 
     def walk(self) -> bool:
-        """Let the puppet walk; whether it does."""
-        os.write(self._heard, b"w")
-        return self.until(lambda: self.walking, within_s=60.0)
+        """Let the puppet walk; whether it does.
+
+        The line of a cry that was heeded as it was typed may come late, and end the next walk.
+        """
+        before = self.jobs
+        for within_s in (120.0, 20.0, 20.0):  # the first one may have to wait for the start
+            os.write(self._heard, b"w")
+            if self.until(lambda: self.walking or self.jobs > before, within_s=within_s):
+                if self.until(lambda: self.walking, within_s=5.0):
+                    return True
+        return False
 
     @property
     def stands(self) -> bool:
@@ -211,7 +219,8 @@ def tries(
         if prompt is None:
             prompt = Prompt(folder)
         if not prompt.walk():
-            result.lost.append(f"{number}: the prompt was not there to let it walk")
+            ended = prompt.pty.process.poll()
+            result.lost.append(f"{number}: no walk ({ended=}, {prompt.jobs} jobs)")
             tell(result.lost[-1])
             prompt.close()
             prompt = None

@@ -114,6 +114,8 @@ def _ends_in_cry(clause: str) -> bool:
 
 
 def _is_meant(clause: str, word: re.Match[str]) -> bool:
+    if _GLUED.fullmatch(word.group()):
+        return True  # what stands before it is no part of the cry
     before, after = clause[: word.start()], clause[word.end() :]
     return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after))
 
