@@ -4,14 +4,13 @@ Its answer is data: goals of the closed set, checked by type, name and range lik
 read back to the person before anything moves (:mod:`intents.dialogue`). It can call nothing. What
 goes wrong with it is a value in :attr:`LanguageModel.trouble`; the robot then goes on without it.
 
-    model = LanguageModel(Endpoint.parse(text_of_a_toml_file), key=Key(secret))
+    model = LanguageModel(Endpoint(base_url=url, model=name), key=Key(secret))
     dialogue = Dialogue(vocabulary, fallback=model)
 """
 
 import ipaddress
 import math
 import time
-import tomllib
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -96,19 +95,6 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     def host(self) -> str:
         """Who is spoken to, as keys are kept for it: "host", or "host:port" for an odd port."""
         return _address(self.base_url).netloc.decode("ascii").lower()
-
-    @classmethod
-    def parse(cls, text: str) -> "Endpoint":
-        """An endpoint from the text of a TOML file.
-
-        Raises:
-            ValueError: It is no TOML (TOMLDecodeError), or has other keys or values
-                (msgspec.ValidationError).
-        """
-        try:
-            return msgspec.convert(tomllib.loads(text), cls)
-        except RecursionError:
-            raise ValueError("it is nested too deep") from None
 
 
 def _address(base_url: str) -> httpx.URL:

@@ -17,6 +17,12 @@ _UNSEEN = re.compile(
     "]+"
 )
 """Default_Ignorable_Code_Point of Unicode's DerivedCoreProperties, and the empty braille cell."""
+_SEQUENCE = re.compile(
+    r"(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]"  # CSI: colours, keys, the marks around a paste
+    r"|(?:\x1b\]|\x9d)[^\x07\x1b\x9c]*(?:\x07|\x1b\\|\x9c)"  # OSC: titles, links
+    r"|\x1bO.|\x1b"
+)
+"""A control sequence (ECMA-48), or the escape of one that is none."""
 _MARKS = re.compile("[\u0300-\u036f\u0483-\u0489\u1ab0-\u1aff\u1dc0-\u1dff\u20d0-\u20ff]+")
 """Marks above, below and around Latin, Greek and Cyrillic letters."""
 _LIKE = {
@@ -35,9 +41,14 @@ _LETTERS = {
 _WORD = re.compile(r"[^\W_]+")
 
 
+def without_sequences(text: str) -> str:
+    """A text without what only tells a terminal how to show it."""
+    return _SEQUENCE.sub("", text)
+
+
 def seen(text: str) -> str:
     """A text without what cannot be seen; what is written wide, bold or in circles is plain."""
-    plain = _UNSEEN.sub("", unicodedata.normalize("NFKC", text))
+    plain = _UNSEEN.sub("", unicodedata.normalize("NFKC", without_sequences(text)))
     return _MARKS.sub("", plain)
 
 

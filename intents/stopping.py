@@ -10,7 +10,7 @@ import re
 from rapidfuzz.distance import OSA
 
 from intents.english.words.lexicon import words
-from intents.letters import bare, latin
+from intents.letters import bare, latin, without_sequences
 
 _LOOKED_AT = 240
 """Characters at either end of a long text: people cry first or last, and no text takes long."""
@@ -69,6 +69,11 @@ def is_stop(text: str) -> bool:
     """Whether a text is a cry to stop; errs towards yes, and takes well under a millisecond."""
     if len(text) > 2 * _READ:
         text = f"{text[:_READ]} . {text[-_READ:]}"
+    # What follows an escape may be meant as text, or as a part of a control sequence.
+    return any(_is_cried(reading) for reading in {text, without_sequences(text)})
+
+
+def _is_cried(text: str) -> bool:
     plain = _plain(text)
     if len(plain) > 2 * _LOOKED_AT:
         plain = f"{plain[:_LOOKED_AT]} . {plain[-_LOOKED_AT:]}"

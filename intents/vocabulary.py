@@ -1,7 +1,6 @@
 """The names that mean something in one world: objects, places, rooms, people, categories."""
 
 from collections.abc import Iterable, Mapping
-from typing import cast
 
 import msgspec
 
@@ -71,38 +70,26 @@ class Vocabulary(msgspec.Struct, frozen=True, kw_only=True):
             categories=tuple(Category(s, p) for s, p in (categories or {}).items()),
         )
 
-    @classmethod
-    def from_json(cls, data: str | bytes) -> "Vocabulary":
-        """A vocabulary from JSON.
 
-        The form is ``{"objects": [{"name", "category"?, "color"?, "size"?, "synonyms"?}],
-        "places": [...], "rooms": [...], "people": [...], "categories": {singular: plural}}``;
-        an entry may be a plain name.
+class Names(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A vocabulary as it stands in a file, where an entry may be a plain name.
 
-        Raises:
-            msgspec.DecodeError: Not JSON, or (ValidationError) not of this form.
-        """
-        raw = msgspec.json.decode(data, type=dict[str, object])
-        known = ("objects", "places", "rooms", "people", "categories")
-        unknown = sorted(set(raw) - set(known))
-        if unknown:
-            message = f"unknown key {unknown[0]!r} in the vocabulary, known are {', '.join(known)}"
-            raise msgspec.ValidationError(message)
-        named = {key: _entries(raw.get(key, [])) for key in known[:-1]}
-        return cls(
-            objects=msgspec.convert(named["objects"], tuple[Thing, ...]),
-            places=msgspec.convert(named["places"], tuple[Spot, ...]),
-            rooms=msgspec.convert(named["rooms"], tuple[Spot, ...]),
-            people=msgspec.convert(named["people"], tuple[Someone, ...]),
-            categories=tuple(
-                Category(s, p)
-                for s, p in msgspec.convert(raw.get("categories", {}), dict[str, str]).items()
-            ),
+    ``{"objects": [{"name", "category"?, "color"?, "size"?, "synonyms"?}], "places": [...],
+    "rooms": [...], "people": [...], "categories": {singular: plural}}``
+    """
+
+    objects: tuple[str | Thing, ...] = ()
+    places: tuple[str | Spot, ...] = ()
+    rooms: tuple[str | Spot, ...] = ()
+    people: tuple[str | Someone, ...] = ()
+    categories: dict[str, str] = {}
+
+    def vocabulary(self) -> Vocabulary:
+        """The same, with an entry for every name."""
+        return Vocabulary.of(
+            objects=self.objects,
+            places=self.places,
+            rooms=self.rooms,
+            people=self.people,
+            categories=self.categories,
         )
-
-
-def _entries(data: object) -> object:
-    """Plain names become entries; what is malformed is left to the validator."""
-    if not isinstance(data, list):
-        return data
-    return [{"name": x} if isinstance(x, str) else x for x in cast("list[object]", data)]

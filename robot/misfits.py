@@ -96,10 +96,18 @@ def _of_union(data: object, kind: inspect.UnionType, path: Path, unit: str) -> I
 
 
 def _alike(data: object, kind: inspect.Type) -> bool:
-    if isinstance(kind, inspect.Metadata):
-        return _alike(data, kind.type)
-    number = isinstance(kind, inspect.FloatType | inspect.IntType)
-    return number == (isinstance(data, float | int) and not isinstance(data, bool))
+    """Whether data and type are both numbers, both mappings, both lists, or both none of these."""
+    match kind:
+        case inspect.Metadata():
+            return _alike(data, kind.type)
+        case inspect.FloatType() | inspect.IntType():
+            return isinstance(data, float | int) and not isinstance(data, bool)
+        case inspect.StructType() | inspect.DictType():
+            return isinstance(data, Mapping)
+        case inspect.TupleType() | inspect.VarTupleType() | inspect.ListType():
+            return isinstance(data, list | tuple)
+        case _:
+            return isinstance(data, bool) or not isinstance(data, float | int | Mapping | list)
 
 
 def _of_struct(data: object, kind: inspect.StructType, path: Path) -> Iterator[Misfit]:
@@ -166,12 +174,19 @@ def _of_number(
 ) -> Iterator[Misfit]:
     if isinstance(data, bool) or not isinstance(data, float | int):
         yield _wrong(data, path, "a number")
-    elif not math.isfinite(data):
+    elif not _is_finite(data):
         yield Misfit(path, f"{dotted(path)} is not a finite number")
     elif isinstance(kind, inspect.IntType) and data != int(data):
         yield Misfit(path, f"{dotted(path)} is {data:g}, and must be a whole number")
     elif (kind.ge is not None and data < kind.ge) or (kind.le is not None and data > kind.le):
         yield Misfit(path, f"{dotted(path)} is {data:g}, and must be {_range(kind, unit)}")
+
+
+def _is_finite(data: float) -> bool:
+    try:
+        return math.isfinite(data)
+    except OverflowError:  # a whole number that no float comes near to
+        return False
 
 
 def _range(kind: inspect.FloatType | inspect.IntType, unit: str) -> str:

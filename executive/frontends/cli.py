@@ -25,6 +25,7 @@ from executive.frontends.options import (
     Seed,
     Walk,
     World,
+    WorldIfAny,
     takes,
 )
 from executive.frontends.output import say, tell_of_mistakes
@@ -136,7 +137,7 @@ def walk(options: Walk) -> None:
 def parse(
     sentence: Annotated[list[str] | None, typer.Argument(help="What was said.")] = None,
     *,
-    world: World = "",
+    world: WorldIfAny = None,
     vocabulary: Annotated[
         Path | None, typer.Option("--vocabulary", help="Names from a JSON file, not a world.")
     ] = None,
@@ -158,12 +159,12 @@ def parse(
 
     if sentence is None and file is None:
         raise typer.BadParameter("give a sentence, or --file")
-    if vocabulary is not None and world:
+    if vocabulary is not None and world is not None:
         raise typer.BadParameter("names come from --world or from --vocabulary, not from both")
     texts = [" ".join(sentence)] if sentence is not None else []
     status = parse_all(
         texts,
-        world=world or "kitchen",
+        world="kitchen" if world is None else world,
         vocabulary=vocabulary,
         file=file,
         model=model,
@@ -273,21 +274,28 @@ def evaluate(options: Eval) -> None:
 app.command()(listen)
 
 
-def _check_words(words: list[str]) -> None:
-    """Refuse what cannot be printed: typer repeats words that it does not understand."""
-    for word in words:
-        if not is_printable(word):
-            text = f"the command line holds what cannot be printed: {printable(word)[:60]}"
-            raise ConfigError([Problem(text, suggestion="leave it out")])
+def _checked(word: str) -> str:
+    """A word of the command line, if it can be printed: typer repeats what it does not understand.
+
+    A cry to stop is heard all the same, whatever was pasted along with it.
+    """
+    if is_printable(word):
+        return word
+    from intents.stopping import is_stop
+
+    if is_stop(word):
+        return "stop"
+    text = f"the command line holds what cannot be printed: {printable(word)[:60]}"
+    raise ConfigError([Problem(text, suggestion="leave it out")])
 
 
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
     streams.steady()
+    streams.sized()
     tell_of_mistakes()
-    sys.argv[1:] = map(streams.readable, sys.argv[1:])
     try:
-        _check_words(sys.argv[1:])
+        sys.argv[1:] = map(_checked, sys.argv[1:])
         app(prog_name="humanoid")
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

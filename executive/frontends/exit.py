@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import traceback
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,10 @@ from robot.exit_status import ExitStatus
 
 if TYPE_CHECKING:
     from executive.meaning.request import Refused
+
+
+USED_UP = (errno.EAGAIN, errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.ENOSPC, errno.EDQUOT)
+"""What the machine has no more of: processes, memory, open files, room on the disk."""
 
 
 def ended_by(error: BaseException, *, as_json: bool) -> int:
@@ -32,6 +37,10 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         # Not what was foreseen, but of the machine and not of this software all the same.
         lines = [f"{error.filename}: {error.strerror}"]
         cure = "see to it that the file is there and yours to use, then try again"
+        return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
+    if isinstance(error, MemoryError) or getattr(error, "errno", None) in USED_UP:
+        lines = [str(getattr(error, "strerror", None) or "there is no memory left")]
+        cure = "end other programs, or raise the limits of this one (ulimit -a), then try again"
         return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
     if wrong := namesakes.explained(error):
         status = ExitStatus.BROKEN

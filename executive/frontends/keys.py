@@ -13,12 +13,12 @@ An endpoint's file may come from anywhere, and names none: it could send any fil
 from __future__ import annotations
 
 import os
-import tomllib
 from pathlib import Path
 
 import msgspec
 
 from intents.language_model import Key
+from robot import plain_data
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_secret
 
@@ -54,14 +54,17 @@ def sources(file: Path) -> dict[str, Source]:
     """
     try:
         data = read_secret(file, limit=MAX_FILE_BYTES)
-        found = msgspec.convert(tomllib.loads(data.decode()), dict[str, Source])
+        found = plain_data.from_toml(data.decode())
     except (FileNotFoundError, NotADirectoryError):
         return {}
     except OSError as error:
         raise ConfigError([Problem(f"cannot be used: {error.strerror}", str(file))]) from None
-    except (ValueError, RecursionError) as error:  # TOML, UTF-8 and msgspec errors are ValueErrors
+    except UnicodeDecodeError:
+        raise ConfigError([Problem("this is no UTF-8 text", str(file))]) from None
+    except ValueError as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
-    return {host.lower(): source for host, source in found.items()}
+    listed = plain_data.fitted(found, dict[str, Source], file)
+    return {host.lower(): source for host, source in listed.items()}
 
 
 def key_for(host: str, *, file: Path | None = None) -> Key:

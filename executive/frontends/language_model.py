@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from robot import plain_data
 from robot.errors import ConfigError, Problem
 from robot.yaml_nodes import read_text
 
@@ -33,7 +34,8 @@ def language_model(file: Path | None) -> LanguageModel | None:
         problem = "an endpoint's file names no key: it could send any file to any host"
         raise ConfigError([Problem(problem, str(file), suggestion=cure)])
     try:
-        endpoint = Endpoint.parse(text)
-    except ValueError as error:  # TOML and msgspec errors are ValueErrors
+        data = plain_data.from_toml(text)
+    except ValueError as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
+    endpoint = plain_data.fitted(data, Endpoint, file)
     return LanguageModel(endpoint, key=keys.key_for(endpoint.host))

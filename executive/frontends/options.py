@@ -27,9 +27,9 @@ from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
 
 T = TypeVar("T")
 
-World = Annotated[
-    str, typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
-]
+_WORLD = typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
+World = Annotated[str, _WORLD]
+WorldIfAny = Annotated[str | None, _WORLD]
 Robot = Annotated[
     str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
 ]

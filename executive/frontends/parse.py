@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
-from typing import cast
 
 import msgspec
 
@@ -17,11 +16,11 @@ from intents.dialogue import Context
 from intents.goals import to_builtins
 from intents.outcomes import Goals, Outcome, Question, to_record
 from intents.parser import hear
-from intents.vocabulary import Vocabulary
+from intents.vocabulary import Names, Vocabulary
 from intents.wording import in_words
+from robot import plain_data
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_ordinary
-from robot.printable import is_printable, printable
+from robot.yaml_nodes import read_text
 
 MAX_NAMES = 200_000
 """Bytes of a vocabulary: some thousand names, more than any one world has."""
@@ -70,42 +69,20 @@ def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
     if file is None:
         knowledge = Knowledge(REALITY.world(world).map)
         return knowledge.vocabulary(), Context(entities=knowledge.entities())
+    text = read_text(file, limit=MAX_NAMES)
     try:
-        vocabulary = Vocabulary.from_json(read_ordinary(file, limit=MAX_NAMES))
-    except OSError as error:
-        text = f"cannot be read: {error.strerror}"
-        raise ConfigError([Problem(text, str(file))]) from None
-    except (ValueError, RecursionError) as error:  # what is no UTF-8, JSON, or vocabulary
-        raise ConfigError([Problem(str(error), str(file))]) from None
-    for name in _texts(msgspec.to_builtins(vocabulary)):
-        if not is_printable(name):
-            text = f"a name holds what cannot be printed: {printable(name)[:60]}"
-            raise ConfigError([Problem(text, str(file), suggestion="leave it out")])
-    return vocabulary, Context()
-
-
-def _texts(data: object) -> Iterator[str]:
-    """Every text in plain data."""
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, dict):
-        yield from _texts([*cast("dict[str, object]", data).values()])
-    elif isinstance(data, list | tuple):
-        for one in cast("list[object]", data):
-            yield from _texts(one)
+        data = plain_data.from_json(text)
+    except ValueError as error:
+        cure = "docs/intents.md shows the form"
+        raise ConfigError([Problem(str(error), str(file), suggestion=cure)]) from None
+    return plain_data.fitted(data, Names, file).vocabulary(), Context()
 
 
 def _lines(file: Path) -> Iterable[str]:
     """The sentences of a file, one a line."""
     if str(file) == "-":
         return (line.rstrip("\n") for line in sys.stdin)
-    try:
-        return read_ordinary(file, limit=MAX_SENTENCES).decode().splitlines()
-    except OSError as error:
-        text = f"cannot be read: {error.strerror}"
-        raise ConfigError([Problem(text, str(file))]) from None
-    except UnicodeDecodeError as error:
-        raise ConfigError([Problem(str(error), str(file))]) from None
+    return read_text(file, limit=MAX_SENTENCES).splitlines()
 
 
 def _words(text: str, outcome: Outcome) -> str:

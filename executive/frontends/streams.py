@@ -44,6 +44,10 @@ class Lasting(io.TextIOWrapper):
                 os.close(nowhere)
 
 
+MOST_DIGITS = 3
+"""Of the columns and lines of a terminal."""
+
+
 def steady() -> None:
     """Make this process's standard streams last; before anything is read or written."""
     for fd in (0, 1, 2):  # what is closed would be the next file that is opened
@@ -59,9 +63,12 @@ def steady() -> None:
     sys.stderr = _lasting(sys.stderr, 2)
 
 
-def readable(word: str) -> str:
-    """A word of the command line with � for what is no text: no file can keep it otherwise."""
-    return word.encode(errors="surrogateescape").decode(errors="replace")
+def sized() -> None:
+    """Leave out a size of the terminal that is none: tables are drawn as wide as that says."""
+    for name in ("COLUMNS", "LINES"):
+        size = os.environ.get(name, "")
+        if len(size) > MOST_DIGITS or not size.isdecimal():
+            os.environ.pop(name, None)
 
 
 def _lasting(stream: object, fd: int) -> TextIO:

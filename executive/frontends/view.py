@@ -28,7 +28,9 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     try:
         plant.save_picture(snapshot)
     except OSError as error:
-        cure = "choose another file"
-        raise ConfigError([Problem(str(error), suggestion=cure)]) from None
+        text = f"cannot be written: {error.strerror}"
+        raise ConfigError(
+            [Problem(text, str(snapshot), suggestion="choose another file")]
+        ) from None
     say(f"Done: {snapshot}")
     return 0

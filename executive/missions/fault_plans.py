@@ -20,6 +20,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
+from robot import plain_data
 from robot import quantities as q
 from robot.errors import ConfigError, Problem
 from robot.misfits import shown
@@ -214,6 +215,6 @@ def _values(key: str, how: str, of: object) -> list[Any]:
 def _value(text: str) -> Any:
     """A value of the prompt: JSON, or a word."""
     try:
-        return msgspec.json.decode(text)
-    except msgspec.DecodeError:
+        return plain_data.from_json(text)
+    except ValueError:
         return text

@@ -125,7 +125,7 @@ def claim(folder: Path, *, wanted: bool = True) -> None:
             folder.mkdir(mode=PRIVATE)
         opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     except (NotADirectoryError, FileExistsError):
-        if os.path.lexists(folder):
+        if wanted or os.path.lexists(folder):
             raise _taken(folder, "is no folder") from None
         return
     except OSError as error:

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from intents.speech.audio import AudioError, Resampler, Samples, mono
 
 BLOCK_S = 0.5
+MAX_DURATION_S = 2 * 3600.0
+"""A file of 4 GB that is all zeros takes no room on the disk, and a day to listen to."""
 MAX_CHANNELS = 64
 _PCM, _FLOAT, _EXTENSIBLE = 0x0001, 0x0003, 0xFFFE
 _COMPRESSED = {0x0002: "ADPCM", 0x0006: "A-law", 0x0007: "mu-law", 0x0050: "MPEG", 0x0055: "MP3"}
@@ -167,6 +169,9 @@ def _found(
     frames = min(there, promised) // frame
     if frames == 0:
         raise AudioError(f"{name} ends early: there is no sound in it", "record or copy it again")
+    if frames / rate_hz > MAX_DURATION_S:
+        text = f"{name} lasts {frames / rate_hz / 3600:.1f} h, at most 2 h are listened to"
+        raise AudioError(text, "cut it into pieces")
     return Form(
         rate_hz=rate_hz, channels=channels, bits=bits, is_float=kind == _FLOAT, offset=offset,
         frames=frames, missing=max(0, promised - there) // frame,

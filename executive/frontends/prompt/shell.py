@@ -24,24 +24,26 @@ from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.state import robot_state
-from executive.frontends.prompt.typed import plain
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
-from intents.letters import bare, seen
+from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
+from robot.misfits import shown
 from robot.se3 import SE3
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
 
 Out = Callable[[str], None]
+MOST_DIGITS = 9
+"""Of a job's number; a run has a few hundred."""
 
 
 class Shell:
@@ -94,7 +96,7 @@ class Shell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
-        text = bare(plain(text)).strip()
+        text = bare(without_sequences(text)).strip()
         if text.startswith("estop"):
             self.commands["estop"].run(text.removeprefix("estop").strip())
             return True
@@ -154,7 +156,7 @@ class Shell:
         try:
             if self.stop_at_once(text):
                 return
-            text = "".join(one if one.isprintable() else " " for one in seen(plain(text))).strip()
+            text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
             if stops not in (None, self.stops):
                 self._refuse(f"Not done: “{text}” was there when you said stop")
             elif text:
@@ -308,6 +310,6 @@ def number_of(text: str) -> int:
     Raises:
         JobError: if it is none.
     """
-    if not text.isdecimal():
-        raise JobError(f"{text!r} is no job's number; `goals` shows them")
+    if not (text.isdecimal() and len(text) <= MOST_DIGITS):
+        raise JobError(f"{shown(text)} is no job's number; `goals` shows them")
     return int(text)

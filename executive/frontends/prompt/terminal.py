@@ -30,7 +30,7 @@ from executive.frontends.prompt.completion import LineCompleter
 from executive.frontends.prompt.keyboard import Keyboard
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.toolbar import STYLES, toolbar
-from executive.frontends.prompt.typed import plain
+from intents.letters import without_sequences
 from robot.errors import RobotError
 
 REFRESH_S = 0.2
@@ -225,7 +225,8 @@ class Terminal:
 
         def paste(event: KeyPressEvent) -> None:
             """Each line that was pasted is a line; what follows the last end of one stays."""
-            pieces = plain(event.data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+            pasted = without_sequences(event.data)
+            pieces = pasted.replace("\r\n", "\n").replace("\r", "\n").split("\n")
             event.current_buffer.insert_text(pieces.pop(0))
             typed: list[KeyPress] = []
             for piece in pieces:

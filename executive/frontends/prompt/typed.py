@@ -4,21 +4,12 @@ from __future__ import annotations
 
 import re
 
-SEQUENCE = re.compile(
-    r"\x1b\[[0-?]*[ -/]*[@-~]"  # CSI: colours, keys, the marks around a paste
-    r"|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)"  # OSC: titles, links
-    r"|\x1bO.|\x1b"
-)
-"""A control sequence (ECMA-48), or the escape of one that is none."""
+from intents.letters import without_sequences
+
 COLOUR = re.compile(r"\x1b\[[\d;:]*m")
 """Nobody types one, so that it was pasted; the input library takes it for a report of a mouse."""
 KEPT = 4096
 """Bytes of a line that are kept: a cry stands at its beginning or its end."""
-
-
-def plain(text: str) -> str:
-    """A text without control sequences."""
-    return SEQUENCE.sub("", text)
 
 
 class Typed:
@@ -48,7 +39,7 @@ class Typed:
 
 def _readings(line: bytes) -> list[str]:
     text = line.decode(errors="ignore").rpartition("\x15")[2]  # Ctrl-U
-    readings = [plain(text), text] if "\x1b" in text else [text]
+    readings = dict.fromkeys((without_sequences(text), text))
     return [_rubbed_out(reading) for reading in readings]
 
 

@@ -69,7 +69,8 @@ HIDDEN = (
     "st\ufe0fop", "st\u034fop", "st\u3164op", "s\u0323\u0307t\u20ddop", "st\0op", "st\x9bop",
     "ѕtop", "ѕтор", "ѕτορ", "hаlt", "ꜱᴛᴏᴘ", "ſtop", "ⓢⓣⓞⓟ", "🅢🅣🅞🅟", "🆂🆃🅾🅿", "🇸🇹🇴🇵", "𝐬𝐭𝐨𝐩",
     "🅂🅃🄾🄿", "st op", "s-t.op", "🛑", "st" + "\u200b" * 1500 + "op", "don\u200b't move",
-    "bring the cup st\u200bop now",
+    "bring the cup st\u200bop now", "\x1b[31mstop\x1b[0m", "\x9b0mstop\x9b0m", "st\x1b[1mop",
+    "\x1b]0;stop\x07", "\x1b]8;;http://x\x1b\\stop\x1b]8;;\x1b\\", "\x1b]0;stop", "\x1bOstop",
 )  # fmt: skip
 GLUED = ("asdfstop", "[31mstop", "walk to thestop", "stopstop", "stopnow")
 

@@ -45,6 +45,7 @@ class Tree(msgspec.Struct, forbid_unknown_fields=True):
         ({"torque_nm": 1, "several": [1.0] * 33}, "leaves.a.several has 33 entries, at most 32"),
         ({"torque_nm": 1, "on": "yes"}, "leaves.a.on is 'yes', and must be true or false"),
         ({"torque_nm": 1, "name": 3}, "leaves.a.name is 3, and must be a text"),
+        ({"torque_nm": 10**400}, "leaves.a.torque_nm is not a finite number"),
         ([], "leaves.a is a list, and must be a mapping"),
     ],
 )

@@ -112,6 +112,34 @@ def test_an_endpoint_gets_the_key_of_its_host(home, tmp_path):
     assert model._key.header() == {"Authorization": "Bearer s3cret"}
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("deadline_s = 'soon'", "deadline_s is 'soon', and must be a number"),
+        ("deadline_s = nan", "deadline_s is not a finite number"),
+        ("max_calls = " + "9" * 5001, "too many digits"),
+        ("max_calls = " + "9" * 400, "max_calls is not a finite number"),
+        ("deadline_s = -1", "more than 0"),
+        ("answer_tokens = 'a\\u202e'", "answer_tokens"),
+        ("a = " + "[" * 5000, "too deep"),
+        ("a = \0", "no TOML"),
+        ("sudo = true", "unknown key 'sudo'"),
+    ],
+)
+def test_what_is_no_endpoint_is_refused_in_words_of_our_own(tmp_path, line, words):
+    file = tmp_path / "model.toml"
+    file.write_text(f"{ENDPOINT}{line}\n")
+    with pytest.raises(ConfigError, match=words):
+        language_model(file)
+
+
+def test_a_model_whose_name_a_terminal_would_obey_is_refused(tmp_path):
+    file = tmp_path / "model.toml"
+    file.write_text('base_url = "http://localhost/v1"\nmodel = "m\\u001b[2J"\n')
+    with pytest.raises(ConfigError, match="model holds what cannot be printed"):
+        language_model(file)
+
+
 @pytest.mark.parametrize("path", ["/dev/zero", "pipe", "missing"])
 def test_an_endpoint_that_is_no_file_is_refused(tmp_path, path):
     os.mkfifo(tmp_path / "pipe")

@@ -65,9 +65,14 @@ def test_a_file_of_names_that_is_wrong_is_said_with_the_file(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('{"objects": ' + "[" * 50_000 + "]" * 50_000 + "}", "recursion"),
-        ('{"objects": [{"name": 3}]}', "Expected `str`"),
-        ("[1]", "Expected `object`"),
+        ('{"objects": ' + "[" * 50_000 + "]" * 50_000 + "}", "too deep"),
+        ('{"objects": [{"name": 3}]}', r"objects\[0\]\.name is 3, and must be a text"),
+        ('{"objects": [{"category": "cup"}]}', r"objects\[0\]\.name is missing"),
+        ('{"people": ["a\\u001b[2J"]}', r"people\[0\] holds what cannot be printed"),
+        ("[1]", "the whole is a list"),
+        ("9" * 5001, "too many digits"),
+        ('{"rooms": [' + "9" * 400 + "]}", r"rooms\[0\] is 99"),
+        ('{"objects": ["cup"', "no JSON"),
         ('{"objects": [' + ", ".join(f'"thing {k}"' for k in range(20_000)) + "]}", "larger than"),
     ],
 )

@@ -1,5 +1,6 @@
 """Standard streams: whatever becomes of them, who writes goes on."""
 
+import os
 import subprocess
 import sys
 
@@ -54,7 +55,15 @@ def test_a_stream_that_somebody_put_there_stays(capsys):
     assert (sys.stdout, sys.stderr) == before
 
 
-@pytest.mark.parametrize(("word", "text"), [("cup", "cup"), ("▸", "▸"), ("a\udcffb", "a�b")])
-def test_words_can_be_written_into_a_file(word, text):
-    assert streams.readable(word) == text
-    assert text.encode()
+@pytest.mark.parametrize("size", ["1000000000", "9" * 5001, "-1", "abc", "", "80.5", "\x1b[2J"])
+def test_a_terminal_of_no_size_that_there_is_is_asked_for_its_own(monkeypatch, size):
+    for name in ("COLUMNS", "LINES"):
+        monkeypatch.setenv(name, size)
+    streams.sized()
+    assert not {"COLUMNS", "LINES"} & set(os.environ)
+
+
+def test_a_size_that_is_one_is_kept(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "132")
+    streams.sized()
+    assert os.environ["COLUMNS"] == "132"

@@ -175,6 +175,13 @@ def test_what_is_no_folder_is_refused(tmp_path, kind):
         run_folder.claim(path)
 
 
+def test_a_folder_that_is_to_lie_in_a_file_is_refused_where_somebody_named_it(tmp_path):
+    (tmp_path / "file").write_text("words")
+    run_folder.claim(tmp_path / "file" / "run", wanted=False)
+    with pytest.raises(ConfigError, match="is no folder"):
+        run_folder.claim(tmp_path / "file" / "run")
+
+
 def test_a_folder_that_cannot_be_made_is_refused_where_somebody_named_it(tmp_path):
     folder = tmp_path / ("x" * 300)
     run_folder.claim(folder, wanted=False)

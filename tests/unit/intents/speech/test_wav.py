@@ -1,5 +1,6 @@
 """Files of every kind come out as the same sound, or say what is wrong with them."""
 
+import os
 import struct
 
 import numpy as np
@@ -132,6 +133,14 @@ def test_an_hour_of_silence_takes_no_hour_and_little_memory(tmp_path):
         largest = max(largest, len(block))
     assert seconds == pytest.approx(1800.0, abs=0.01)
     assert largest < 2 * RATE_HZ
+
+
+def test_a_day_of_silence_that_takes_no_room_is_refused(tmp_path):
+    path = tmp_path / "a.wav"
+    write(path, np.zeros(0), 8000, length=86_400 * 8000 * 2)
+    os.truncate(path, 86_400 * 8000 * 2)
+    with pytest.raises(AudioError, match=r"lasts 24\.0 h"):
+        wav.form(path)
 
 
 def broken(tmp_path, data):

@@ -2,7 +2,8 @@
 
 import pytest
 
-from executive.frontends.prompt.typed import KEPT, Typed, plain
+from executive.frontends.prompt.typed import KEPT, Typed
+from intents.letters import without_sequences
 from intents.stopping import is_stop
 
 
@@ -31,4 +32,4 @@ def test_what_was_not_entered_or_was_taken_back_is_none():
 
 
 def test_colours_and_titles_are_no_part_of_a_text():
-    assert plain("\x1b[1;31mpause\x1b[0m \x1b]0;title\x07now\x1b[m") == "pause now"
+    assert without_sequences("\x1b[1;31mpause\x1b[0m \x1b]0;title\x07now\x1b[m") == "pause now"

@@ -1,0 +1,48 @@
+"""The words of a command line, and the last words of a command that could not do its work."""
+
+import errno
+import os
+
+import pytest
+
+from executive.engine.executive import JobError
+from executive.frontends import cli
+from executive.frontends.exit import ended_by
+from executive.frontends.prompt.shell import number_of
+from robot.errors import ConfigError
+
+
+@pytest.mark.parametrize("word", ["a\x1b[2J", "a\u202eb", "a\udcffb", "\u200eplease\u200f"])
+def test_a_word_that_cannot_be_printed_is_refused(word):
+    with pytest.raises(ConfigError, match="cannot be printed"):
+        cli._checked(word)
+
+
+@pytest.mark.parametrize(
+    "cry",
+    ["\u202dstop\u202c", "\x1b[31mstop\x1b[0m", "st\x01op", "stop\udcff", "wait, stop\u200e!"],
+)
+def test_a_cry_to_stop_is_heard_whatever_was_pasted_along_with_it(cry):
+    assert cli._checked(cry) == "stop"
+
+
+def test_any_other_word_stays_as_it_is():
+    assert cli._checked("do not stop at the ▸ table") == "do not stop at the ▸ table"
+
+
+@pytest.mark.parametrize("text", ["9" * 5001, "-1", "nan", "", "²", "1 2"])
+def test_what_is_no_number_of_a_job_is_refused(text):
+    with pytest.raises(JobError, match="is no job's number") as error:
+        number_of(text)
+    assert len(str(error.value)) < 200
+
+
+@pytest.mark.parametrize(
+    "error",
+    [*(OSError(code, os.strerror(code)) for code in (errno.EAGAIN, errno.EMFILE)), MemoryError()],
+)
+def test_what_the_machine_has_no_more_of_is_no_mistake_of_this_software(error, capsys):
+    assert ended_by(error, as_json=False) == 2
+    said = capsys.readouterr().err
+    assert "ulimit" in said
+    assert "Errno" not in said
