@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench eval bench-intents bench-speech lock clean env env-dev
+.PHONY: help demo test hostile check format bench eval bench-intents bench-speech lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -18,6 +18,9 @@ demo: env ## set up, then watch a humanoid put the red cup on the shelf
 
 test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
+
+hostile: env-dev ## every hostile input; `make test` takes a share of them
+	@$(BIN)/python -m pytest --numprocesses auto --hostile-all tests/hostile $(ARGS)
 
 check: env-dev ## format, lint, types (pyright strict), who imports whom
 	@$(BIN)/ruff format --check .

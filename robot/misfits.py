@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, cast
@@ -214,6 +215,8 @@ def _of_word(
                 yield _wrong(data, path, "a text", cure="put it into quotes")
             elif len(data) < (kind.min_length or 0):
                 yield Misfit(path, f"{dotted(path)} is empty", "say something, or leave it out")
+            elif kind.pattern is not None and not re.search(kind.pattern, data):
+                yield _wrong(data, path, "one line of text")  # the pattern of `quantities.Line`
         case inspect.BoolType():
             if not isinstance(data, bool):
                 yield _wrong(data, path, "true or false")
@@ -223,8 +226,14 @@ def _of_word(
 
 
 def _wrong(data: object, path: Path, wanted: str, *, cure: str = "") -> Misfit:
-    where = dotted(path) or "the whole"
+    if not path:  # whatever file was named by mistake: what it says is not for the screen
+        return Misfit(path, f"the whole is {_kind_of(data)}, and must be {wanted}", cure)
+    where = dotted(path)
     return Misfit(path, f"{where} is {shown(data)}, and must be {wanted}", cure)
+
+
+def _kind_of(data: object) -> str:
+    return "a text" if isinstance(data, str) else shown(data)
 
 
 def shown(data: object) -> str:

@@ -22,6 +22,10 @@ def _between(low: float, high: float, unit: str = "") -> Meta:
     return Meta(ge=low, le=high, extra={"unit": unit})
 
 
+Line: TypeAlias = Annotated[str, Meta(min_length=1, pattern=r"\A[^\r\n]+\Z")]
+"""A name, for people or of a file: a message shows it within a line."""
+
+
 # --- shares and plain counts ---
 
 Share: TypeAlias = Annotated[float, _between(0.01, 1.0)]

@@ -28,6 +28,9 @@ MAX_NODES = 150_000
 MAX_TEXT = 10_000
 """Characters of one text or key: more is no name and no sentence, and every message repeats it."""
 
+TAG_PREFIX = "tag:yaml.org,2002:"
+"""What `!!` in a file stands for."""
+
 Kind = Literal["text", "list", "map"]
 Scalar = str | int | float | bool | None
 
@@ -237,7 +240,8 @@ class _Builder:
         if event.anchor is not None:
             self._refuse(event, "anchors (&name) are not allowed", "write it out")
         if event.tag is not None and event.tag != "!":
-            self._refuse(event, f"tags ({event.tag}) are not allowed", "leave it out")
+            tag = event.tag.replace(TAG_PREFIX, "!!", 1)
+            self._refuse(event, f"tags ({tag}) are not allowed", "leave it out")
         if self._count > MAX_NODES:
             self._refuse(event, f"more than {MAX_NODES} values", "split it up")
         return Node(kind, self._file, mark.line + 1, mark.column + 1)

@@ -25,7 +25,7 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
     id: str
     name: str = ""
-    synonyms: q.Several[str] = ()
+    synonyms: q.Several[q.Line] = ()
 
     @property
     def title(self) -> str:
@@ -71,7 +71,7 @@ class Furniture(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     yaw_deg: q.Heading = 0.0
     size_m: tuple[q.Size, q.Size, q.Size] | None = None
     boards_m: q.Several[q.Size] = ()
-    color: str = ""
+    color: q.Line = ""
     movable: bool | None = None
     mass_kg: q.Load = 5.0
 
@@ -83,7 +83,7 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """
 
     category: str
-    color: str
+    color: q.Line
     shape: str
     size_m: tuple[q.Size, q.Size, q.Size]
     mass_kg: q.Load
@@ -112,7 +112,7 @@ class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     at_m: tuple[q.Place, q.Place]
     yaw_deg: q.Heading = 0.0
     height_m: q.Height = 1.70
-    color: str = "blue"
+    color: q.Line = "blue"
     behaviour: Behaviour = Behaviour()
 
 

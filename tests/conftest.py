@@ -24,6 +24,12 @@ MOST_FOR_OTHERS = 0.15
 _others = pytest.StashKey[Others]()
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """What only some runs want; here, as pytest asks the topmost conftest only."""
+    whole = "every case of tests/hostile, of which a share is run otherwise"
+    parser.addoption("--hostile-all", action="store_true", help=whole)
+
+
 def _is_live(item: pytest.Item) -> bool:
     return item.get_closest_marker("live") is not None
 

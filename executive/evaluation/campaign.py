@@ -173,7 +173,9 @@ def meant(case: Case, settings: Settings) -> Meant:
         ConfigError: if it cannot be meant.
     """
     if case.mission.endswith((".yaml", ".yml")):
-        options = check.Options(samples=True, world=case.world, robot=settings.robot)
+        options = check.Options(
+            samples=True, world=case.world or None, robot=settings.robot or None
+        )
         checked = check.check(find(case.mission), settings.reality, options)
         made = mission_task.assignment(checked, options, path=case.mission)
         return Meant(assignment=made, where=checked.where)

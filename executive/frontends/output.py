@@ -22,7 +22,7 @@ from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 from rich.text import Text
 
-from robot.printable import printable, printable_json
+from robot.printable import printable, printable_data, printable_json
 
 PIPE_WIDTH = 160
 """Of tables where nobody's terminal says how wide they may be."""
@@ -58,7 +58,11 @@ def write(text: str) -> None:
 
 def write_json(value: object) -> None:
     """Write a value as one line of JSON."""
-    _put(sys.stdout, printable_json(msgspec.json.encode(value).decode()) + "\n")
+    try:
+        data = msgspec.json.encode(value)
+    except UnicodeEncodeError:  # the name of a file, of bytes that are no text
+        data = msgspec.json.encode(printable_data(msgspec.to_builtins(value)))
+    _put(sys.stdout, printable_json(data.decode()) + "\n")
 
 
 def write_data(data: bytes) -> None:

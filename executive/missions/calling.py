@@ -43,6 +43,9 @@ class Calls:
     def called(self, where: Node) -> Mission | None:
         """The mission that a step calls, unless it would never end."""
         path = Path(where.file).parent / where.text
+        if path.name in ("", "..") or not Path(where.text).name:
+            self._problems.add(where, f"{where.text!r} names no file", "name a mission beside this")
+            return None
         if not path.suffix:
             path = path.with_suffix(".yaml")
         real = path.resolve()

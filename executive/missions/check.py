@@ -41,8 +41,8 @@ class Options(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     params: Mapping[str, str] = {}
-    world: str = ""
-    robot: str = ""
+    world: str | None = None
+    robot: str | None = None
     vary_seed: int | None = None
     first: str = ""
     samples: bool = False
@@ -146,8 +146,9 @@ def _setting(
     mission: Mission, reality: Reality, options: Options, *, problems: Problems
 ) -> Setting | None:
     """Robot and world; None if there are mistakes in them, each noted where it is named."""
-    robot = options.robot or mission.beside(mission.record.robot)
-    world = options.world or mission.beside(mission.record.world)
+    said, named = options, mission.record
+    robot = mission.beside(named.robot) if said.robot is None else said.robot
+    world = mission.beside(named.world) if said.world is None else said.world
     try:
         return setting(reality, world, robot=robot, vary_seed=options.vary_seed)
     except ConfigError:
@@ -158,9 +159,9 @@ def _setting(
         return None
 
 
-def _named(mission: Mission, key: str, *, said: str) -> Node:
+def _named(mission: Mission, key: str, *, said: str | None) -> Node:
     """Where a robot or a world is named: beside the file, or in it."""
-    if said:
+    if said is not None:
         return Node("text", f"--{key}", 0, 0)
     return mission.node.get(key) or mission.node
 

@@ -31,6 +31,10 @@ FLOOR_M = 0.3
 """A waypoint that far from the floor is not on it."""
 
 
+FAR_M = 1e3
+"""No goal is farther from the middle of the map (`intents.allowed`)."""
+
+
 def mission_of(path: Path) -> str:
     """The text of a mission that walks along the waypoints of a file.
 
@@ -80,6 +84,9 @@ def _step(point: tuple[str, Node], problems: Problems) -> dict[str, Any] | None:
     if abs(p_W[2]) > FLOOR_M:
         text = f"{name} lies {p_W[2]:g} m from the floor"
         problems.add(position or node, text, "a robot stands on the floor: z: 0")
+    if max(abs(p_W[0]), abs(p_W[1])) > FAR_M:
+        problems.add(position or node, f"{name} is more than {FAR_M:g} m away", "in metres: x, y")
+        return None
     w, x, y, z = (value / norm for value in quat_wxyz)
     lean_rad = math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
     if lean_rad > UPRIGHT_RAD:

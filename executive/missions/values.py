@@ -75,6 +75,9 @@ class Scope:
                 return ""
             return _spoken(found)
 
+        if "{{" in PLACEHOLDER.sub("", node.text):
+            self._problems.add(node, "this {{ is not closed", "a parameter is {{name}}")
+            return None
         text = PLACEHOLDER.sub(insert, node.text)
         return None if bad else text_node(text, node)
 

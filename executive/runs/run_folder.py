@@ -8,8 +8,10 @@ import fcntl
 import os
 import re
 from pathlib import Path
+from typing import Annotated
 
 import msgspec
+from msgspec import Meta
 
 from executive.journal.journal import FILE
 from executive.runs import provenance
@@ -33,7 +35,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     text: str
     world: str
     robot: str
-    seed: int
+    seed: Annotated[int, Meta(ge=0)]
     runtime: str
     varied: bool = False
     attended: bool = False

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+from collections import Counter
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
+from typing import get_args
 
 import msgspec
 
@@ -161,8 +163,8 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     arms.
     """
 
-    name: str
-    mjcf: str
+    name: q.Line
+    mjcf: q.Line
     base_body: str
     torso_body: str
     motors: dict[str, Motor]
@@ -322,7 +324,8 @@ def _check(description: RobotDescription, file: str) -> None:
         if name not in motors
         for nearest in [config.nearest(name, motors)]
     ]
-    problems += [Problem(message, file, suggestion=hint) for message, hint in _missing(description)]
+    others = (*_missing(description), *_doubled(description))
+    problems += [Problem(message, file, suggestion=hint) for message, hint in others]
     if problems:
         raise ConfigError(problems)
 
@@ -346,6 +349,8 @@ def _missing(description: RobotDescription) -> Iterator[tuple[str, str]]:
     postures, groups = list(description.postures), description.groups
     for group in [group for group in GROUPS if group not in groups]:
         yield f"joint group {group!r} is missing", f"every robot has the groups {', '.join(GROUPS)}"
+    for side in [side for side in get_args(Side) if side not in description.feet]:
+        yield f"the {side} foot is missing", "a humanoid stands on two"
     if "nominal" not in postures:
         yield "posture 'nominal' is missing", "it is how the robot stands"
     for side in [side for side in description.hands if not groups.get(f"{side}_arm")]:
@@ -356,3 +361,17 @@ def _missing(description: RobotDescription) -> Iterator[tuple[str, str]]:
     for posture in () if signs is None else (signs.raised, *signs.waving):
         if posture not in postures:
             yield f"signs name posture {posture!r}", config.nearest(posture, postures) or ""
+
+
+def _doubled(description: RobotDescription) -> Iterator[tuple[str, str]]:
+    """What may be there once only, and a hint."""
+    joints = Counter(motor.joint for motor in description.motors.values())
+    for joint in [joint for joint, count in joints.items() if count > 1]:
+        yield f"joint {joint!r} has several motors", "each motor moves a joint of its own"
+    named = {name: Counter(motors) for name, motors in description.groups.items()}
+    for group, motors in named.items():
+        for motor in [motor for motor, count in motors.items() if count > 1]:
+            yield f"group {group!r} names motor {motor!r} more than once", "name it once"
+    limbs = Counter(motor for group in GROUPS for motor in named.get(group, ()))
+    for motor in [motor for motor, count in limbs.items() if count > 1]:
+        yield f"motor {motor!r} is in several of the limbs", "a motor belongs to one of them"

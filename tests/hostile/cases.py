@@ -18,6 +18,9 @@ SECRET = "c4n4ry-of-the-next-house"
 NOBODY = 65534
 """The user `nobody`, where a case needs somebody who is not root."""
 
+USUAL_CPU_S = 5
+"""Processor time that a case may take, unless it moves a robot."""
+
 Make = Callable[[Path], None]
 """Makes what lies at a path of a case's folder."""
 
@@ -73,7 +76,7 @@ class Case:
     """Who it runs as; needs root."""
     inside: Callable[[], None] | None = None
     """Done in the process itself before it begins; a function of a module (it is pickled)."""
-    cpu_s: int = 5
+    cpu_s: int = USUAL_CPU_S
     memory_mb: int = 500
     private_shm: Callable[[Path], None] | None = None
     """Makes what lies in /dev/shm, which is then one of its own; needs root."""

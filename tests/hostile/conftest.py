@@ -1,4 +1,4 @@
-"""One fork-server for all cases of a process."""
+"""One fork-server for all cases of a process, and the share of them that is run."""
 
 import os
 from collections.abc import Generator
@@ -6,6 +6,15 @@ from collections.abc import Generator
 import pytest
 
 from tests.hostile.exam import Examiner
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what is not in the share, unless all is asked for, or some by name."""
+    if config.getoption("--hostile-all") or config.getoption("keyword"):
+        return
+    rest = [item for item in items if item.get_closest_marker("hostile_rest")]
+    config.hook.pytest_deselected(items=rest)
+    items[:] = [item for item in items if not item.get_closest_marker("hostile_rest")]
 
 
 @pytest.fixture(scope="session")

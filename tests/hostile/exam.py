@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
 import socket
 import subprocess
 import sys
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -14,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.hostile import judge, server
-from tests.hostile.cases import OUTSIDE, SECRET, WORK, Case, Result, names
+from tests.hostile.cases import OUTSIDE, SECRET, USUAL_CPU_S, WORK, Case, Result, names
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -25,6 +27,9 @@ RECORDED: dict[str, tuple[str, ...]] = {
 }
 
 
+SHARE, COSTLY_SHARE = 10, 2
+"""Cases of each kind that are in the share: it takes about a third of the whole corpus's time."""
+
 KNOWN = pytest.mark.xfail(strict=True, raises=AssertionError, reason="known_failures.txt")
 
 
@@ -32,6 +37,27 @@ def known_failures() -> frozenset[str]:
     """Ids of the cases that are known to fail."""
     lines = (HERE / "known_failures.txt").read_text().splitlines()
     return frozenset(line.strip() for line in lines if line.strip() and line[0] != "#")
+
+
+def share(area: str, cases: Sequence[Case]) -> frozenset[str]:
+    """Names of the cases that `make test` takes: some of each kind, always the same.
+
+    A kind is what stands before the first hyphen of a name; those that may take more processor time
+    than others (they move a robot) are a kind of their own. A hash draws, so that no kind of value
+    or command is left out because of its place in a table.
+    """
+
+    def drawn(case: Case) -> bytes:
+        return hashlib.blake2b(f"{area}::{case.name}".encode(errors="surrogateescape")).digest()
+
+    kinds: dict[tuple[str, bool], list[Case]] = defaultdict(list)
+    for case in sorted(cases, key=drawn):
+        kinds[case.name.partition("-")[0], case.cpu_s > USUAL_CPU_S].append(case)
+    return frozenset(
+        case.name
+        for (_, costly), found in kinds.items()
+        for case in found[: COSTLY_SHARE if costly else SHARE]
+    )
 
 
 class Server:
@@ -185,13 +211,14 @@ def _remove(root: Path) -> None:
 
 def exam(area: str, cases: Sequence[Case]) -> Callable[[Case, Examiner], None]:
     """A test of each case; those in known_failures.txt have to fail, until they are mended."""
-    known = known_failures()
+    known, shared = known_failures(), share(area, cases)
     parameters = [
         pytest.param(
             case,
             id=name,
             marks=[
                 *([pytest.mark.live] if case.private_shm else []),
+                *([] if name in shared else [pytest.mark.hostile_rest]),
                 *([KNOWN] if f"{area}::{name}" in known else []),
             ],
         )

@@ -24,7 +24,6 @@ import signal
 import struct
 import sys
 import termios
-import time
 import traceback
 from dataclasses import dataclass
 from io import TextIOWrapper
@@ -289,11 +288,13 @@ def run(job: Job) -> Result:
         streams.close()  # else its own copy of the other end would keep its stdin open
         _child(job, streams.ends)
     streams.forked()
+    process = os.pidfd_open(pid)  # readable once it has ended: no poll is waited for in vain
     quiet, before, ended = 0, -1, None
     while ended is None:
-        came = streams.move(POLL_S if streams.reading else 0)
-        if not streams.reading:
-            time.sleep(POLL_S)
+        if streams.reading:
+            came = streams.move(POLL_S)
+        else:
+            came = bool(select.select([process], [], [], POLL_S)[0])
         done, status, usage = os.wait4(pid, os.WNOHANG)
         if done:
             ended = (status, usage)
@@ -310,6 +311,7 @@ def run(job: Job) -> Result:
     with contextlib.suppress(ProcessLookupError):
         os.killpg(pid, signal.SIGKILL)
     streams.close()
+    os.close(process)
     status, usage = ended
     return Result(
         status=os.waitstatus_to_exitcode(status),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,10 @@ from robot.exit_status import ExitStatus
 from robot.ordinary_files import write_ordinary
 
 SCHEMA = load.FOLDER / "mission.schema.json"
+
+
+FILE_NAME = re.compile(r"\w[\w. -]{0,99}")
+"""Of a new mission: a name that every file system and every message can take."""
 
 
 def said(options: Beside, *, vary_seed: int | None = None, samples: bool = False) -> Options:
@@ -115,7 +120,10 @@ def write_schema(output: Path | None) -> int:
 
 
 def new(name: str) -> int:
-    """Write a mission to begin with. Raises ConfigError if there is one already."""
+    """Write a mission to begin with. Raises ConfigError if it is there already, or no name."""
+    if not FILE_NAME.fullmatch(name):
+        cure = "letters, digits, spaces, - and _, as in tidy_up: the file is made in this folder"
+        raise ConfigError([Problem(f"{name[:60]!r} is no name of a mission", suggestion=cure)])
     path = Path(name if name.endswith(load.SUFFIX) else f"{name}{load.SUFFIX}")
     if os.path.lexists(path):
         raise ConfigError([Problem("the file is there already", str(path), suggestion="rename")])

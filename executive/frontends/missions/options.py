@@ -23,11 +23,11 @@ class Beside:
         ""
     )
     world: Annotated[
-        str, typer.Option("--world", "-w", help="In place of the mission's world.")
-    ] = ""
+        str | None, typer.Option("--world", "-w", help="In place of the mission's world.")
+    ] = None
     robot: Annotated[
-        str, typer.Option("--robot", "-r", help="In place of the mission's robot.")
-    ] = ""
+        str | None, typer.Option("--robot", "-r", help="In place of the mission's robot.")
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,6 +22,7 @@ from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
+from robot.misfits import misfits
 from robot.ordinary_files import is_within, read_ordinary
 from robot.reality.contract import Reality
 
@@ -85,15 +86,23 @@ def load(folder: Path) -> Recording:
     if not whole or len(whole) < len(lines) or [e.n for e in whole] != list(range(len(whole))):
         cure = "the disk was full, or the file was changed: only a whole journal can be done again"
         raise ConfigError([Problem(f"{folder}: events are missing", suggestion=cure)])
-    try:
-        header = msgspec.convert(whole[0].data, Header)
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"{folder}: the first event is no header: {error}") from None
+    header = _header(whole[0], folder)
     if whole[0].event != "run" or header.origin is None:
         cure = "do it again with this one"
         problem = f"{folder} was recorded by an older version"
         raise ConfigError([Problem(problem, suggestion=cure)])
     return Recording(folder=folder, header=header, lines=lines, events=whole, cut=len(rest))
+
+
+def _header(event: Event, folder: Path) -> Header:
+    begin = f"{folder}: the first event is no header"
+    odd = list(misfits(event.data, Header))
+    if odd:
+        raise ConfigError([Problem(f"{begin}: {one.message}", suggestion=one.cure) for one in odd])
+    try:
+        return msgspec.convert(event.data, Header)
+    except msgspec.ValidationError:
+        raise ConfigError(begin) from None
 
 
 def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]:
