@@ -108,9 +108,9 @@ class Prompt:
         before = self.jobs
         for within_s in (120.0, 20.0, 20.0):  # the first one may have to wait for the start
             os.write(self._heard, b"w")
-            if self.until(lambda: self.walking or self.jobs > before, within_s=within_s):
-                if self.until(lambda: self.walking, within_s=5.0):
-                    return True
+            begun = self.until(lambda: self.walking or self.jobs > before, within_s=within_s)
+            if begun and self.until(lambda: self.walking, within_s=5.0):
+                return True
         return False
 
     @property

@@ -8,6 +8,7 @@ from intents.letters import without_sequences
 
 COLOUR = re.compile(r"\x1b\[[\d;:]*m")
 """Nobody types one, so that it was pasted; the input library takes it for a report of a mouse."""
+_KEYS = re.compile("[\x00-\x07\x0b-\x1f]")
 KEPT = 4096
 """Bytes of a line that are kept: a cry stands at its beginning or its end."""
 
@@ -30,7 +31,8 @@ class Typed:
     def take(self, data: bytes) -> list[str]:
         """The lines that end in what was typed now, each as people may have meant it.
 
-        A line with an escape in it is two: what follows the escape may be meant as text, or not.
+        A line with keys in it that are no letters is several: what follows an escape may be meant
+        as text or not, and what follows the last such key may be meant by itself.
         """
         *ended, rest = re.split(rb"[\r\n]", self._line + data)
         self._line = rest if len(rest) <= KEPT else rest[: KEPT // 2] + rest[-KEPT // 2 :]
@@ -39,7 +41,9 @@ class Typed:
 
 def _readings(line: bytes) -> list[str]:
     text = line.decode(errors="ignore").rpartition("\x15")[2]  # Ctrl-U
-    readings = dict.fromkeys((without_sequences(text), text))
+    readings = list(dict.fromkeys((without_sequences(text), text)))
+    if tail := _KEYS.split(text)[1:]:
+        readings.append(tail[-1])
     return [_rubbed_out(reading) for reading in readings]
 
 
