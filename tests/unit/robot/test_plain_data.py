@@ -40,6 +40,12 @@ def test_what_does_not_fit_is_told_with_its_path_and_its_file(data, words):
         plain_data.fitted(data, Cup, "cups.json")
 
 
+def test_dotted_keys_that_nest_too_deep_are_refused():
+    data = plain_data.from_toml("[" + "a." * 5000 + "b]\n")
+    with pytest.raises(ConfigError, match="too deep"):
+        plain_data.fitted(data, Cup, "cups.toml")
+
+
 def test_what_fits_is_a_value():
     data = plain_data.from_json('{"name": "cup"}')
     assert plain_data.fitted(data, Cup, "cups.json") == Cup(name="cup")
