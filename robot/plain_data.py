@@ -71,7 +71,10 @@ def fitted(data: object, kind: type[T], file: FilePath | str) -> T:
     Raises:
         ConfigError: with what is wrong: types, ranges, keys, what cannot be printed.
     """
-    found = [*islice(misfits(data, kind), MOST_PROBLEMS), *islice(_unprintable(data, ()), 1)]
+    try:
+        found = [*islice(misfits(data, kind), MOST_PROBLEMS), *islice(_unprintable(data, ()), 1)]
+    except RecursionError:  # TOML's dotted keys nest without being nested
+        raise ConfigError([Problem(_TOO_DEEP, str(file))]) from None
     if found:
         raise ConfigError([Problem(o.message, str(file), suggestion=o.cure or None) for o in found])
     try:

@@ -137,13 +137,14 @@ def _many(shm: Path) -> None:
     _own(shm)
 
 
-def _closed(shm: Path) -> None:
-    shm.chmod(0o000)
+def _open_to_all(shm: Path) -> None:
+    shm.chmod(0o777)  # not sticky: others could put a folder of theirs in the place of one there
 
 
 SHARED = {
     "owner-fifo": _owner_fifo, "owner-digits": _owner_digits, "owner-zeros": _owner_zeros,
     "owner-dead": _owner_dead, "links": _links, "fifos": _fifos, "many": _many,
+    "open-to-all": _open_to_all,
 }  # fmt: skip
 WALK = ("walk", "--speed", "0", "--for", "0.1")
 """Live: processes, and a folder of their own in shared memory."""
@@ -527,14 +528,6 @@ CASES = [
             cpu_s=20,
         )
         for name, make in SHARED.items()
-    ),
-    Case(
-        name="shared-closed",
-        argv=WALK,
-        private_shm=_closed,
-        user=NOBODY,
-        expect=Expect.ENDS,
-        cpu_s=20,
     ),
     Case(
         name="unreadable-as-world",
