@@ -19,9 +19,9 @@ from contextlib import AbstractContextManager
 from typing import NamedTuple, Self, TextIO
 
 from prompt_toolkit.application import get_app
+from prompt_toolkit.input.ansi_escape_sequences import ANSI_SEQUENCES
 from prompt_toolkit.input.typeahead import clear_typeahead
 from prompt_toolkit.input.vt100 import Vt100Input, raw_mode
-from prompt_toolkit.input.ansi_escape_sequences import ANSI_SEQUENCES
 from prompt_toolkit.key_binding import KeyPress
 from prompt_toolkit.keys import Keys
 

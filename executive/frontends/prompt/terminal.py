@@ -194,7 +194,7 @@ class Terminal:
         return self._shell.robot.busy or self._open_lines > 0
 
     def _stop_busy(self) -> bool:
-        """Ctrl-C stops and silences the robot, or closes its question; whether it found anything."""
+        """Ctrl-C stops and silences the robot, or closes its question; whether there was one."""
         if self._busy:
             self._shell.stop("the operator pressed Ctrl-C")
             return True

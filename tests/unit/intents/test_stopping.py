@@ -108,7 +108,8 @@ def test_names_that_end_like_a_cry_are_none(text: str) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["stand still", "Stand still!", "please stand still now", "no, stay there", "stay where you are",
+    ["stand still", "Stand still!", "please stand still now", "no, stay there",
+     "stay where you are",
      "hold still, robot", "stay put", "stand stil", "st\u200band still", "stay right there please",
      "robot, stay", "ok, stay here, thanks", "don't walk"],
 )  # fmt: skip

@@ -16,7 +16,8 @@ SHELL.commands = TABLE
     ("line", "command"),
     [("move 3 1", "goals move 3 1"), ("drop 2", "goals drop 2"), ("cancle 2", "cancel 2"),
      ("reset", "estop reset"), ("gols move 3 1", "goals move 3 1"), ("wyh 3", "why 3"),
-     ("gols", "goals"), ("tre", "tree"), ("histroy", "history"), ("quti", "quit"), ("hlep", "help")],
+     ("gols", "goals"), ("tre", "tree"), ("histroy", "history"), ("quti", "quit"),
+     ("hlep", "help")],
 )  # fmt: skip
 def test_a_slip_is_taken_for_what_it_was_meant_to_be(line: str, command: str):
     assert meant(line, TABLE) == command
