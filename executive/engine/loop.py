@@ -84,6 +84,10 @@ class Interrupts:
 
     The third leaves with KeyboardInterrupt, wherever it comes. Signals are counted where they
     arrive, by the interpreter's wake-up pipe: two that come during one long call are two.
+
+    SIGTERM and SIGHUP ask for the same safe stop, and for no more however often they come: a shell
+    and the kernel each tell of one closed terminal, and only a person who presses again is in
+    a hurry.
     """
 
     def __init__(self) -> None:
@@ -94,18 +98,26 @@ class Interrupts:
         self.heeded = False
         """Whether the stop that the first one asks for has been asked for."""
         self.on_press: Callable[[], None] = _nothing
+        self._keys = 0
 
     def press(self, times: int = 1) -> None:
         """Count as if Ctrl-C had been pressed; raises KeyboardInterrupt from the third on."""
-        self.count += times
+        self._keys += times
+        self.count = max(self.count, self._keys)
         self.pressed += times
         self.on_press()
         if self.count > 2:
             raise KeyboardInterrupt
 
+    def wish(self) -> None:
+        """Count as if somebody wanted it to end, which is one wish however often it is told."""
+        self.count = max(self.count, 1)
+        self.pressed += 1
+        self.on_press()
+
     def clear(self) -> None:
         """What was asked for has been done; count from zero."""
-        self.count = 0
+        self.count = self._keys = 0
         self.heeded = False
 
     @contextmanager
@@ -117,9 +129,12 @@ class Interrupts:
         pipe = Waker()
 
         def heard(_number: int, _frame: FrameType | None) -> None:
-            arrived = sum(number in numbers for number in pipe.drain())
-            if arrived:  # else they were counted with the signal before
-                self.press(arrived)
+            arrived = [number for number in pipe.drain() if number in numbers]
+            presses = arrived.count(signal.SIGINT)
+            if presses < len(arrived):
+                self.wish()
+            if presses:  # else they were counted with the signal before
+                self.press(presses)
 
         handlers = {number: signal.signal(number, heard) for number in numbers}
         wakeup_fd = signal.set_wakeup_fd(pipe.fd, warn_on_full_buffer=False)

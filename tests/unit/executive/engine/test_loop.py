@@ -102,6 +102,38 @@ def test_two_signals_in_one_long_call_are_two():
         assert eventually(lambda: interrupts.count == 2)
 
 
+HUP, TERM, INT = signal.SIGHUP, signal.SIGTERM, signal.SIGINT
+
+
+@pytest.mark.parametrize(
+    ("signals", "count"),
+    [((HUP, HUP), 1), ((HUP, TERM, HUP, TERM), 1), ((TERM, TERM, TERM), 1), ((HUP, INT), 1),
+     ((INT, HUP, TERM), 1), ((INT, HUP, INT), 2)],
+)  # fmt: skip
+def test_hang_ups_and_terminations_are_one_wish_however_many(signals, count):
+    interrupts = Interrupts()
+    before = signal.signal(HUP, signal.SIG_DFL)  # the tests may be run under nohup
+    try:
+        with interrupts.listen():
+            for number in signals:
+                os.kill(os.getpid(), number)
+            assert eventually(lambda: interrupts.pressed == len(signals))
+        assert interrupts.count == count
+    finally:
+        signal.signal(HUP, before)
+
+
+def test_a_terminal_that_is_closed_while_it_works_brings_it_to_a_stand():
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    runtime.at = [(1.0, interrupts.wish)] * 3 + [(1.02, interrupts.wish)]
+    executive = executive_on(runtime)
+    run(runtime, executive, interrupts=interrupts)
+    assert not any(isinstance(sent, Damp) for sent in runtime.puppet.sent)
+    assert runtime.puppet.mode == "stand"
+    assert executive.outcome.failure.code == "cancelled"
+
+
 def test_the_third_ctrl_c_leaves_at_once_with_the_motors_damped():
     runtime = PuppetRuntime(puppet())
     interrupts = Interrupts()
