@@ -63,18 +63,18 @@ class Wire:
         )  # fmt: skip
         work = (self._client, request, until_s, came)
         threading.Thread(target=self._exchange, args=work, name="wire", daemon=True).start()
-        answer = None
         try:
             answer = came.get(timeout=max(until_s - self._clock(), 0.001))
         except queue.Empty:
+            self._hang_up()
             raise Unusable(_LATE) from None
-        finally:
-            if answer is None:  # late, or whoever waited was interrupted
-                self._hang_up()
+        except BaseException:  # whoever waited was interrupted
+            self._hang_up()
+            raise
         if isinstance(answer, httpx.HTTPError | httpx.InvalidURL | OSError):
             name = type(answer).__name__
             raise Unusable(f"the language model cannot be reached ({name})") from None
-        if isinstance(answer, Exception):
+        if not isinstance(answer, Reply):
             raise answer
         return answer
 
