@@ -64,6 +64,41 @@ _GOES_ON = words("and then to the a an next every each last first this that bus 
 _ON_THE_WAY = re.compile(r"^\s*(?:by|at|in|over|off)\s+(?:the|my|your|our|a|an|his|her)\b")
 """Stop *by the kitchen* is an errand."""
 
+_STAYING = (
+    "stand still", "hold still", "keep still", "stay still", "be still", "stand there",
+    "stand here", "stay there", "stay here", "stay put", "stay where you are", "stay right there",
+    "stay right here", "stand where you are", "stop where you are", "remain there", "remain here",
+    "remain where you are", "hold your position", "hold position", "don't go on", "do not go on",
+    "don't walk", "do not walk", "stay",
+)  # fmt: skip
+"""Wishes that a robot stay where it is: a stop to one that moves, else a task."""
+_AROUND = _BEFORE | words("right there here then thanks thank that's it stay")
+"""Words that may stand around such a wish."""
+
+
+def is_stay(text: str) -> bool:
+    """Whether a text is nothing but a wish to stay, which ends what a robot is at.
+
+    With a time in it ("stand still for 5 seconds") it is a task of its own.
+    """
+    if len(text) > _LOOKED_AT:
+        return False
+    clauses = [clause.strip() for clause in _CLAUSE.split(_plain(text)) if clause.strip()]
+    stays = [_stays(clause) for clause in clauses]
+    return any(stays) and all(
+        stay or set(_WORD.findall(clause)) <= _AROUND
+        for stay, clause in zip(stays, clauses, strict=True)
+    )
+
+
+def _stays(clause: str) -> bool:
+    found = " ".join(clause.split())
+    for phrase in _STAYING:
+        before, said, after = found.partition(phrase)
+        if said and set(_WORD.findall(before + " " + after)) <= _AROUND:
+            return True
+    return any(OSA.distance(found, phrase) == 1 for phrase in _STAYING if " " in phrase)
+
 
 def is_stop(text: str) -> bool:
     """Whether a text is a cry to stop; errs towards yes, and takes well under a millisecond."""

@@ -111,7 +111,7 @@ class Conversation:
                 say(f"(“{one.text}” passed over: {one.why})")
             return
         say(f"> {one.text}")
-        if one.kind == "stop":
+        if one.kind == "stop" or shell.is_cry(one.text):
             shell.stop("a cry to stop was heard")
         elif shell.robot.executive.question and one.text in ANSWERS:
             shell.robot.executive.answer(one.text)

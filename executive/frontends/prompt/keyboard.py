@@ -19,25 +19,33 @@ from contextlib import AbstractContextManager
 from typing import NamedTuple, Self, TextIO
 
 from prompt_toolkit.application import get_app
+from prompt_toolkit.input.ansi_escape_sequences import ANSI_SEQUENCES
 from prompt_toolkit.input.typeahead import clear_typeahead
 from prompt_toolkit.input.vt100 import Vt100Input, raw_mode
 from prompt_toolkit.key_binding import KeyPress
+from prompt_toolkit.keys import Keys
 
 from executive.frontends.prompt.typed import COLOUR, Typed
 
 STOPS = re.compile(rb"([\x03\x1c])")
 """Ctrl-C and Ctrl-\\, which end a program anywhere else."""
+_LINE_END = re.compile(rb"[\r\n]")
+HEEDED = Keys.SIGINT
+"""Tells the library of a stop that was heeded; no terminal can send it. Its data is the line that
+was a cry, and empty for a key."""
+ANSI_SEQUENCES.setdefault("\x1b[201~", Keys.Ignore)  # the end of a paste that a stop has ended
 _CHUNK = 4096
 MOST_CHUNKS = 4096
 """16 MiB that the library has not read yet; beyond that only stops are heard."""
 
 
 class _Chunk(NamedTuple):
-    """What was typed at once, by its number; nothing of a key to stop that was heeded."""
+    """What was typed at once, by its number; a key to stop by itself, a heeded cry as its line."""
 
     data: bytes
     number: int
-    is_key: bool
+    is_key: bool = False
+    heeded: str | None = None
 
 
 class Keyboard(Vt100Input):
@@ -113,24 +121,35 @@ class Keyboard(Vt100Input):
     def _take(self, data: bytes) -> None:
         """Act on what stops, and pass everything on."""
         for part in STOPS.split(data):
-            self._sent += 1
-            is_key = STOPS.fullmatch(part) is not None
-            heeded = self._heed_key() if is_key else self._heed_lines(part)
-            if is_key or len(self._chunks) < MOST_CHUNKS:
-                self._chunks.append(_Chunk(b"" if heeded and is_key else part, self._sent, is_key))
+            if STOPS.fullmatch(part):
+                self._heed_key(part)
+            elif part:
+                self._heed_lines(part)
             self._tell()
 
-    def _heed_key(self) -> bool:
+    def _heed_key(self, part: bytes) -> None:
         self._typed.clear()
+        self._sent += 1
         self._last_stop = self._sent  # first, so that no line of before slips in between
-        return self._stop()
+        heeded = "" if self._stop() else None
+        self._chunks.append(_Chunk(part, self._sent, is_key=True, heeded=heeded))
 
-    def _heed_lines(self, part: bytes) -> bool:
-        cried = any(self._is_cry(line) for line in self._typed.take(part))
-        if cried:
+    def _heed_lines(self, part: bytes) -> None:
+        """A heeded line is passed on as what was heard: the editor may have half of it."""
+        begin = at = 0
+        for end in [*(found.end() for found in _LINE_END.finditer(part)), len(part)]:
+            cry = next((line for line in self._typed.take(part[at:end]) if self._is_cry(line)), "")
+            at = end
+            if not cry:
+                continue
+            self._sent += 1
             self._last_stop = self._sent
             self._cried()
-        return cried
+            self._chunks.append(_Chunk(part[begin:end], self._sent, heeded=cry))
+            begin = end
+        if begin < len(part) and len(self._chunks) < MOST_CHUNKS:
+            self._sent += 1
+            self._chunks.append(_Chunk(part[begin:], self._sent))
 
     def _tell(self) -> None:
         with contextlib.suppress(BlockingIOError):  # it is full: the library will look anyway
@@ -141,22 +160,26 @@ class Keyboard(Vt100Input):
     def read_keys(self) -> list[KeyPress]:
         """The keys since the last time.
 
-        A Ctrl-C ends whatever sequence or paste was not over, and undoes what was typed before it
+        A stop ends whatever sequence or paste was not over, and undoes what was typed before it
         and is not a line yet because the library has lines before that to see to.
         """
         with contextlib.suppress(BlockingIOError):
             os.read(self._ready, _CHUNK)
         while self._chunks:
             part = self._chunks.popleft()
-            if part.is_key:
+            if part.is_key or part.heeded is not None:
                 self._drop()
-            self.vt100_parser.feed(COLOUR.sub("", self._decoder.decode(part.data)))
+            if part.heeded is not None:
+                self._buffer.append(KeyPress(HEEDED, part.heeded))
+            else:
+                self.vt100_parser.feed(COLOUR.sub("", self._decoder.decode(part.data)))
             self._reached = part.number
         return super().flush_keys() if self._ended else self._keys()
 
     def _drop(self) -> None:
         self._decoder.reset()
         self.vt100_parser.reset()
+        get_app().key_processor.key_buffer.clear()  # a key that waits for another
         pending = [*self._buffer, *get_app().key_processor.input_queue]
         if any(
             end in key.data for key in pending for end in "\r\n"

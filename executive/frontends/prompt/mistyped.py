@@ -12,6 +12,8 @@ from rapidfuzz.distance import OSA
 
 from executive.frontends.prompt.command import Command
 
+_WORDS = frozenset({"quiet", "three", "free"})
+"""A letter away from a command, and said by themselves."""
 _COURTESY = frozenset({"please", "now", "robot", "thanks", "then", "again"})
 
 
@@ -20,11 +22,13 @@ def meant(text: str, commands: Mapping[str, Command]) -> str:
     first, _, rest = text.casefold().partition(" ")
     rest = " ".join(rest.split())
     for command in commands.values():
+        if not rest and first not in _WORDS and _slipped(first, command) and command.accepts(""):
+            return command.name
         if command.loose or first == command.name:
             continue
         if first in command.choices() and _is_argument(rest) and command.accepts(text.casefold()):
             return f"{command.name} {first} {rest}".strip()
-        if rest and OSA.distance(first, command.name) == 1 and command.accepts(rest):
+        if rest and _slipped(first, command) and command.accepts(rest):
             return f"{command.name} {rest}"
     return ""
 
@@ -33,6 +37,10 @@ def polite(rest: str) -> bool:
     """Whether what follows a command's name only is politeness: "exit please" is no walk."""
     words = rest.casefold().strip(" .!").replace(",", " ").split()
     return all(word in _COURTESY for word in words)
+
+
+def _slipped(first: str, command: Command) -> bool:
+    return OSA.distance(first, command.name) == 1
 
 
 def _is_argument(rest: str) -> bool:

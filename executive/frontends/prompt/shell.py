@@ -32,7 +32,7 @@ from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
-from intents.stopping import is_stop
+from intents.stopping import is_stay, is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
 from robot.misfits import shown
@@ -105,9 +105,14 @@ class Shell:
         self.stop("the operator said stop")
         return True
 
+    @property
+    def asks(self) -> bool:
+        """Whether the person is asked something, by the conversation or by a job."""
+        return self.dialogue.question is not None or bool(self.robot.executive.question)
+
     def is_cry(self, text: str) -> bool:
-        """Whether a line is a cry to stop."""
-        return is_stop(text)
+        """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
+        return is_stop(text) or (self.robot.busy and is_stay(text))
 
     @property
     def gone(self) -> str:
@@ -136,6 +141,14 @@ class Shell:
             self.robot.executive.stop(why)
         self.speech.hush()
         self.dialogue.forget()
+
+    def ask_no_more(self) -> bool:
+        """Close what was asked of the person; whether there was anything."""
+        if self.dialogue.question is None:
+            return False
+        self.dialogue.forget()
+        self.out("I ask no more.")
+        return True
 
     def leave(self) -> None:
         """Let nothing begin any more, and bring the robot to a stand."""
@@ -261,7 +274,7 @@ class Shell:
             command.run(rest)
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
-        elif slip := meant_command(text, self.commands):
+        elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
             self._refuse(f"Did you mean `{slip}`?")
         elif self.robot.executive.question and _answer(text) is not None:
             self.robot.executive.answer(_answer(text) or "continue")

@@ -23,14 +23,16 @@ from prompt_toolkit.history import FileHistory, History, InMemoryHistory
 from prompt_toolkit.key_binding import KeyBindings, KeyPress, KeyPressEvent
 from prompt_toolkit.keys import Keys
 from prompt_toolkit.patch_stdout import patch_stdout
+from prompt_toolkit.search import stop_search
 from prompt_toolkit.shortcuts import CompleteStyle
 from prompt_toolkit.styles import Style
 
 from executive.frontends.prompt.completion import LineCompleter
-from executive.frontends.prompt.keyboard import Keyboard
+from executive.frontends.prompt.keyboard import HEEDED, Keyboard
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
+from intents.stopping import is_stay
 from robot.errors import RobotError
 
 REFRESH_S = 0.2
@@ -53,6 +55,7 @@ class Terminal:
         self._history = history
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
         self._open_lines = 0
+        self._was_heeded = False
         self._prompt: PromptSession[str] | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._error: BaseException | None = None
@@ -147,7 +150,10 @@ class Terminal:
                 shell.out(_as_mistake(error))
                 continue
             mistakes = 0
-            if text.strip() in LEAVING:
+            heeded, self._was_heeded = self._was_heeded, False
+            if heeded:
+                shell.out("Stopping.")
+            elif text.strip() in LEAVING:
                 shell.leaving = True
             elif not self._stopped(text):
                 stops = shell.stops  # before looking, so that a stop in between counts
@@ -188,16 +194,16 @@ class Terminal:
         return self._shell.robot.busy or self._open_lines > 0
 
     def _stop_busy(self) -> bool:
-        """Ctrl-C silences and stops the robot; whether there was anything to stop."""
+        """Ctrl-C stops and silences the robot, or closes its question; whether there was one."""
         if self._busy:
             self._shell.stop("the operator pressed Ctrl-C")
             return True
         self._shell.speech.hush()
-        return False
+        return self._shell.ask_no_more()
 
     def _is_cry(self, line: str) -> bool:
         """Whether a line is to stop something, for all that the prompt has not read it yet."""
-        return self._busy and self._shell.is_cry(line)
+        return self._busy and (self._shell.is_cry(line) or is_stay(line))
 
     def _cried(self) -> None:
         """Heed a cry before the prompt has it, which tells of it when it has."""
@@ -216,12 +222,21 @@ class Terminal:
 
         def stop(event: KeyPressEvent) -> None:
             """Ctrl-C that found nothing to stop as it was pressed clears the line."""
+            leave_modes(event)
             if self._stop_busy():
                 return
             if event.current_buffer.text:
                 event.current_buffer.reset()
             else:
                 self._shell.out("The robot stands. Ctrl-D or `quit` leaves.")
+
+        def heeded(event: KeyPressEvent) -> None:
+            """A line that was heeded is entered as what was heard."""
+            leave_modes(event)
+            if event.data:
+                self._was_heeded = True
+                event.current_buffer.text = event.data
+                event.current_buffer.validate_and_handle()
 
         def paste(event: KeyPressEvent) -> None:
             """Each line that was pasted is a line; what follows the last end of one stays."""
@@ -239,9 +254,20 @@ class Terminal:
         add: Callable[..., Callable[[Callable[[KeyPressEvent], None]], object]] = keys.add
         for key in (Keys.ControlC, Keys.ControlBackslash):
             add(key, eager=True)(stop)
+        add(HEEDED, eager=True)(heeded)
         add(Keys.BracketedPaste)(paste)
         add(Keys.Vt100MouseEvent)(ignore)
         return keys
+
+
+def leave_modes(event: KeyPressEvent) -> None:
+    """Leave whatever the line editor is about but the line: a search, a menu, a pending key."""
+    app = event.app
+    if app.layout.is_searching:
+        stop_search()
+    app.quoted_insert = False
+    app.current_buffer.cancel_completion()
+    app.current_buffer.exit_selection()
 
 
 def _as_mistake(error: BaseException) -> str:

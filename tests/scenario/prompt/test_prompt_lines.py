@@ -422,3 +422,30 @@ def test_letters_that_cannot_be_seen_are_no_part_of_a_line(shell: Shell, name: s
     shell.line(f"save mission /nowhere/{name}")
     assert "\0" not in shell.out.text
     assert "\x1b" not in shell.out.text
+
+
+def test_ctrl_c_closes_an_open_question(shell: Shell, tmp_path: Path):
+    shell.line("pick up the cup")
+    assert shell.dialogue.question is not None
+    terminal = Terminal(shell, history=None)
+    assert terminal._stop_busy()
+    assert shell.dialogue.question is None
+    assert "I ask no more." in shell.out.text
+    before = len(shell.robot.executive.jobs)
+    shell.line("red")
+    assert len(shell.robot.executive.jobs) == before
+    assert not terminal._stop_busy()
+
+
+def test_a_wish_to_stay_stops_what_is_under_way_and_is_a_task_otherwise(shell: Shell):
+    shell.line("walk 1 metre forward")
+    assert shell.robot.busy
+    shell.line("stand still")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "cancelled"
+    shell.line("stand still")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].text == "stand still"
+    assert shell.robot.executive.jobs[-1].state == "done"
+    shell.line("walk 1 metre back")
+    shell.robot.wait()

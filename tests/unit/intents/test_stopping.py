@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from intents.stopping import is_stop
+from intents.stopping import is_stay, is_stop
 
 CRIES = (
     "stop", "STOP!", "Stop!!! Stop!!!", "stpo", "sotp", "stopp", "STOOOOP", "s t o p", "S.T.O.P",
@@ -104,3 +104,25 @@ def test_a_cry_that_runs_into_other_words_is_heard(cry: str) -> None:
 )  # fmt: skip
 def test_names_that_end_like_a_cry_are_none(text: str) -> None:
     assert not is_stop(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["stand still", "Stand still!", "please stand still now", "no, stay there",
+     "stay where you are",
+     "hold still, robot", "stay put", "stand stil", "st\u200band still", "stay right there please",
+     "robot, stay", "ok, stay here, thanks", "don't walk"],
+)  # fmt: skip
+def test_wishes_to_stay_are_told(text: str) -> None:
+    assert is_stay(text)
+    assert not is_stop(text)  # to a robot that stands it is a task
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "stand", "stand up", "stand still for 5 seconds", "go to the table, stay there",
+     "stay there until I am back", "stay with me", "then stay there and wave", "stand on one leg",
+     "wait", "do you stand still?", "stay " * 10_000, "please", "now"],
+)  # fmt: skip
+def test_tasks_and_questions_are_no_wishes_to_stay(text: str) -> None:
+    assert not is_stay(text)

@@ -12,8 +12,8 @@ from intents.stopping import is_stop
     [
         b"stop\r", b"stop\n", b"walk to the table\rstop\r", b"stopp\x7f\r", b"walk\x15stop\r",
         b"\x1b[31mstop\x1b[0m\r", b"\x1b[200~stop\r", b"\x1b[3stop\r", b"\x1b[M##stop\r",
-        b"\x1b]8;;stop\r", b"\xd2stop\r", b"go to a\x1fhalt\r", b"\x12stop\r",
-        b"\x1bstop\r", b"walk to kitstop\r",
+        b"\x1b]8;;stop\r", b"\xd2stop\r", b"go to a\x1fhalt\r", b"\x12stop\r", b"\x1bstop\r",
+        b"walk to kitstop\r",
         "st\u200bop\r".encode(), b"x" * 2 * KEPT + b" stop\r",
     ],
 )  # fmt: skip
