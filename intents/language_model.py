@@ -22,9 +22,9 @@ from intents.context import Context
 from intents.goals import Goal, from_builtins
 from intents.outcomes import Goals, Outcome, Question, Refusal
 from intents.vocabulary import Vocabulary
+from intents.wire import Unusable, Wire
 
 MAX_REPAIRS = 2
-MAX_ANSWER_BYTES = 256 * 1024
 _FORBIDDEN = (401, 403)
 
 
@@ -125,10 +125,6 @@ class _Answer(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     text: str | None = None
 
 
-class _Unusable(Exception):
-    """The endpoint did not give an answer; asking it again now is no use."""
-
-
 class LanguageModel:
     """Asks the endpoint; a :data:`intents.parser.Fallback`.
 
@@ -157,10 +153,7 @@ class LanguageModel:
         self._endpoint = endpoint
         self._key = key or Key()
         self._clock = clock
-        self._client = httpx.Client(
-            transport=transport, follow_redirects=False, trust_env=False,
-            timeout=httpx.Timeout(endpoint.deadline_s),
-        )  # fmt: skip
+        self._wire = Wire(clock=clock, transport=transport)
         self._barred = False
         self.trouble = ""
         self.calls = 0
@@ -172,7 +165,7 @@ class LanguageModel:
 
     def close(self) -> None:
         """Give connections back."""
-        self._client.close()
+        self._wire.close()
 
     def __call__(self, text: str, vocabulary: Vocabulary, context: Context) -> Outcome | None:
         """What the model makes of a sentence; None if it is of no help, with ``trouble`` set."""
@@ -193,7 +186,7 @@ class LanguageModel:
                     {"role": "assistant", "content": said[:4000]},
                     {"role": "user", "content": told},
                 ]
-        except _Unusable as why:
+        except Unusable as why:
             self.trouble = str(why)
         return None
 
@@ -201,7 +194,7 @@ class LanguageModel:
         """One call.
 
         Raises:
-            _Unusable: No budget or time is left, or the endpoint does not answer as it should.
+            Unusable: No budget or time is left, or the endpoint does not answer as it should.
         """
         self._may_ask(until_s)
         self.calls += 1
@@ -215,12 +208,7 @@ class LanguageModel:
                 "json_schema": {"name": "robot_goals", "schema": schema},
             },
         }
-        try:
-            raw = self._post(body, until_s)
-        except (httpx.HTTPError, httpx.InvalidURL, OSError) as error:
-            raise _Unusable(
-                f"the language model cannot be reached ({type(error).__name__})"
-            ) from None
+        raw = self._post(body, until_s)
         said, used = _content(raw)
         self.tokens += used or (len(str(talk)) + len(raw)) // 3
         return said
@@ -229,35 +217,26 @@ class LanguageModel:
         if self._barred:
             raise self._unwelcome()
         if self.calls >= self._endpoint.max_calls or self.tokens >= self._endpoint.max_tokens:
-            raise _Unusable("the language model's budget for this mission is spent")
+            raise Unusable("the language model's budget for this mission is spent")
         if self._clock() >= until_s:
-            raise _Unusable("the language model did not answer in time")
+            raise Unusable("the language model did not answer in time")
 
-    def _unwelcome(self) -> _Unusable:
+    def _unwelcome(self) -> Unusable:
         host = self._endpoint.host
         if self._key:
-            return _Unusable(f"the language model at {host} does not accept the key")
-        return _Unusable(f"the language model wants a key, and none is kept for {host!r}")
+            return Unusable(f"the language model at {host} does not accept the key")
+        return Unusable(f"the language model wants a key, and none is kept for {host!r}")
 
     def _post(self, body: dict[str, Any], until_s: float) -> bytes:
         """The body of the reply, within the deadline and a limit of size."""
         url = self._endpoint.base_url.rstrip("/") + "/chat/completions"
-        timeout = httpx.Timeout(max(until_s - self._clock(), 0.001))
-        headers = self._key.header()
-        received = bytearray()
-        with self._client.stream("POST", url, json=body, headers=headers, timeout=timeout) as reply:
-            if reply.status_code in _FORBIDDEN:
-                self._barred = True
-                raise self._unwelcome()
-            if not reply.is_success:
-                raise _Unusable(f"the language model answered {reply.status_code}")
-            for chunk in reply.iter_bytes():
-                received += chunk
-                if len(received) > MAX_ANSWER_BYTES:
-                    raise _Unusable("the language model's answer is too long")
-                if self._clock() >= until_s:
-                    raise _Unusable("the language model did not answer in time")
-        return bytes(received)
+        reply = self._wire.post(url, body, headers=self._key.header(), until_s=until_s)
+        if reply.status in _FORBIDDEN:
+            self._barred = True
+            raise self._unwelcome()
+        if not httpx.codes.is_success(reply.status):
+            raise Unusable(f"the language model answered {reply.status}")
+        return reply.content
 
 
 class _Message(msgspec.Struct):
@@ -282,15 +261,15 @@ def _content(raw: bytes) -> tuple[str, int]:
     """The words of the first choice, and the tokens used.
 
     Raises:
-        _Unusable: It is no completion.
+        Unusable: It is no completion.
     """
     try:
         completion = msgspec.json.decode(raw, type=_Completion)
-    except (msgspec.DecodeError, UnicodeDecodeError):
-        raise _Unusable("the language model's endpoint does not speak the protocol") from None
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        raise Unusable("the language model's endpoint does not speak the protocol") from None
     used = max(completion.usage.total_tokens, 0) if completion.usage else 0
     if not completion.choices:
-        raise _Unusable("the language model gave no answer")
+        raise Unusable("the language model gave no answer")
     return completion.choices[0].message.content or "", used
 
 

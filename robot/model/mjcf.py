@@ -87,6 +87,10 @@ def _laid_over(source: Source, overlay_path: Path) -> str:
     """The published model with the overlay, as MJCF; meshes by their full path."""
     base, overlay = mjcf_files.read(Path(source.path)), mjcf_files.read(overlay_path)
     _full_paths(base, Path(source.path).resolve().parent)
+    for compiler in overlay.iter("compiler"):
+        _full_folders(compiler, overlay_path.resolve().parent)
+    for root, file in ((base, source.path), (overlay, source.overlay)):
+        _draws_in_no_model(root, str(file))
     _robot_alone(base)
     _leave_out(base, source.without)
     bodies = {body.get("name"): body for body in base.iter("body")}
@@ -109,12 +113,26 @@ def _laid_over(source: Source, overlay_path: Path) -> str:
 
 
 def _full_paths(base: ET.Element, folder: Path) -> None:
-    compiler = base.find("compiler")
-    if compiler is None:
-        compiler = ET.SubElement(base, "compiler")
-    for kind in ("meshdir", "texturedir", "assetdir"):
-        if kind in compiler.attrib or kind == "meshdir":
+    if base.find("compiler") is None:
+        ET.SubElement(base, "compiler")
+    for compiler in base.iter("compiler"):
+        _full_folders(compiler, folder)
+        for kind in ("meshdir", "texturedir"):  # without one MuJoCo looks where we happen to stand
+            compiler.set(kind, compiler.get(kind) or compiler.get("assetdir") or str(folder))
+
+
+def _full_folders(compiler: ET.Element, folder: Path) -> None:
+    for kind in mjcf_files.FOLDER_KEYS:
+        if kind in compiler.attrib:
             compiler.set(kind, str(folder / compiler.get(kind, "")))
+
+
+def _draws_in_no_model(root: ET.Element, file: str) -> None:
+    """MuJoCo would look for it where we happen to stand: a text has no folder of its own."""
+    for tag in ("include", "model"):
+        if root.find(f".//{tag}") is not None:
+            text = f"<{tag}> has no place in an overlay, or under one"
+            raise DescriptionError([Problem(text, file, suggestion="put its content there")])
 
 
 def _robot_alone(base: ET.Element) -> None:

@@ -75,15 +75,22 @@ def check(source: mjcf.Source) -> None:
     Raises:
         DescriptionError: it cannot, is too large, or holds numbers that no robot has.
     """
+    # The trial works elsewhere: of a relative folder it would make another one.
     where = msgspec.structs.replace(
         source,
-        path=str(Path(source.path).resolve()),
-        overlay=source.overlay and str(Path(source.overlay).resolve()),
+        path=_from_anywhere(source.path),
+        folder=_from_anywhere(source.folder),
+        overlay=source.overlay and _from_anywhere(source.overlay),
+        overlay_folder=_from_anywhere(source.overlay_folder),
     )
     file = source.overlay or source.path
     problems = _tried(where, source.content())
     if problems:
         raise DescriptionError([Problem(text, file, suggestion=cure) for text, cure in problems])
+
+
+def _from_anywhere(path: str) -> str:
+    return str(Path(path).resolve())
 
 
 @cache

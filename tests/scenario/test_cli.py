@@ -187,12 +187,12 @@ def test_a_second_ctrl_c_damps_at_once(runtime, humanoid, monkeypatch):
     assert runtime.puppet.time_s < 2.3
 
 
-def test_a_folder_that_cannot_be_written_is_a_warning(runtime, humanoid, tmp_path):
+def test_a_folder_that_cannot_be_is_refused_before_anything_moves(runtime, humanoid, tmp_path):
     (tmp_path / "file").write_text("")
     status, text = humanoid("do", "squat", "--fast", "--run-dir", "file/run")
-    assert status == 0, text
-    assert "warning: the journal cannot be written" in text
-    assert "journal: " not in text  # it is not there
+    assert status == 2, text
+    assert "file/run" in text
+    assert not runtime.puppet.sent
 
 
 def test_a_folder_that_holds_a_run_is_not_written_over(runtime, humanoid):

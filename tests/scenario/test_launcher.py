@@ -15,7 +15,8 @@ from tests.fakes.waiting import HANG_S, eventually
 PARENT = """
 import json, signal, sys
 from pathlib import Path
-signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup,
+signal.signal(signal.SIGINT, signal.default_int_handler)  # and in a shell's background
 from dataclasses import replace
 from robot.bringup import launcher, lowering
 from robot.bringup.processes import EXECUTIVE, Process

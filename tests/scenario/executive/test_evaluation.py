@@ -39,13 +39,18 @@ def command(folder: Path, *options: str) -> list[str]:
     campaign.write_text(CASES)
     return [
         *(sys.executable, "-m", "executive", "eval", "--faults", str(campaign), "--json"),
-        *("--seeds", "1", "--resume", str(folder / "out"), *options),
+        *("--seeds", "1", *options),
     ]
 
 
 def evaluate(folder: Path, *options: str) -> tuple[int, dict]:
     done = subprocess.run(
-        command(folder, *options), capture_output=True, text=True, timeout=300, check=False
+        command(folder, *options),
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+        cwd=folder,
     )
     return done.returncode, json.loads(done.stdout)
 
@@ -56,7 +61,7 @@ def below(pid: int) -> list[int]:
 
 
 def test_nothing_of_a_campaign_that_is_killed_goes_on(tmp_path):
-    job = subprocess.Popen(command(tmp_path, "-j", "2"), stdout=subprocess.DEVNULL)
+    job = subprocess.Popen(command(tmp_path, "-j", "2"), stdout=subprocess.DEVNULL, cwd=tmp_path)
     try:
         assert eventually(lambda: len(below(job.pid)) >= 3)  # and a tracker
         workers = below(job.pid)
@@ -76,9 +81,10 @@ def test_a_campaign_tells_the_right_ends_from_the_wrong_ones_and_is_resumed(tmp_
     assert rows["nothing"]["ok"] == 1
     assert next(iter(rows["shoved hard"]["wrong"])).endswith(", unsafe")
     assert (found["unsafe"], found["without_code"], found["judged_by"]) == (1, 0, "oracle")
-    results = tmp_path / "out" / "results.jsonl"
+    (results,) = (tmp_path / "runs").glob("*/results.jsonl")
     before = results.read_bytes()
-    status, again = evaluate(tmp_path, "-j", "1", "--require", "0")
+    folder = str(results.parent)
+    status, again = evaluate(tmp_path, "-j", "1", "--require", "0", "--resume", folder)
     assert (status, again) == (0, found)
     assert results.read_bytes() == before
 

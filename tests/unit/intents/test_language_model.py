@@ -131,6 +131,7 @@ BROKEN = {
     "cut off": Reply(content=json.dumps(TIDY), cut=60),
     "half a word": Reply(content=json.dumps(TIDY)[:50]),
     "too long": Reply(raw=b" " * 1_000_000),
+    "deep beside": Reply(raw=b'{"x":' + b"[" * 100_000 + b"]" * 100_000 + b"}"),
     "deep": Reply(content="[" * 100_000),
 }
 

@@ -151,3 +151,12 @@ def test_nesting_is_refused_after_a_bounded_number_of_events(opening, monkeypatc
     with pytest.raises(ConfigError):
         yaml_nodes.parse(opening * 100_000, "f.yaml")
     assert seen < 5 * yaml_nodes.MAX_DEPTH
+
+
+def test_what_a_file_of_another_kind_holds_is_not_repeated(tmp_path):
+    path = tmp_path / "shadow"
+    path.write_text("root:secret:0\n")
+    with pytest.raises(ConfigError) as caught:
+        config.load(path, Tree)
+    (problem,) = caught.value.problems
+    assert problem.message == "the whole is a text, and must be a mapping of keys to values"

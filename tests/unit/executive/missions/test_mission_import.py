@@ -191,6 +191,8 @@ def test_format_3_is_read_with_its_names_and_its_subtrees():
          "w.yaml:1:20: poses in the frame 'base_link'"),
         ("frame_id: odom\nposes:\n  - {position: {x: 1, y: 0, z: 0}}\n", "w.yaml:1:11:"),
         ("poses:\n  - {position: {x: 1, y: 0, z: 2}}\n", "2 m from the floor"),
+        ("poses:\n  - {position: {x: 1.0e+300, y: 0, z: 0}}\n", "more than 1000 m away"),
+        ("poses:\n  - {position: {x: 0, y: -1001, z: 0}}\n", "more than 1000 m away"),
     ],
 )  # fmt: skip
 def test_waypoints_that_are_not_on_the_floor_of_the_map_are_refused(text, words, problems):

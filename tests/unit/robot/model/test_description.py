@@ -52,6 +52,24 @@ def test_an_unknown_robot_is_named_with_the_nearest():
         description.load("jun")
 
 
+@pytest.mark.parametrize(
+    ("pattern", "replacement", "message"),
+    [
+        (r"joint: left_knee,", "joint: right_knee,", "joint 'right_knee' has several motors"),
+        (r"left_leg: \[", "left_leg: [left_knee, ", "names motor 'left_knee' more than once"),
+        (r"left_leg: \[", "left_leg: [right_knee, ", "motor 'right_knee' is in several"),
+        (r"(?ms)^feet:.*?(?=^hands:)", "feet: {}\n", "the left foot is missing"),
+        (r"(?m)^name: .*", "name: ''", "name is empty"),
+        (r"(?m)^name: .*", r'name: "a\\nb"', "must be one line of text"),
+        (r"(?m)^mjcf: .*", "mjcf: ''", "mjcf is empty"),
+    ],
+)
+def test_what_is_doubled_or_not_there_is_told_as_such(edited, pattern, replacement, message):
+    with pytest.raises(ConfigError) as caught:
+        description.load(edited("juno.yaml", pattern, replacement))
+    assert any(message in str(problem) for problem in caught.value.problems)
+
+
 def test_a_missing_joint_is_named_with_the_cure(edited):
     path = edited("juno.yaml", r"\{joint: left_knee,", "{joint: left_kneee,")
     with pytest.raises(DescriptionError) as caught:

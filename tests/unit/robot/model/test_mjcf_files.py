@@ -29,6 +29,10 @@ def robot(tmp_path: Path) -> Path:
     os.mkfifo(folder / "pipe.stl")
     os.mkfifo(folder / "pipe.xml")
     (folder / "zero.png").symlink_to("/dev/zero")
+    (folder / "folders.xml").write_text("<mujocoinclude><compiler meshdir='..'/></mujocoinclude>")
+    (folder / "deep" / "deeper" / "deepest").mkdir(parents=True)
+    (folder / "deep" / "secret.stl").write_bytes(STL)
+    (folder / "link").symlink_to(folder / "deep" / "deeper" / "deepest")
     (folder / "out.stl").symlink_to(tmp_path / "secret.stl")
     return folder
 
@@ -70,6 +74,14 @@ OUTSIDE = [
     "<mujoco><include file='/etc/passwd'/></mujoco>",
     "<mujoco><include file='../secret.xml'/></mujoco>",
     "<mujoco><include file='../nowhere.xml'/></mujoco>",
+    with_asset(r"<mesh file='..\secret.stl'/>"),
+    with_asset("<mesh file='secret.stl'/>", r"<compiler meshdir='..\'/>"),
+    with_asset("<mesh file='secret.stl'/>", r"<compiler assetdir='meshes\..\..'/>"),
+    with_asset("<mesh file='link/../../secret.stl'/>"),
+    with_asset("<mesh file='meshes/m.stl'/>", "<compiler texturedir='/etc'/>"),
+    with_asset("<mesh file='nowhere.stl'/>", "<compiler meshdir='../nowhere'/>"),
+    r"<mujoco><include file='..\secret.xml'/></mujoco>",
+    with_asset("<mesh file='secret.stl'/>", "<include file='folders.xml'/>"),
 ]
 NONE = [
     with_asset("<mesh file='pipe.stl'/>"),
@@ -128,6 +140,42 @@ def test_a_document_type_is_refused(robot):
     entity = "<!DOCTYPE mujoco [<!ENTITY x '/dev/zero'>]>"
     with pytest.raises(DescriptionError, match="document type"):
         mjcf.spec(source(robot, entity + with_asset("<mesh file='&x;'/>")))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("<mujoco><include xmlns='a' file='part.xml'/></mujoco>", "name space"),
+        (with_asset("<mesh file='meshes\n/m.stl'/>"), "line break"),
+        ("<robot name='r'><mesh filename='package:///etc/passwd'/></robot>", "URDF"),
+    ],
+)
+def test_what_mujoco_would_read_otherwise_is_refused(robot, text, words):
+    with pytest.raises(DescriptionError, match=words):
+        mjcf.spec(source(robot, text))
+
+
+def test_only_the_encoding_that_mujoco_reads_is_read(robot):
+    (robot / "robot.xml").write_bytes(PLAIN.encode("utf-16"))
+    with pytest.raises(DescriptionError, match="utf-8"):
+        mjcf.spec(mjcf.Source(str(robot / "robot.xml"), str(robot)))
+
+
+def test_an_overlay_draws_nothing_in_from_where_we_happen_to_stand(robot, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere.stl").write_bytes(STL)
+    (robot / "overlay.xml").write_text("<mujoco><compiler meshdir='meshes'/></mujoco>")
+    text = with_asset("<mesh file='elsewhere.stl'/>", "<compiler/>")
+    laid = source(robot, text)
+    laid = mjcf.Source(laid.path, laid.folder, str(robot / "overlay.xml"), str(robot))
+    with pytest.raises(DescriptionError, match=r"robot/meshes/elsewhere\.stl"):
+        mjcf.compiled(laid)
+
+
+def test_too_many_folders_are_refused(robot):
+    compilers = "".join(f"<compiler meshdir='{i}'/>" for i in range(50))
+    with pytest.raises(DescriptionError, match="folders"):
+        mjcf.spec(source(robot, with_asset("<mesh file='meshes/m.stl'/>", compilers)))
 
 
 def test_more_than_a_bound_is_refused(robot, monkeypatch):

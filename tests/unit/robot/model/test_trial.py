@@ -47,6 +47,16 @@ def test_a_model_without_bounds_is_refused_with_the_cure(tmp_path, inside, top, 
         trial.check(model(tmp_path, inside, top))
 
 
+@pytest.mark.parametrize("overlay", [None, "over/overlay.xml"])
+def test_a_model_named_from_where_one_stands_passes(tmp_path, monkeypatch, overlay):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "over").mkdir()
+    model(tmp_path / "robot")
+    (tmp_path / "over" / "overlay.xml").write_text("<mujoco><option timestep='.001'/></mujoco>")
+    monkeypatch.chdir(tmp_path)
+    trial.check(mjcf.Source("robot/robot.xml", "robot", overlay, "over" if overlay else ""))
+
+
 @pytest.mark.parametrize("name", ["missing.xml", "."])
 def test_what_is_no_file_is_said_at_once(tmp_path, name):
     with pytest.raises(DescriptionError, match="cannot be read"):

@@ -1,0 +1,117 @@
+"""One request to a server that may be anybody's: it ends in time, and its answer is bounded."""
+
+import queue
+import threading
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import httpx
+
+MAX_ANSWER_BYTES = 256 * 1024
+_PLAIN = {"Accept-Encoding": "identity"}
+_LATE = "the language model did not answer in time"
+
+
+class Unusable(Exception):
+    """The endpoint did not give an answer; asking it again now is no use."""
+
+
+class Reply(NamedTuple):
+    """What came back; the content of a success only."""
+
+    status: int
+    content: bytes
+
+
+class Wire:
+    """Connections to one server."""
+
+    def __init__(
+        self,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        transport: httpx.BaseTransport | None = None,
+    ) -> None:
+        """Make ready; nothing is sent yet.
+
+        Args:
+            clock: The time for deadlines [s].
+            transport: In place of the network.
+        """
+        self._clock = clock
+        self._transport = transport
+        self._client = self._fresh()
+
+    def close(self) -> None:
+        """Give connections back."""
+        self._client.close()
+
+    def post(self, url: str, body: object, *, headers: dict[str, str], until_s: float) -> Reply:
+        """Send a body as JSON, and wait for the answer until a time of the clock.
+
+        httpx bounds each read, not all of them: a server that sends a header now and then would
+        hold its reader for ever. So a thread reads, and is left behind when the time is over.
+
+        Raises:
+            Unusable: There is no answer, or none in time, or it is too long, or compressed.
+        """
+        came: queue.SimpleQueue[Reply | Exception] = queue.SimpleQueue()
+        request = self._client.build_request(
+            "POST", url, json=body, headers={**headers, **_PLAIN},
+            timeout=max(until_s - self._clock(), 0.001),
+        )  # fmt: skip
+        work = (self._client, request, until_s, came)
+        threading.Thread(target=self._exchange, args=work, name="wire", daemon=True).start()
+        try:
+            answer = came.get(timeout=max(until_s - self._clock(), 0.001))
+        except queue.Empty:
+            self._hang_up()
+            raise Unusable(_LATE) from None
+        except BaseException:  # whoever waited was interrupted
+            self._hang_up()
+            raise
+        if isinstance(answer, httpx.HTTPError | httpx.InvalidURL | OSError):
+            name = type(answer).__name__
+            raise Unusable(f"the language model cannot be reached ({name})") from None
+        if not isinstance(answer, Reply):
+            raise answer
+        return answer
+
+    def _fresh(self) -> httpx.Client:
+        return httpx.Client(transport=self._transport, follow_redirects=False, trust_env=False)
+
+    def _hang_up(self) -> None:
+        """The thread that reads finds its connection closed, and ends."""
+        self._client.close()
+        self._client = self._fresh()
+
+    def _exchange(
+        self,
+        client: httpx.Client,
+        request: httpx.Request,
+        until_s: float,
+        came: queue.SimpleQueue[Reply | Exception],
+    ) -> None:
+        try:
+            came.put(self._answer(client, request, until_s))
+        except Exception as error:  # whatever it is, it is for the one who waits
+            came.put(error)
+
+    def _answer(self, client: httpx.Client, request: httpx.Request, until_s: float) -> Reply:
+        reply = client.send(request, stream=True)
+        try:
+            if not reply.is_success:
+                return Reply(reply.status_code, b"")
+            if reply.headers.get("Content-Encoding", "identity").strip().lower() != "identity":
+                raise Unusable("the language model's answer is compressed, which was not asked for")
+            received = bytearray()
+            for chunk in reply.iter_raw():
+                received += chunk
+                if len(received) > MAX_ANSWER_BYTES:
+                    raise Unusable("the language model's answer is too long")
+                if self._clock() >= until_s:
+                    raise Unusable(_LATE)
+            return Reply(reply.status_code, bytes(received))
+        finally:
+            reply.close()
