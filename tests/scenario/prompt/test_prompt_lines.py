@@ -396,7 +396,10 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
     try:
         terminal = Terminal(shell, history=None)
         (ctrl_c,) = terminal._keys().get_bindings_for_keys((Keys.ControlC,))
-        ctrl_c.handler(SimpleNamespace(current_buffer=Buffer()))
+        line = Buffer()
+        layout = SimpleNamespace(is_searching=False)
+        app = SimpleNamespace(layout=layout, current_buffer=line, quoted_insert=False)
+        ctrl_c.handler(SimpleNamespace(app=app, current_buffer=line))
         assert voice.told == ["(hush)"]
     finally:
         shell.speech = Speech()
