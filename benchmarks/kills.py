@@ -145,7 +145,10 @@ def once(seed: int) -> Row:
             _strike(job, rng, row, seen)
             out, _ = job.communicate(timeout=END_S)
             row.status = job.returncode
-            row.outcome = json.loads(out).get("status", "?") if out else f"status {row.status}"
+            # An executive that dies after its last words is followed by one that says them again.
+            last = out.decode().rpartition("\n{")
+            words = "".join(last[1:]).strip()
+            row.outcome = json.loads(words).get("status", "?") if out else f"status {row.status}"
         except (TimeoutError, subprocess.TimeoutExpired) as error:
             row.problem = str(error) or type(error).__name__
         finally:

@@ -9,10 +9,29 @@ from robot.reality.faults import Fault
 from robot.reality.truth import Check, Verdict
 from sim import faults, judge, render
 from sim.plant import Plant
+from sim.witness import Witness
 
 
 class JudgedPlant(Plant):
     """The plant with all that `robot.reality.contract.Plant` asks of it."""
+
+    _witness: Witness | None = None
+
+    def watch(self) -> None:
+        """Note from now on what it does: a step takes some 5 % longer."""
+        self._witness = Witness(self)
+
+    def step(self, count: int = 1) -> None:
+        """Advance, as a plant does."""
+        super().step(count)
+        if self._witness is not None:
+            self._witness.look()
+
+    def hear(self, text: str) -> None:
+        """Let people hear what the robot says."""
+        super().hear(text)
+        if self._witness is not None:
+            self._witness.said.append(text)
 
     def suffer(self, fault: Fault) -> None:
         """Let a fault happen now. Raises ConfigError if it names what is not there."""
@@ -20,7 +39,7 @@ class JudgedPlant(Plant):
 
     def judge(self, checks: Iterable[Check]) -> Verdict:
         """How it truly is. Raises ConfigError if a check names what is not there."""
-        return judge.judge(self, checks)
+        return judge.judge(self, checks, self._witness or Witness(self))
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all of it as PNG. Raises ConfigError, or OSError for the file."""

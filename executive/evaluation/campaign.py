@@ -27,6 +27,8 @@ from robot.reality.contract import Reality
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
+LIMIT_S = 420.0
+"""Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
 BENCH, JUNO = "bench", "juno"
 """Where a sentence is done, and by whom, if nothing else is said."""
 
@@ -47,6 +49,9 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         truth: what has to be so in the simulator at the end of a run that is done (`sim.judge`).
         limit_s: simulated time after which a run is ended as hanging.
         why: what the robot is expected to do about it, in words.
+        kind: of a task (`executive.evaluation.exam`): a sentence that may well be refused, which
+            is a result then, and no mistake of the file.
+        person_s: what a person would need for it; 0: nobody said.
     """
 
     name: str
@@ -58,8 +63,10 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     helped: bool = False
     damped: bool = False
     truth: tuple[dict[str, Any], ...] = ()
-    limit_s: float = 150.0
+    limit_s: float = LIMIT_S
     why: str = ""
+    kind: str = ""
+    person_s: float = 0.0
 
     @property
     def recovers(self) -> bool:
@@ -166,11 +173,11 @@ class Settings:
         return self._known[world]
 
 
-def meant(case: Case, settings: Settings) -> Meant:
+def meant(case: Case, settings: Settings) -> Meant | request.Refused:
     """Understand a case's mission: a sentence, or a mission file, which may bring its own world.
 
     Raises:
-        ConfigError: if it cannot be meant.
+        ConfigError: a world or a mission file is wrong.
     """
     if case.mission.endswith((".yaml", ".yml")):
         options = check.Options(
@@ -182,7 +189,7 @@ def meant(case: Case, settings: Settings) -> Meant:
     where = settings.of(case.world or BENCH)
     understood = request.request(case.mission, where)
     if isinstance(understood, request.Refused):
-        raise ConfigError(f"{case.mission!r}: {understood.reason}")
+        return understood
     return Meant(assignment=Assignment(understood=understood), where=where)
 
 
@@ -199,6 +206,8 @@ def problems_of(case: Case, settings: Settings) -> list[str]:
         found.append("limit_s is a time above 0")
     try:
         given = meant(case, settings)
+        if isinstance(given, request.Refused):
+            return [*found, f"{case.mission!r}: {given.reason}"]
         truth.read(case.truth, given.where.world_map)
         for data in case.faults:
             fault_plans.verify(

@@ -42,6 +42,9 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
         wall_s: wall time, set-up included.
         struck: how many faults happened.
         source: who judged.
+        done: whether all is in truth as it was to be, and the robot stands.
+        false: whether the robot says that it is done, and it is not.
+        touched, too_near: as in `robot.reality.truth.Verdict`.
     """
 
     key: str
@@ -59,6 +62,10 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     wall_s: float = 0.0
     struck: int = 0
     source: str = "oracle"
+    done: bool = False
+    false: bool = False
+    touched: tuple[str, ...] = ()
+    too_near: tuple[str, ...] = ()
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True):

@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from executive.evaluation.campaign import Run, Settings, meant
+from executive.evaluation.campaign import Meant, Run, Settings, meant
 from executive.evaluation.record import Record
 from executive.journal import journal
 from executive.missions import fault_plans
@@ -33,7 +33,7 @@ def perform(run: Run, reality: Reality) -> Record:
     begin_s = time.perf_counter()
     try:
         with tempfile.TemporaryDirectory(prefix="humanoid-eval-") as folder:
-            record = _Trial(run, reality, Path(folder)).carry_out()
+            record = _carried_out(run, reality, Path(folder))
     except Exception as error:  # a run that breaks is a result as well
         text = traceback.format_exception_only(error)[-1].strip()
         record = Record(
@@ -43,13 +43,22 @@ def perform(run: Run, reality: Reality) -> Record:
     return msgspec.structs.replace(record, wall_s=round(time.perf_counter() - begin_s, 2))
 
 
+def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
+    given = meant(run.case, Settings(reality, run.robot))
+    if isinstance(given, Meant):
+        return _Trial(run, given, folder).carry_out()
+    return Record(
+        key=run.key, digest=run.digest, case=run.case.name, seed=run.seed, recovery=run.recovery,
+        ok=given.outcome in run.case.codes, code=given.outcome, cause=given.reason,
+    )  # fmt: skip
+
+
 class _Trial:
     """A robot in its world, an executive that may die, and a judge."""
 
-    def __init__(self, run: Run, reality: Reality, folder: Path) -> None:
+    def __init__(self, run: Run, given: Meant, folder: Path) -> None:
         self.run, self.folder = run, folder
         case, seed = run.case, run.seed
-        given = meant(case, Settings(reality, run.robot))
         world = given.where.world.nudged(seed, start=case.start)
         self.given = given
         self.where = msgspec.structs.replace(given.where, world=world)
@@ -71,6 +80,7 @@ class _Trial:
                 kill=self._kill,
             ) as session,
         ):
+            runtime.plant.watch()
             session.journal.listen(lambda event: self._note(event.event, event.data))
             session.on_tick(lambda: self._help(session))
             reason = self._work(session)
@@ -125,15 +135,19 @@ class _Trial:
         safe = verdict.upright or (case.damped and verdict.damped)
         code, cause = (reason.code, reason.cause) if reason else ("done", "")
         wrong = verdict.wrong if code == "done" else ()
-        done = code == "done" and not wrong and (case.recovers or bool(case.truth))
-        as_expected = done or code in case.codes
+        there = not verdict.wrong and verdict.upright
+        if case.kind:  # an ending that counts does so only where the truth holds
+            ok = there and (code == "done" or code in case.codes)
+        else:
+            done = code == "done" and not wrong and (case.recovers or bool(case.truth))
+            ok = safe and (done or code in case.codes)
         return Record(
             key=run.key,
             digest=run.digest,
             case=case.name,
             seed=run.seed,
             recovery=run.recovery,
-            ok=as_expected and safe,
+            ok=ok,
             code=code,
             cause=cause or "; ".join(wrong),
             unsafe=not safe,
@@ -142,4 +156,8 @@ class _Trial:
             took_s=round(took_s, 2),
             struck=struck,
             source=verdict.source,
+            done=there,
+            false=code == "done" and not there,
+            touched=verdict.touched,
+            too_near=verdict.too_near,
         )

@@ -264,7 +264,9 @@ def evaluate(options: Eval) -> None:
 
       humanoid eval --faults "missed grasp,camera silent" --json
 
-    Exit status 1 where a case is right in fewer runs than --require.
+      humanoid eval --tasks my_flat.tasks.yaml --seeds 10    (an exam: docs/evaluation.md)
+
+    Exit status 1 where a case is right, or an exam is done, in fewer runs than --require.
     """
     from executive.frontends.evaluation import evaluate
 

@@ -10,7 +10,7 @@ import msgspec
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import executive
-from executive.evaluation import campaign, pool, report
+from executive.evaluation import campaign, exam, marks, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends.ending import Ending
@@ -30,6 +30,7 @@ MAX_WIDTH = 1000
 
 WORLD = "kitchen"
 """Where a sentence of one's own is done if nothing else is said, as by `humanoid do`."""
+Found = report.Report | marks.Marks
 
 
 def evaluate(options: Eval) -> int:
@@ -55,12 +56,18 @@ def evaluate(options: Eval) -> int:
         with Ending() as ending:
             _go_through(results, left, options, screen, ending=ending)
         records = results.records.values()
-        found = report.report(cases, records, left=len(results.left(wanted)), mixed=mixed)
+        sum_up = marks.marks if options.tasks else report.report
+        found = sum_up(cases, records, left=len(results.left(wanted)), mixed=mixed)
         _say(found, results.path.parent, options)
         if ending.asked:
             return _stopped(found, results.path.parent)
-        well = found.worst >= options.require and not found.without_code
-        return ExitStatus.DONE if well else ExitStatus.FAILED
+        return ExitStatus.DONE if _well(found, options.require) else ExitStatus.FAILED
+
+
+def _well(found: Found, share: float) -> bool:
+    if isinstance(found, marks.Marks):
+        return found.whole.share >= share
+    return found.worst >= share and not found.without_code
 
 
 def _folder(options: Eval) -> Path:
@@ -70,7 +77,7 @@ def _folder(options: Eval) -> Path:
     return run_folder.folder_for("eval", stamp=now_stamp())
 
 
-def _say(found: report.Report, folder: Path, options: Eval) -> None:
+def _say(found: Found, folder: Path, options: Eval) -> None:
     """Keep the table, and print it."""
     save(folder, found)
     if options.as_json:
@@ -82,7 +89,7 @@ def _say(found: report.Report, folder: Path, options: Eval) -> None:
         say(f"results: {folder / FILE}; more seeds with: --resume {folder}")
 
 
-def _stopped(found: report.Report, folder: Path) -> int:
+def _stopped(found: Found, folder: Path) -> int:
     """Say what is kept, and how to go on; returns the exit status."""
     words = iter(sys.argv[1:])
     said = [
@@ -96,22 +103,24 @@ def _stopped(found: report.Report, folder: Path) -> int:
     return last_words("Stopped on request.", lines, cure, status=ExitStatus.FAILED, as_json=False)
 
 
-def show(found: report.Report) -> None:
+def show(found: Found) -> None:
     """The report as a table, where the terminal is wide enough for one."""
-    screen, table = table_screen(), report.table(found)
+    is_exam = isinstance(found, marks.Marks)
+    screen, table = table_screen(), marks.table(found) if is_exam else report.table(found)
     unbound = screen.options.update(width=MAX_WIDTH)
     if screen.measure(table, options=unbound).maximum <= screen.width:
         screen.print(table)
     else:
-        say(report.narrow(found))
+        say(marks.narrow(found) if is_exam else report.narrow(found))
 
 
-def save(folder: Path, found: report.Report) -> None:
+def save(folder: Path, found: Found) -> None:
     """Keep the table beside the results, for machines and for people."""
+    page = marks.markdown(found) if isinstance(found, marks.Marks) else report.markdown(found)
     data = msgspec.json.format(msgspec.json.encode(found, order="deterministic"))
     try:
         write_ordinary(folder / "report.json", data + b"\n")
-        write_ordinary(folder / "report.md", report.markdown(found).encode())
+        write_ordinary(folder / "report.md", page.encode())
     except OSError as error:
         text = f"the report in {folder} cannot be written: {error.strerror}"
         raise ConfigError(
@@ -128,10 +137,12 @@ def chosen(options: Eval) -> tuple[Case, ...]:
     Raises:
         ConfigError: with everything that is wrong in names and files.
     """
+    settings = campaign.Settings(REALITY, options.robot)
+    if options.tasks:
+        return _tasks(options, options.tasks, settings)
     if options.world and not options.missions:
         cure = "leave --world out, or give a mission"
         raise ConfigError([Problem("each case names its own world", "--world", suggestion=cure)])
-    settings = campaign.Settings(REALITY, options.robot)
     if options.robot:
         settings.of(campaign.BENCH)  # so that a robot that is not there is said once
     cases = _named(options)
@@ -146,6 +157,21 @@ def chosen(options: Eval) -> tuple[Case, ...]:
         if problems:
             raise ConfigError(problems)
     cases = cases or [*campaign.load(campaign.SHIPPED, REALITY, robot=options.robot)]
+    campaign.check_names(cases)
+    return tuple(cases)
+
+
+def _tasks(options: Eval, paths: list[Path], settings: campaign.Settings) -> tuple[Case, ...]:
+    """The tasks of every exam. Raises ConfigError where they name a world or a mission as well."""
+    given = {"--world": options.world, "--faults": options.faults, "missions": options.missions}
+    problems = [
+        Problem("tasks say themselves what is done, and where", name, suggestion="leave it out")
+        for name, value in given.items()
+        if value
+    ]
+    if problems:
+        raise ConfigError(problems)
+    cases = [case for path in paths for case in exam.load(path, settings)]
     campaign.check_names(cases)
     return tuple(cases)
 
@@ -192,7 +218,6 @@ def _own(mission: str, fault: Case | None, options: Eval) -> Case:
         expect=fault.expect,
         helped=fault.helped,
         damped=fault.damped,
-        limit_s=600.0,
     )
 
 

@@ -168,6 +168,10 @@ class Eval:
         list[str] | None,
         typer.Argument(help="Sentences or mission files; none: those of the cases themselves."),
     ] = None
+    tasks: Annotated[
+        list[Path] | None,
+        typer.Option("--tasks", "-t", help="A file of tasks in a home; several times: several."),
+    ] = None
     seeds: Annotated[
         int, typer.Option("--seeds", "-n", min=1, max=10_000, help="Runs of each case.")
     ] = 3
@@ -184,7 +188,9 @@ class Eval:
     ] = False
     require: Annotated[
         float,
-        typer.Option("--require", min=0.0, max=1.0, help="Share of each case that must be right."),
+        typer.Option(
+            "--require", min=0.0, max=1.0, help="Share of each case, or of all tasks, to be right."
+        ),
     ] = 0.95
     resume: Annotated[
         Path | None,

@@ -114,8 +114,16 @@ class Plant(SimulatedPlant, Protocol):
         """Let a fault happen now. Raises ConfigError if it names what is not there."""
         ...
 
+    def watch(self) -> None:
+        """Note from now on, for `judge`, where the robot goes, what it touches and says."""
+        ...
+
     def judge(self, checks: Iterable[Check]) -> Verdict:
-        """How it truly is. Raises ConfigError if a check names what is not there."""
+        """How it truly is, and was since `watch`.
+
+        Raises:
+            ConfigError: if a check names what is not there.
+        """
         ...
 
     def save_picture(self, path: Path) -> None:

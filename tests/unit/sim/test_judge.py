@@ -9,11 +9,12 @@ from sim import atlas
 from sim import judge as judging
 from sim.faults import apply
 from sim.plant import Plant
+from sim.witness import Witness
 
 
 def judge(plant, data):
     """The verdict on checks as plain data."""
-    return judging.judge(plant, truth.read(data, atlas.world_map(plant.world)))
+    return judging.judge(plant, truth.read(data, atlas.world_map(plant.world)), Witness(plant))
 
 
 @pytest.fixture
