@@ -169,9 +169,7 @@ def pick(study: Study, robot: Robot, thing: ObjectPose, others: tuple[ObjectPose
         "pick", PickRequest(object_id=thing.id, around=around, start=robot.stance, seed=seed)
     )
     assert isinstance(plan, PickPlan)
-    study.ask(
-        "path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around, seed=seed)
-    )
+    study.ask("path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around))
     side = plan.side
     robot.stance = study.off(plan.standoff)
     robot.openings[side] = 0.1
@@ -208,9 +206,7 @@ def place(
     )
     plan = study.ask("place", request)
     assert isinstance(plan, PlacePlan)
-    study.ask(
-        "path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around, seed=seed)
-    )
+    study.ask("path", BasePathRequest(start=robot.stance, goal=plan.standoff, around=around))
     robot.stance = study.off(plan.standoff)
     move(study, "ready", robot, side=side, goal=plan.ready_rad, around=around, held=held)
     robot.stance, robot.posture = study.off(plan.stance), plan.posture

@@ -1,4 +1,4 @@
-"""Ways to walk around furniture: OMPL in the plane, then corners rounded and headings set.
+"""Ways to walk around furniture: a way over the floor, then corners rounded and headings set.
 
 The body is a circle that holds its arms. A start or goal nearer to furniture than that (in front of
 a table) is left and entered on a short straight line with the heading kept.
@@ -13,9 +13,10 @@ import numpy as np
 
 from robot.failures import Failure, failure
 from robot.model.description import RobotDescription
-from robot.planning import numerics, sampling
+from robot.planning import numerics
 from robot.planning.base_block import explain_no_path
 from robot.planning.floor import Floor, with_room
+from robot.planning.floor_ways import FloorWays
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.planning.robot_body import Body
 from robot.planning.solids import Solid, solids_of
@@ -30,8 +31,8 @@ NARROW_M = 0.06
 """Least distance of a goal's middle to any outline [m]."""
 START_OVERLAP_M = 0.03
 """Where the robot stands it may seem to overlap things by this much [m]."""
-CHECKS = 20_000
-TRIES = 3
+LEAST = 0.9
+"""Of the body's radius, a circle that holds the arms: a gap of 0.49 m is gone through."""
 TURN_ON_THE_SPOT_RAD = 0.35
 
 
@@ -49,11 +50,8 @@ def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
         problem = _standing_problem(body, solids, floor, stance, code=code, overlap_m=overlap)
         if problem is not None:
             return problem
-    for level in (radius + request.clearance_m, radius + 0.3 * request.clearance_m, 0.9 * radius):
-        path = _plan_at(robot, floor, request, level)
-        if path is not None:
-            return path
-    return explain_no_path(floor, request.start, request.goal, needed_m=1.8 * radius)
+    path = _plan(robot, floor, request)
+    return path or explain_no_path(floor, request.start, request.goal, needed_m=1.8 * radius)
 
 
 def _standing_problem(
@@ -91,26 +89,26 @@ def _standing_problem(
     return None
 
 
-def _plan_at(
-    robot: RobotDescription, floor: Floor, request: BasePathRequest, radius_m: float
-) -> BasePath | None:
-    """A path whose free part keeps `radius_m` clear."""
-    direct = _direct(robot, floor, request, radius_m)
+def _plan(robot: RobotDescription, floor: Floor, request: BasePathRequest) -> BasePath | None:
+    """A path whose free part keeps clear of everything as far as there is room."""
+    radius_m = robot.body_radius_m
+    least_m, wanted_m = LEAST * radius_m, radius_m + request.clearance_m
+    direct = _direct(robot, floor, request, wanted_m)
     if direct is not None:
         return direct
-    leave = _escape(floor, request.start, radius_m)
-    enter = _escape(floor, request.goal, radius_m)
+    levels = (wanted_m, radius_m, least_m)
+    leave, enter = (
+        next((end for level in levels if (end := _escape(floor, stance, level))), None)
+        for stance in (request.start, request.goal)
+    )
     if leave is None or enter is None:
         return None
     a, b = np.array(leave[:2]), np.array(enter[:2])
-    labels = floor.regions(radius_m)
-    at = floor.label_at(labels, np.array([a, b]))
-    if at[0] != at[1] and at.all():
-        return None
-    corners = _corners(floor, a, b, radius_m=radius_m, seed=request.seed)
+    ways = FloorWays(floor, a, least_m=least_m, wanted_m=wanted_m)
+    corners = ways.corners(b)
     if corners is None:
         return None
-    rounded = _round_off(floor, corners, radius_m)
+    rounded = _round_off(floor, corners, wanted_m)
     waypoints = _with_headings(rounded, leave[2], enter[2])
     if math.dist(leave[:2], request.start[:2]) > 1e-9:
         waypoints.insert(0, leave)
@@ -123,8 +121,11 @@ def _finish(floor: Floor, start: Stance, waypoints: list[Stance]) -> BasePath:
     """Add up length and clearance."""
     stops = [start, *waypoints]
     length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(stops))
-    clearance = min(floor.segment_clearance_m(a[:2], b[:2]) for a, b in pairwise(stops))
-    return BasePath(waypoints=tuple(waypoints), length_m=length, clearance_m=clearance)
+    clearances = tuple(floor.segment_clearance_m(a[:2], b[:2]) for a, b in pairwise(stops))
+    return BasePath(
+        waypoints=tuple(waypoints), length_m=length, clearance_m=min(clearances),
+        clearances_m=clearances,
+    )  # fmt: skip
 
 
 def _direct(
@@ -135,7 +136,7 @@ def _direct(
     length = math.hypot(x1 - x0, y1 - y0)
     turn = abs(wrap_angle(yaw1 - yaw0))
     if length < 1e-6 and turn < 1e-6:
-        return BasePath(waypoints=(request.goal,), length_m=0.0, clearance_m=0.0)
+        return _finish(floor, request.start, [request.goal])
     ends = min(floor.clearance_m(x0, y0), floor.clearance_m(x1, y1))
     if floor.segment_clearance_m((x0, y0), (x1, y1)) < min(radius_m, ends) - 0.01:
         return None
@@ -177,63 +178,26 @@ def _escape(floor: Floor, stance: Stance, radius_m: float) -> Stance | None:
     return best[1] if best else None
 
 
-def _corners(floor: Floor, a: Array, b: Array, *, radius_m: float, seed: int) -> Array | None:
-    """Corners of a free polyline, shape (k, 2): straight if possible, else the best of a few."""
-    limit = radius_m - 0.005
-    if floor.segment_clearance_m(tuple(a), tuple(b)) >= limit:
-        return np.array([a, b])
-    x0, y0, x1, y1 = floor.bounds_m
-    best: Array | None = None
-    for attempt in range(TRIES):
-        found = sampling.connect(
-            a,
-            [b],
-            lower=np.array([x0, y0]),
-            upper=np.array([x1, y1]),
-            valid=lambda at: floor.clearance_m(at[0], at[1]) >= limit,
-            resolution=0.02,
-            seed=seed * TRIES + attempt,
-            checks=CHECKS,
-        ).corners
-        if found is not None:
-            found = _pull_tight(floor, found, limit)
-            if best is None or _length(found) < _length(best):
-                best = found
-    return best
-
-
-def _pull_tight(floor: Floor, corners: Array, limit_m: float) -> Array:
-    """Slide every corner towards the line between its neighbours while the lines stay free."""
-    corners = corners.copy()
-    for _ in range(6):
-        for i in range(1, len(corners) - 1):
-            before, after = corners[i - 1], corners[i + 1]
-            target = 0.5 * (before + after)
-            for share in (1.0, 0.5, 0.25, 0.1):
-                moved = corners[i] + share * (target - corners[i])
-                legs = ((before, moved), (moved, after))
-                if all(floor.segment_clearance_m(tuple(p), tuple(q)) >= limit_m for p, q in legs):
-                    corners[i] = moved
-                    break
-    return corners
-
-
 def _length(corners: Array) -> float:
     return float(np.sum(np.linalg.norm(np.diff(corners, axis=0), axis=1)))
 
 
-def _round_off(floor: Floor, corners: Array, radius_m: float) -> Array:
-    """Cut corners (a parabola between points on both legs) where the cut is free; space evenly."""
+def _round_off(floor: Floor, corners: Array, wanted_m: float) -> Array:
+    """Cut corners (a parabola between points on both legs) where that is free; space evenly.
+
+    Free is what is wanted, or as near to things as the corner itself.
+    """
     points: list[Array] = [corners[0]]
     for i in range(1, len(corners) - 1):
         before, corner, after = corners[i - 1], corners[i], corners[i + 1]
+        free_m = min(wanted_m, floor.clearance_m(float(corner[0]), float(corner[1]))) - 0.01
         legs = [np.linalg.norm(corner - before), np.linalg.norm(after - corner)]
         for cut in (CUT_M, 0.5 * CUT_M, 0.25 * CUT_M, 0.0):
             shares = [min(0.5, cut / max(float(leg), 1e-9)) for leg in legs]
             p, q = corner + shares[0] * (before - corner), corner + shares[1] * (after - corner)
             t = np.linspace(0.0, 1.0, 7)[:, None]
             curve = (1 - t) ** 2 * p + 2 * t * (1 - t) * corner + t**2 * q
-            if cut == 0.0 or np.min(floor.clearances_m(curve)) >= radius_m - 0.01:
+            if cut == 0.0 or np.min(floor.clearances_m(curve)) >= free_m:
                 points += list(curve) if cut > 0.0 else [corner]
                 break
     points.append(corners[-1])

@@ -22,6 +22,11 @@ class Floor:
 
     The distances are exact at the grid's points (solids count as upright boxes and cylinders; a
     tilted one counts as its bounding box); the bounds' edge counts as a wall.
+
+    Attributes:
+        bounds_m: of the floor.
+        solids: on it.
+        field: the distances [m], shape (rows, columns): y and x from the bounds' low corner.
     """
 
     def __init__(
@@ -31,11 +36,11 @@ class Floor:
         self.bounds_m = bounds_m
         self.solids = tuple(s for s in solids if _in_the_way(s))
         self._x0, self._y0 = bounds_m[0], bounds_m[1]
-        self._field = _edge_distance(bounds_m)
+        self.field = _edge_distance(bounds_m)
         for solid in self.solids:
-            self._field = np.minimum(self._field, _solid_distance(solid, bounds_m))
-        self._rows: list[list[float]] = self._field.tolist()
-        self._height, self._width = self._field.shape
+            self.field = np.minimum(self.field, _solid_distance(solid, bounds_m))
+        self._rows: list[list[float]] = self.field.tolist()
+        self._height, self._width = self.field.shape
 
     def clearance_m(self, x_m: float, y_m: float) -> float:
         """Distance of a point to the nearest solid or the edge of the map, interpolated [m]."""
@@ -51,9 +56,17 @@ class Floor:
 
     def clearances_m(self, xy: Array) -> Array:
         """The same for many points, shape (n, 2) to (n,)."""
-        return numerics.grid_values(self._field, self._row_column(xy), outside=-1.0)
+        return numerics.grid_values(self.field, self._rows_columns(xy), outside=-1.0)
 
-    def _row_column(self, xy: Array) -> tuple[Array, Array]:
+    def row_column(self, point: Array) -> Array:
+        """Where a point is on the grid, shape (2,) to (2,), in cells."""
+        return np.array([point[1] - self._y0, point[0] - self._x0]) / CELL_M
+
+    def points(self, rows_columns: Indices) -> Array:
+        """The points [m] of cells, shape (n, 2) to (n, 2)."""
+        return np.array([self._x0, self._y0]) + CELL_M * rows_columns[:, ::-1].astype(np.float64)
+
+    def _rows_columns(self, xy: Array) -> tuple[Array, Array]:
         return (xy[:, 1] - self._y0) / CELL_M, (xy[:, 0] - self._x0) / CELL_M
 
     def segment_clearance_m(self, a: tuple[float, float], b: tuple[float, float]) -> float:
@@ -64,7 +77,7 @@ class Floor:
 
     def regions(self, clearance_m: float) -> Indices:
         """Label of every cell's connected free region (0: not free), shape of the grid."""
-        return numerics.regions(self._field >= clearance_m)
+        return numerics.regions(self.field >= clearance_m)
 
     def label_at(self, labels: Indices, xy: Array) -> Indices:
         """Labels of the cells nearest to points, shape (n, 2) to (n,); 0 outside."""
@@ -79,7 +92,7 @@ class Floor:
         if not mask.any():
             return np.zeros(len(xy))
         far = CELL_M * numerics.distance_to(mask)
-        return numerics.grid_values(far, self._row_column(xy), outside=None)
+        return numerics.grid_values(far, self._rows_columns(xy), outside=None)
 
     def home(self, labels: Indices, x_m: float, y_m: float) -> int:
         """Label of the free region nearest to a point, within 1 m (0: none)."""

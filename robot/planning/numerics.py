@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
+from scipy import ndimage, sparse
+from scipy.sparse import csgraph
 
 from robot.kinematics.spline import ClampedSpline
 from robot.se3 import Array
@@ -45,6 +46,41 @@ def distance_to(mask: Mask) -> Array:
     """Distance of every cell to the mask, in cells."""
     result: Any = ndimage.distance_transform_edt(~mask)
     return result
+
+
+def cheapest_ways(cost: Array, stride: int, start: tuple[int, int]) -> tuple[Array, Indices]:
+    """Cheapest ways from one node of a grid to all others, straight and diagonally.
+
+    Args:
+        cost: of crossing a cell, infinite where it cannot be; shape (h, w).
+        stride: cells from node to node; what lies between two counts too.
+        start: row and column of a node.
+
+    Returns:
+        The cost of the way to every node [lengths of `stride` cells], and the index of the node
+        before it in the flattened grid (below 0: there is none), both of the nodes' shape.
+    """
+    nodes = cost[::stride, ::stride]
+    rows, columns = nodes.shape
+    index = np.arange(nodes.size).reshape(nodes.shape)
+    edges: list[tuple[Array, Indices, Indices]] = []
+    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        a = (slice(0, rows - down), slice(max(0, -right), columns - max(0, right)))
+        b = (slice(down, rows), slice(max(0, right), columns - max(0, -right)))
+        crossed = [0.5 * (nodes[a] + nodes[b])]
+        for step in range(1, stride):  # the cells between the two
+            first = np.arange(a[0].start, a[0].stop) * stride + down * step
+            second = np.arange(a[1].start, a[1].stop) * stride + right * step
+            crossed.append(cost[np.ix_(first, second)])
+        weight = np.hypot(down, right) * np.mean(crossed, axis=0)
+        free = np.isfinite(weight)
+        edges.append((weight[free], index[a][free], index[b][free]))
+    weights, tails, heads = (np.concatenate(part) for part in zip(*edges, strict=True))
+    graph = sparse.csr_array((weights, (tails, heads)), shape=(nodes.size, nodes.size))
+    far, before = csgraph.dijkstra(
+        graph, directed=False, indices=int(index[start]), return_predecessors=True
+    )
+    return far.reshape(nodes.shape), before.astype(np.int64).reshape(nodes.shape)
 
 
 def spline(times_s: Array, positions: Array, at_s: Array, *, derivative: int = 0) -> Array:

@@ -108,7 +108,6 @@ class BasePathRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     goal: Stance
     around: Surroundings
     clearance_m: float = 0.06
-    seed: int = 0
 
 
 class BasePath(msgspec.Struct, frozen=True, kw_only=True, tag=True):
@@ -116,12 +115,14 @@ class BasePath(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 
     Between two the body goes straight and its heading changes evenly; two with the same place and
     another yaw mean a turn on the spot; one whose yaw is not along the line to it is stepped to
-    sideways or backwards. `clearance_m` is the least distance of the body to anything on the way.
+    sideways or backwards. `clearances_m` are the least distances of the body's middle to anything
+    on the way to each waypoint (empty: not known), `clearance_m` the least of all.
     """
 
     waypoints: tuple[Stance, ...]
     length_m: float
     clearance_m: float
+    clearances_m: tuple[float, ...] = ()
 
 
 # --- picking and placing -----------------------------------------------------------------------

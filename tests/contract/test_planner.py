@@ -16,7 +16,7 @@ from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PickReq
 from robot.planning.worker import Planner
 from tests.fakes.planning_room import START, on_table, surroundings
 
-PATH = BasePathRequest(start=START, goal=(2.95, -1.2, 0.0), around=surroundings(), seed=3)
+PATH = BasePathRequest(start=START, goal=(2.95, -1.2, 0.0), around=surroundings())
 PICK = PickRequest(object_id="cup", around=surroundings(on_table(0.1, 0.1)), start=START, seed=3)
 ROBOT = load("juno")
 PATIENCE_S = 60.0

@@ -31,8 +31,8 @@ def walking_s(
     """About how long a planned way takes, from standing to standing [s]."""
     gait, goal = description.walking, path.waypoints[-1]
     path = facing_the_way(start, path, free_m=description.body_radius_m)
-    speed_m_s = cruise_m_s(path, gait, carrying=carrying)
-    follower = Follower(start, path.waypoints, walking=gait, speed_m_s=speed_m_s)
+    speeds_m_s = cruise_m_s(path, gait, carrying=carrying)
+    follower = Follower(start, path.waypoints, walking=gait, speeds_m_s=speeds_m_s)
     at, spent_s = pose_of(start), 0.0
     while not is_there(at, follower, goal) and spent_s < LONGEST_S:
         twist = follower.twist(at)

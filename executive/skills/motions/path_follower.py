@@ -20,6 +20,8 @@ AHEAD_M = 0.12
 TURN_AHEAD_M = 0.20
 BEND_AHEAD_M = 0.50
 SLOW_IN_BENDS_1_RAD = 1.2
+SLOW_AHEAD_M = 0.2
+"""Before a stretch that is to be walked slower: what braking takes at the gait's acceleration."""
 PULL_1_S = 0.7
 MOST_PULL_M_S = 0.12
 SEARCH_M = 0.60
@@ -45,9 +47,9 @@ class Velocity(NamedTuple):
 class Run:
     """A polyline walked without turning on the spot, measured along its length."""
 
-    def __init__(self, stances: Sequence[Stance]) -> None:
-        """Make it from at least two stances at different places."""
-        self.stances = list(stances)
+    def __init__(self, stances: Sequence[Stance], speeds_m_s: Sequence[float]) -> None:
+        """Make it from at least two stances at different places, with the speed to each but one."""
+        self.stances, self._speeds_m_s = list(stances), list(speeds_m_s)
         self.at_m = [0.0]
         for a, b in itertools.pairwise(stances):
             self.at_m.append(self.at_m[-1] + math.dist(a[:2], b[:2]))
@@ -68,6 +70,12 @@ class Run:
                 yaw_rad = a_yaw + part * wrap_angle(b_yaw - a_yaw)
                 return (ax + part * (bx - ax), ay + part * (by - ay), wrap_angle(yaw_rad))
         return self.stances[-1]
+
+    def speed_m_s(self, from_m: float, to_m: float) -> float:
+        """The least of the cruising speeds between two distances along."""
+        spans = zip(self.at_m, self.at_m[1:], self._speeds_m_s, strict=False)
+        passed = [v for begin_m, end_m, v in spans if end_m > from_m and begin_m < to_m]
+        return min(passed, default=self._speeds_m_s[-1])
 
     def nearest_m(self, x_m: float, y_m: float, *, from_m: float, to_m: float) -> float:
         """Distance along of the nearest point between two distances.
@@ -99,12 +107,16 @@ class Follower:
     """Velocities that lead the body along a path; remembers how far along it is."""
 
     def __init__(
-        self, start: Stance, waypoints: Sequence[Stance], *, walking: Walking, speed_m_s: float
+        self,
+        start: Stance,
+        waypoints: Sequence[Stance],
+        *,
+        walking: Walking,
+        speeds_m_s: Sequence[float],
     ) -> None:
-        """Follow waypoints at a cruising speed, within the limits of the gait."""
+        """Follow waypoints, to each at its cruising speed, within the limits of the gait."""
         self.walking = walking
-        self.speed_m_s = speed_m_s
-        self._legs = _legs(start, waypoints)
+        self._legs = _legs(start, waypoints, speeds_m_s)
         self._along_m = 0.0
         self._turned_rad = 0.0
         self._turning = False
@@ -148,7 +160,8 @@ class Follower:
             return turn_towards(off_rad, self.walking)
         left_over_m = leg.length_m - self._along_m
         bend_rad = abs(wrap_angle(leg.stance(self._along_m + BEND_AHEAD_M)[2] - X_WS.yaw_rad))
-        speed_m_s = min(self.speed_m_s, LEAST_SPEED_M_S + SLOW_DOWN_1_S * left_over_m)
+        cruise_m_s = leg.speed_m_s(self._along_m, self._along_m + SLOW_AHEAD_M)
+        speed_m_s = min(cruise_m_s, LEAST_SPEED_M_S + SLOW_DOWN_1_S * left_over_m)
         speed_m_s /= 1.0 + SLOW_IN_BENDS_1_RAD * max(bend_rad, abs(off_rad))
         vx, vy = self._velocity(leg, x_m, y_m, speed_m_s)
         c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
@@ -200,21 +213,24 @@ def turn_towards(yaw_error_rad: float, walking: Walking) -> Velocity:
     return Velocity(0.0, 0.0, _clamp(TURN_GAIN_1_S * yaw_error_rad, walking.max_turn_rad_s))
 
 
-def _legs(start: Stance, waypoints: Sequence[Stance]) -> list[Run | Turn]:
+def _legs(
+    start: Stance, waypoints: Sequence[Stance], speeds_m_s: Sequence[float]
+) -> list[Run | Turn]:
     """Group stances into runs, split where the body turns on the spot."""
     legs: list[Run | Turn] = []
-    run = [start]
-    for stance in waypoints:
+    run, speeds = [start], list[float]()
+    for stance, speed_m_s in zip(waypoints, speeds_m_s, strict=True):
         if math.dist(stance[:2], run[-1][:2]) > SAME_PLACE_M:
             run.append(stance)
+            speeds.append(speed_m_s)
             continue
         if len(run) > 1:
-            legs.append(Run(run))
+            legs.append(Run(run, speeds))
         if abs(wrap_angle(stance[2] - run[-1][2])) > 1e-3:
             legs.append(Turn(run[-1][2], stance[2]))
-        run = [stance]
+        run, speeds = [stance], []
     if len(run) > 1:
-        legs.append(Run(run))
+        legs.append(Run(run, speeds))
     return legs
 
 

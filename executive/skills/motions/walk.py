@@ -65,8 +65,8 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
         yield from step_to(body, goal)
         return
     blocker: Obstacle | None = None
-    for attempt in range(1 + REPLANS):
-        path = yield from plan_path(body, goal, attempt=attempt)
+    for _ in range(1 + REPLANS):
+        path = yield from plan_path(body, goal)
         blocker = yield from follow(body, path)
         if blocker is None:
             yield from step_to(body, goal)
@@ -89,20 +89,19 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
     )
 
 
-def path_request(body: Body, goal: Stance, *, attempt: int = 0) -> BasePathRequest:
+def path_request(body: Body, goal: Stance) -> BasePathRequest:
     """A way from here that leaves room for the body's sway."""
     return BasePathRequest(
         start=stance_of(body.X_WS),
         goal=goal,
         around=surroundings(body),
         clearance_m=CLEARANCE_M,
-        seed=body.context.seed + attempt,
     )
 
 
-def plan_path(body: Body, goal: Stance, *, attempt: int = 0) -> Script[BasePath]:
+def plan_path(body: Body, goal: Stance) -> Script[BasePath]:
     """Ask for a way from here."""
-    request = path_request(body, goal, attempt=attempt)
+    request = path_request(body, goal)
     path = yield from ask(body, request, BasePath)
     return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
 
@@ -116,7 +115,7 @@ def facing_the_way(start: Stance, path: BasePath, *, free_m: float) -> BasePath:
     if not sidestep or path.length_m < SIDESTEP_M or path.clearance_m < free_m:
         return path
     waypoints = ((*start[:2], heading_rad), (*goal[:2], heading_rad), goal)
-    return msgspec.structs.replace(path, waypoints=waypoints)
+    return msgspec.structs.replace(path, waypoints=waypoints, clearances_m=())
 
 
 def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
@@ -125,8 +124,8 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     Returns what blocks it. The body is left walking: step on, or stand still.
     """
     gait = body.description.walking
-    speed_m_s = cruise_m_s(path, gait, carrying=bool(body.context.holdings.all()))
-    follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speed_m_s=speed_m_s)
+    speeds_m_s = cruise_m_s(path, gait, carrying=bool(body.context.holdings.all()))
+    follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speeds_m_s=speeds_m_s)
     watch = _Watch(body, follower.total_m)
     while not is_there(body.X_WS, follower, path.waypoints[-1]):
         check_grips(body)
@@ -239,10 +238,14 @@ def _is_near(body: Body, goal: Stance) -> bool:
     return off_m < HAND_OVER_M and off_rad < HAND_OVER_RAD
 
 
-def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> float:
-    """How fast a path is walked where it is straight."""
+def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> list[float]:
+    """How fast a path is walked to each of its waypoints where it is straight."""
     part = CRUISE_CARRYING if carrying else CRUISE
-    return (CRUISE_NARROW if path.clearance_m < NARROW_M else part) * gait.max_forward_m_s
+    clearances_m = path.clearances_m or (path.clearance_m,) * len(path.waypoints)
+    return [
+        (CRUISE_NARROW if clear_m < NARROW_M else part) * gait.max_forward_m_s
+        for clear_m in clearances_m
+    ]
 
 
 def is_there(X_WS: SE3, follower: Follower, goal: Stance) -> bool:

@@ -17,9 +17,13 @@ angle = st.floats(-math.pi, math.pi)
 stance = st.tuples(coordinate, coordinate, angle)
 
 
+def follower_of(start, waypoints):
+    return Follower(start, waypoints, walking=GAIT, speeds_m_s=[0.4] * len(waypoints))
+
+
 @given(stance, st.lists(stance, min_size=1, max_size=5), stance)
 def test_twists_stay_within_the_gait(start, waypoints, here):
-    follower = Follower(start, waypoints, walking=GAIT, speed_m_s=0.4)
+    follower = follower_of(start, waypoints)
     twist = follower.twist(SE3.from_xy_yaw(*here))
     assert -GAIT.max_backward_m_s - 1e-9 <= twist.forward_m_s <= GAIT.max_forward_m_s + 1e-9
     assert abs(twist.left_m_s) <= GAIT.max_sideways_m_s + 1e-9
@@ -56,7 +60,7 @@ def test_it_gets_to_the_end_and_stays_near_the_path(corners, yaw):
         return
     points = [(float(x), float(y)) for x, y in points]
     start = (*points[0], yaw)
-    follower = Follower(start, facing_path(points, yaw), walking=GAIT, speed_m_s=0.4)
+    follower = follower_of(start, facing_path(points, yaw))
     trail = walk(follower, SE3.from_xy_yaw(*start))
     assert follower.done
     assert math.dist(trail[-1].p[:2], points[-1]) < 0.2
@@ -67,7 +71,7 @@ def test_it_gets_to_the_end_and_stays_near_the_path(corners, yaw):
 
 @given(st.floats(-0.3, 0.3), st.floats(-0.5, 0.5))
 def test_it_comes_back_onto_the_path(aside_m, askew_rad):
-    follower = Follower((0.0, 0.0, 0.0), [(4.0, 0.0, 0.0)], walking=GAIT, speed_m_s=0.4)
+    follower = follower_of((0.0, 0.0, 0.0), [(4.0, 0.0, 0.0)])
     trail = walk(follower, SE3.from_xy_yaw(0.0, aside_m, askew_rad))
     late = [X_WS for X_WS in trail if X_WS.p[0] > 2.5]
     assert late
@@ -77,7 +81,7 @@ def test_it_comes_back_onto_the_path(aside_m, askew_rad):
 @pytest.mark.parametrize("bearing", [0.5 * math.pi, -0.5 * math.pi, math.pi])
 def test_it_steps_sideways_and_backwards_where_the_path_says_so(bearing):
     goal = (math.cos(bearing), math.sin(bearing), 0.0)
-    follower = Follower((0.0, 0.0, 0.0), [goal], walking=GAIT, speed_m_s=0.4)
+    follower = follower_of((0.0, 0.0, 0.0), [goal])
     trail = walk(follower, SE3())
     assert follower.done
     assert max(abs(X_WS.yaw_rad) for X_WS in trail) < 0.05
@@ -85,7 +89,7 @@ def test_it_steps_sideways_and_backwards_where_the_path_says_so(bearing):
 
 def test_remaining_never_grows_and_ends_at_nothing():
     path = facing_path([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.5, 0.5)], 2.0)
-    follower = Follower((0.0, 0.0, 2.0), path, walking=GAIT, speed_m_s=0.4)
+    follower = follower_of((0.0, 0.0, 2.0), path)
     remaining, X_WS = [], SE3.from_xy_yaw(0.0, 0.0, 2.0)
     for _ in range(1500):
         twist = follower.twist(X_WS)
@@ -99,7 +103,7 @@ def test_remaining_never_grows_and_ends_at_nothing():
 
 def test_where_the_path_comes_back_on_itself_it_does_not_jump_ahead():
     there_and_back = [(3.0, 0.0, 0.0), (3.0, 0.0, math.pi), (0.0, 0.0, math.pi)]
-    follower = Follower((0.0, 0.0, 0.0), there_and_back, walking=GAIT, speed_m_s=0.4)
+    follower = follower_of((0.0, 0.0, 0.0), there_and_back)
     trail = walk(follower, SE3())
     assert max(X_WS.p[0] for X_WS in trail) > 2.7
     assert abs(trail[-1].p[0]) < 0.2
@@ -109,7 +113,7 @@ def test_where_the_path_comes_back_on_itself_it_does_not_jump_ahead():
 def test_a_stance_along_a_run_lies_on_it(stances, along_m):
     if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in itertools.pairwise(stances)):
         return
-    x, y, yaw = Run(stances).stance(along_m)
+    x, y, yaw = Run(stances, [0.4] * (len(stances) - 1)).stance(along_m)
     off_m = min(_distance((x, y), a[:2], b[:2]) for a, b in itertools.pairwise(stances))
     assert off_m < 1e-6
     assert abs(wrap_angle(yaw)) <= math.pi
@@ -132,7 +136,7 @@ def _distance(p, a, b):
 def test_a_body_that_lags_does_not_cut_corners(angle_rad, lag_s):
     """A table may stand in the corner: 6 cm is all that the planner keeps clear."""
     path = rounded_corner(angle_rad)
-    follower = Follower((0.0, 0.0, 0.0), path, walking=GAIT, speed_m_s=0.4)
+    follower = follower_of((0.0, 0.0, 0.0), path)
     X_WS, velocity, worst_m, dt_s = SE3(), [0.0, 0.0, 0.0], 0.0, 0.05
     stops = [(0.0, 0.0, 0.0), *path]
     for _ in range(600):
@@ -160,3 +164,11 @@ def rounded_corner(angle_rad, leg_m=1.5, cut_m=0.35):
     ways = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in itertools.pairwise(points)]
     yaws = [ways[0], *(0.5 * (a + b) for a, b in itertools.pairwise(ways)), ways[-1]]
     return [(x, y, yaw) for (x, y), yaw in zip(points, yaws, strict=True)]
+
+
+def test_only_the_narrow_part_of_a_way_is_walked_slowly():
+    path = [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)]
+    follower = Follower((0.0, 0.0, 0.0), path, walking=GAIT, speeds_m_s=[0.4, 0.2, 0.4])
+    speeds = [follower.twist(SE3((0.3 * i, 0.0, 0.0))).forward_m_s for i in range(1, 11)]
+    slow = [0.8 < 0.3 * i < 2.0 for i in range(1, 11)]
+    assert speeds == pytest.approx([0.2 if narrow else 0.4 for narrow in slow])
