@@ -91,7 +91,8 @@ def carry_posture(
 ) -> Joints | None:
     """Joints that hold the object as upright as it stood, near the body and clear of it.
 
-    They are free at the standoff, where the arm is brought to them.
+    They are free at the standoff, where the arm is brought to them, and if possible stick out to
+    the side no further than the body with its arms: it goes through doorways like that.
     """
     side, arm = choice.side, body.arms[choice.side]
     sign = 1.0 if side == "left" else -1.0
@@ -120,14 +121,21 @@ def carry_posture(
     hand = body.description.hands[side]
     q = standing.q.copy()
     q[body.motor(hand.motor)] = choice.option.opening_m / hand.opening_per_motor
+    narrowest: tuple[float, Joints] | None = None
     for i in np.argsort(-liked, kind="stable").tolist():
-        if reached.ok[i]:
-            q[arm.motors] = q_arm[i]
-            scene.pose(X_WB, q)
-            scene.update()
-            if not scene.touches(scene.arm_geoms(side)):
-                return _joints(q_arm[i])
-    return None
+        if not reached.ok[i]:
+            continue
+        q[arm.motors] = q_arm[i]
+        scene.pose(X_WB, q)
+        scene.update()
+        if scene.touches(scene.arm_geoms(side)):
+            continue
+        aside_m = scene.aside_m(scene.arm_geoms(side), X_WB)
+        if aside_m <= body.description.body_radius_m:
+            return _joints(q_arm[i])
+        if narrowest is None or aside_m < narrowest[0]:
+            narrowest = (aside_m, _joints(q_arm[i]))
+    return narrowest[1] if narrowest else None
 
 
 def _joints(q: Array) -> Joints:

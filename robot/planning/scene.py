@@ -175,6 +175,19 @@ class Scene:
         self.model.body_margin[:] = 0.0
         np.maximum.at(self.model.body_margin, self.model.geom_bodyid, margin)
 
+    def aside_m(self, geoms: Mask, X_WB: SE3) -> float:
+        """How far some geoms stick out from the middle to either side of the base [m].
+
+        Boxes around each count, so it is a few millimetres more than the truth.
+        """
+        rows = np.flatnonzero(geoms)
+        rotation = self.data.geom_xmat[rows].reshape(-1, 3, 3)
+        centre, half = self.model.geom_aabb[rows, :3], self.model.geom_aabb[rows, 3:]
+        at = self.data.geom_xpos[rows] + (rotation @ centre[..., None])[..., 0] - np.array(X_WB.p)
+        left = X_WB.rotation()[:, 1]
+        reach = np.abs(left @ rotation) * half
+        return float(np.max(np.abs(at @ left) + reach.sum(axis=1)))
+
     def touches(
         self,
         geoms: Mask,

@@ -19,7 +19,7 @@ from robot.se3 import SE3, wrap_angle
 AHEAD_M = 0.12
 TURN_AHEAD_M = 0.20
 BEND_AHEAD_M = 0.50
-SLOW_IN_BENDS_1_RAD = 1.2
+SLOW_IN_BENDS_1_RAD = 0.8
 SLOW_AHEAD_M = 0.2
 """Before a stretch that is to be walked slower: what braking takes at the gait's acceleration."""
 PULL_1_S = 0.7
