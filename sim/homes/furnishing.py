@@ -189,7 +189,7 @@ def _blocks(
             along = (index // 2 - (pairs - 1) / 2) * (width + BESIDE_M)
             off = (depth / 2 + 0.02) * (1 if index % 2 == 0 else -1)
             at = (x + c * off - s * along, y + s * off + c * along)
-            turned = yaw if index % 2 == 0 else yaw - 180
+            turned = yaw if index % 2 == 0 else 180 if yaw == 0 else yaw - 180
             piece = _at(size, at[0], at[1], turned)
             own = f"{name}_{kind.id}"
             pieces.append(msgspec.structs.replace(piece, id=own))

@@ -22,6 +22,8 @@ USUAL = 0.75
 """How likely a thing is where such things are kept."""
 BESIDE = 0.4
 """How likely a thing is put near another that is there."""
+MOST_PER_M, LEAST_FULL = 5, 2
+"""Of things on a metre of a surface; so many it holds, however short it is."""
 TIGHT_M, CLOSE_M, APART_M = 0.05, 0.16, 0.12
 """Gaps: the least, the most of what lies beside something, the least of all else."""
 
@@ -83,6 +85,8 @@ def _put(
         among = likely if likely and rng.random() < USUAL else surfaces
         surface = among[int(rng.integers(len(among)))]
         others = there[surface.place.id]
+        if len(others) >= max(LEAST_FULL, MOST_PER_M * surface.place.size_m[1]):
+            continue
         if others and rng.random() < BESIDE:
             at, gap_m = _beside(item, others[int(rng.integers(len(others)))], rng), TIGHT_M
         else:

@@ -47,9 +47,11 @@ class Surface:
         self._around: Array = around
 
     @property
-    def height_m(self) -> float:
-        """Above the floor."""
-        return float(self.place.X_WP.p[2])
+    def has_one_side(self) -> bool:
+        """Whether everybody who is at it stands before its front."""
+        yaw = self._own.yaw_rad
+        ahead = (self._around - np.array(self.item.at_m)) @ np.array((math.cos(yaw), math.sin(yaw)))
+        return bool(np.all(ahead > self._own.half_m[0]))
 
     def point(self, at_m: Point) -> Point:
         """A point of the surface as a point of the floor below it."""
