@@ -21,7 +21,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """An entry of these files."""
 
 
-class PieceKind(Record, kw_only=True):
+class PieceKind(Record, frozen=True, kw_only=True):
     """A piece of furniture that a room may have; its size is nominal.
 
     Attributes:
@@ -43,7 +43,7 @@ class PieceKind(Record, kw_only=True):
     names: tuple[str, ...] = ()
 
 
-class RoomKind(Record, kw_only=True):
+class RoomKind(Record, frozen=True, kw_only=True):
     """A room that a home may have.
 
     Attributes:
@@ -62,14 +62,14 @@ class RoomKind(Record, kw_only=True):
     pieces: tuple[PieceKind, ...]
 
 
-class SpotKind(Record, kw_only=True):
+class SpotKind(Record, frozen=True, kw_only=True):
     """A point of the floor that has a name."""
 
     id: str
     synonyms: tuple[str, ...] = ()
 
 
-class HomeKind(Record, kw_only=True):
+class HomeKind(Record, frozen=True, kw_only=True):
     """A kind of home: of how many rooms, which, and where its goods are mostly kept (rooms)."""
 
     forms: tuple[Form, ...]
@@ -79,7 +79,7 @@ class HomeKind(Record, kw_only=True):
     goods: dict[str, tuple[str, ...]]
 
 
-class Good(Record, kw_only=True):
+class Good(Record, frozen=True, kw_only=True):
     """A kind of thing; what is `named` is called by that, the rest by its colour."""
 
     category: str
@@ -97,7 +97,7 @@ class Good(Record, kw_only=True):
         return [*self.named.items(), *((color, color) for color in self.colors)]
 
 
-class Someone(Record, kw_only=True):
+class Someone(Record, frozen=True, kw_only=True):
     """Who may be at home."""
 
     id: str
@@ -106,7 +106,7 @@ class Someone(Record, kw_only=True):
     color: str
 
 
-class Stock(Record, kw_only=True):
+class Stock(Record, frozen=True, kw_only=True):
     """`goods.yaml`."""
 
     goods: tuple[Good, ...]

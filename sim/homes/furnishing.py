@@ -13,6 +13,7 @@ from robot.se3 import Vector3
 from sim import atlas, furniture
 from sim.footprint import Footprint, Point
 from sim.homes.catalogue import PieceKind, RoomKind
+from sim.homes.draws import one_of, shuffled
 from sim.homes.ground import outlines
 from sim.world_schema import Furniture, Room, Side, World
 
@@ -76,7 +77,7 @@ def is_for_things(item: Furniture) -> bool:
 def _stand(room: _Room, kind: PieceKind, rng: np.random.Generator) -> None:
     """Find a place for a piece or a block of them, and put it there."""
     if kind.stands == "block":
-        names = [kind.names[index] for index in rng.permutation(len(kind.names)).tolist()]
+        names = shuffled(kind.names, rng)
         while len(names) >= 2:
             count = min(len(names), int(2 * rng.integers(1, 4)))
             block, names = names[:count], names[count:]
@@ -224,7 +225,7 @@ def _sized(kind: PieceKind, rng: np.random.Generator) -> Furniture:
     size: Vector3 = (depth, width, height)
     color = kind.color
     if not color and kind.kind in ("table", "cabinet", "shelf", "chair"):
-        color = WOODS[int(rng.integers(len(WOODS)))]
+        color = one_of(WOODS, rng)
     return Furniture(
         id=kind.id, name=kind.name, synonyms=kind.synonyms, kind=kind.kind, at_m=(0.0, 0.0),
         size_m=size, boards_m=boards, color=color, movable=kind.movable,

@@ -65,7 +65,7 @@ class Ground:
 
     def points(self, cells: Indices) -> Array:
         """Points of the floor, shape (n, 2), of cells, shape (n, 2)."""
-        return self._low + CELL_M * cells
+        return self._low + CELL_M * cells.astype(np.float64)
 
     def within(self, footprint: Footprint, distance_m: float) -> Array:
         """Points of the home that near to the middle of a footprint, in its room, (n, 2)."""
@@ -100,9 +100,10 @@ class Ground:
         c, s = math.cos(footprint.yaw_rad), math.sin(footprint.yaw_rad)
         u = np.abs(c * x + s * y) - footprint.half_m[0]
         v = np.abs(c * y - s * x) - footprint.half_m[1]
-        outside = np.hypot(np.maximum(u, 0.0), np.maximum(v, 0.0))
+        outside: Array = np.hypot(np.maximum(u, 0.0), np.maximum(v, 0.0))
+        inside: Array = np.minimum(np.maximum(u, v), 0.0)
         here = self.clearance_m[i : k + 1, j : m + 1]
-        np.minimum(here, np.where((u < 0) & (v < 0), np.maximum(u, v), outside), out=here)
+        np.minimum(here, outside + inside, out=here)
 
 
 def outlines(world: World) -> list[Footprint]:

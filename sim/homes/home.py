@@ -12,6 +12,7 @@ from robot.errors import ConfigError
 from sim.footprint import Point
 from sim.homes import layout
 from sim.homes.catalogue import HomeKind, Someone, home_kind, stock
+from sim.homes.draws import shuffled
 from sim.homes.furnishing import furnished
 from sim.homes.ground import Ground
 from sim.homes.stocking import stocked
@@ -96,10 +97,9 @@ def _people(world: World, ground: Ground, rng: np.random.Generator) -> tuple[Per
     What the home's ground loses around them is taken off it.
     """
     whole = ground.home.copy()
-    everyone = stock().people
     count = int(rng.integers(PEOPLE[0], PEOPLE[1] + 1))
     found: list[Person] = []
-    for who in (everyone[index] for index in rng.permutation(len(everyone))[:count].tolist()):
+    for who in shuffled(stock().people, rng)[:count]:
         for _ in range(20):
             at = _free(ground, rng, room_m=PERSON_ROOM_M, apart=[p.at_m for p in found])
             if at is None:
@@ -160,7 +160,7 @@ def _free(
     mask = ground.home & (ground.room >= 0)
     mask &= (ground.clearance_m >= room_m) & (ground.clearance_m <= most_m)
     cells = np.argwhere(mask)
-    for index in rng.permutation(len(cells))[:40].tolist():
+    for index in shuffled(range(len(cells)), rng)[:40]:
         x, y = ground.points(cells[index]).tolist()
         at = (round(x, 2) + 0.0, round(y, 2) + 0.0)
         if all(math.dist(at, other) >= APART_M for other in apart):

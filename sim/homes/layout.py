@@ -13,6 +13,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from sim.homes.catalogue import Form, HomeKind, RoomKind
+from sim.homes.draws import one_of, shuffled
 from sim.world_schema import Door, Room, Side
 
 WALL_CM = 8
@@ -55,7 +56,7 @@ class _Border:
 
 def rooms(kind: HomeKind, rng: np.random.Generator) -> tuple[Room, ...]:
     """Rooms with their walls and doors; from each of them a way leads to each other."""
-    form: Form = kind.forms[int(rng.integers(len(kind.forms)))]
+    form: Form = one_of(kind.forms, rng)
     rows = _rows(form, _chosen(kind, form, rng), rng)
     cells = _laid_out(rows, rng)
     borders = [*_within_rows(cells), *_between_rows(cells)]
@@ -77,9 +78,8 @@ def _chosen(kind: HomeKind, form: Form, rng: np.random.Generator) -> list[RoomKi
     if form == "enfilade":
         most = MOST_IN_A_ROW
     count = int(rng.integers(least, most + 1)) - len(found)
-    picked = rng.permutation(len(rest))[: max(0, count)].tolist()
-    found += [rest[index] for index in picked]
-    return [found[index] for index in rng.permutation(len(found)).tolist()]
+    found += shuffled(rest, rng)[: max(0, count)]
+    return shuffled(found, rng)
 
 
 def _rows(
@@ -207,9 +207,7 @@ def _doors(borders: Sequence[_Border], rng: np.random.Generator) -> None:
         ranked = 0.0 if border.is_open else 1.0 if roles & {"hall", "main"} else 2.0
         return ranked + float(rng.random())
 
-    weights = [weight(border) for border in borders]
-    for index in np.argsort(weights).tolist():
-        border = borders[index]
+    for border in sorted(borders, key=weight):
         one, other = top(border.owner.kind.id), top(border.other.kind.id)
         if border.is_open:
             group[one] = other
@@ -221,7 +219,7 @@ def _doors(borders: Sequence[_Border], rng: np.random.Generator) -> None:
 
 def _door(border: _Border, rng: np.random.Generator) -> tuple[Side, int, int]:
     """A door of a wall: side, middle along it from the owner's [cm], width [cm]."""
-    width = int(DOORS_CM[int(rng.integers(len(DOORS_CM)))])
+    width = one_of(DOORS_CM, rng)
     along = 0 if border.side in ("north", "south") else 1
     middle = (border.owner.low[along] + border.owner.high[along]) // 2
     edge = JAMB_CM + (width + 1) // 2

@@ -12,6 +12,7 @@ import numpy as np
 from sim import atlas
 from sim.footprint import Point
 from sim.homes.catalogue import Someone, stock
+from sim.homes.draws import one_of, shuffled
 from sim.homes.home import Home
 from sim.homes.surfaces import Surface
 from sim.world_schema import Entry, Object, Person, Room, Spot
@@ -25,8 +26,8 @@ BEGIN_S, HANDLE_S, TURN_S, SAY_S, LOOK_S = 2.0, 5.0, 2.0, 3.0, 2.0
 """To understand and set out; to grasp or to put down; to turn to something at the end of a way; to
 say a sentence; to look over a surface. By eye: with the walking they come within a fifth of what
 people who wrote such tasks by hand gave for a fetch (25 s) and for two (50 s)."""
-FIXED_SHARE = 0.3
-"""How often something is called by one of its synonyms."""
+SYNONYM, PLAIN = 0.3, 0.6
+"""How often something is called by a synonym; what is alone of its kind, by no more than that."""
 
 
 class Scene:
@@ -43,12 +44,11 @@ class Scene:
 
     def pick(self, items: Sequence[T]) -> T:
         """One of several."""
-        return items[int(self.rng.integers(len(items)))]
+        return one_of(items, self.rng)
 
     def shuffled(self, items: Iterable[T]) -> list[T]:
         """All of them, in any order."""
-        known = list(items)
-        return [known[index] for index in self.rng.permutation(len(known)).tolist()]
+        return shuffled(items, self.rng)
 
     def chance(self, share: float) -> bool:
         """Whether something happens this time."""
@@ -92,8 +92,10 @@ class Scene:
 
     def called(self, entry: Entry) -> str:
         """A room, a spot, a thing: its name, or now and then a synonym."""
-        if entry.synonyms and self.chance(FIXED_SHARE):
+        if entry.synonyms and self.chance(SYNONYM):
             return f"the {self.pick(entry.synonyms)}"
+        if isinstance(entry, Object) and len(self.of(entry.category)) == 1 and self.chance(PLAIN):
+            return f"the {entry.category}"
         return f"the {entry.title}"
 
     def place(self, surface: Surface) -> str:

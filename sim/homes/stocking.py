@@ -9,6 +9,7 @@ import msgspec
 import numpy as np
 
 from sim.homes.catalogue import Good, HomeKind, stock
+from sim.homes.draws import one_of, shuffled
 from sim.homes.surfaces import Surface
 from sim.placing import radius_m
 from sim.world_schema import Object
@@ -35,10 +36,8 @@ def stocked(
     there: dict[str, list[Object]] = {surface.place.id: [] for surface in surfaces}
     found: list[Object] = []
     for good, count in _wanted(kind, rng):
-        variants = good.variants
-        order = rng.permutation(len(variants)).tolist()
         size, mass_kg = _sized(good, rng)
-        for word, color in (variants[index] for index in order[:count]):
+        for word, color in shuffled(good.variants, rng)[:count]:
             name = f"{word}_{good.category}".replace(" ", "_")
             bare = Object(
                 id=name, category=good.category, color=color, shape=good.shape, size_m=size,
@@ -57,10 +56,9 @@ def _wanted(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
     None is called by the last word of another: whoever counts "cans" counts no paint cans.
     """
     goods = {good.category: good for good in stock().goods}
-    names = list(kind.goods)
     found: list[Good] = []
-    for index in rng.permutation(len(names)).tolist():
-        good = goods[names[index]]
+    for name in shuffled(kind.goods, rng):
+        good = goods[name]
         if all(good.category.split()[-1] != other.category.split()[-1] for other in found):
             found.append(good)
     most = int(rng.integers(CATEGORIES[0], CATEGORIES[1] + 1))
@@ -83,12 +81,12 @@ def _put(
     likely = [surface for surface in surfaces if surface.room in usual]
     for _ in range(TRIES):
         among = likely if likely and rng.random() < USUAL else surfaces
-        surface = among[int(rng.integers(len(among)))]
+        surface = one_of(among, rng)
         others = there[surface.place.id]
         if len(others) >= max(LEAST_FULL, MOST_PER_M * surface.place.size_m[1]):
             continue
         if others and rng.random() < BESIDE:
-            at, gap_m = _beside(item, others[int(rng.integers(len(others)))], rng), TIGHT_M
+            at, gap_m = _beside(item, one_of(others, rng), rng), TIGHT_M
         else:
             at, gap_m = _anywhere(item, surface, rng), APART_M
         if surface.takes(item, at, others, gap_m=gap_m):

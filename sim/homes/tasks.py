@@ -24,6 +24,7 @@ from sim.world_schema import Object, Person, Room, Spot
 Truth = dict[str, Any]
 
 CARRY_S = 2 * HANDLE_S
+GREETING = r"\b(hello|hi|hey|good (morning|day|afternoon|evening))\b"
 SPOT_M, PASSED_M = 0.9, 0.7
 """Within which the robot is at a spot at the end, and was there on its way."""
 GREETED_M, HANDED_M, BESIDE_M = 2.5, 1.5, 0.30
@@ -331,7 +332,7 @@ def _spoken_to(scene: Scene, who: Person) -> Task:
         say=words.asked(say, scene.rng),
         truth=[
             {"robot_near": who.id, "within_m": GREETED_M},
-            {"said": f"(?i){news if tells else 'hello'}"},
+            {"said": f"(?i){news if tells else GREETING}"},
         ],
         person_s=scene.person_s([scene.beside(who)], doing_s=SAY_S),
     )

@@ -6,6 +6,8 @@ import re
 
 import numpy as np
 
+from sim.homes.draws import one_of
+
 ASIDE = ("{}",) * 10 + (
     "please {}", "{} please", "could you {}?", "can you {} please?", "hey, {}", "ok, {}",
     "{}, thanks", "would you {}?", "robot, {}", "now {}",
@@ -70,7 +72,7 @@ TWO_APART = (
 RELATIVE = (
     "take the {c} {rel} {b} and put it on {q}", "bring the {c} {rel} {b} to {q}",
     "pick up the {c} {rel} {b} and bring it to {q}", "move the {c} that is {rel} {b} to {q}",
-    "put the {c} {rel} {b} on {q}", "get the {c} standing {rel} {b} and place it on {q}",
+    "the {c} {rel} {b} belongs on {q}", "get the {c} standing {rel} {b} and place it on {q}",
 )  # fmt: skip
 RELATIONS = {
     "near": ("next to", "beside", "right beside", "next to"),
@@ -118,7 +120,7 @@ SEARCH_SPOT = (
 )  # fmt: skip
 HELLO = (
     "find {P} and say hello to {them}", "go to {P} and say hello", "say hello to {P}",
-    "go and greet {P} with a hello", "look for {P} and say hello to {them}",
+    "go and greet {P}", "look for {P} and say hello to {them}",
 )  # fmt: skip
 TELL = (
     "tell {P} that {m}", "go to {P} and tell {them} that {m}", "find {P} and say that {m}",
@@ -170,7 +172,7 @@ def asked(sentence: str, rng: np.random.Generator) -> str:
     """A sentence with what people say around a command, written carefully or not."""
     is_whole = re.search(r"[?.]( |$)|please", sentence)
     if sentence.split(maxsplit=1)[0] in COMMANDS and not is_whole:
-        sentence = ASIDE[int(rng.integers(len(ASIDE)))].format(sentence)
+        sentence = one_of(ASIDE, rng).format(sentence)
     if rng.random() < CAREFULLY:
         sentence = sentence[0].upper() + sentence[1:]
         if sentence[-1] not in "?.":

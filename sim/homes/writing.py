@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
@@ -61,9 +61,9 @@ def _flow(value: object) -> str:
     if isinstance(value, int | float):
         return f"{round(value, 3) + 0.0:g}"
     if isinstance(value, Mapping):
-        entries: Mapping[str, object] = value
+        entries = cast("Mapping[str, object]", value)
         return "{" + ", ".join(f"{key}: {_flow(item)}" for key, item in entries.items()) + "}"
     if isinstance(value, Sequence):
-        items: Sequence[object] = value
+        items = cast("Sequence[object]", value)
         return "[" + ", ".join(_flow(item) for item in items) + "]"
     raise TypeError(f"{type(value).__name__} is nothing of a world")
