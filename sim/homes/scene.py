@@ -20,7 +20,7 @@ from sim.world_schema import Entry, Object, Person, Room, Spot
 T = TypeVar("T")
 
 WALK_M_S = 1.0
-"""Of a calm person: adults walk 1.2 to 1.4 m/s on a free way (Bohannon and Andrews 2011); at home there are
+"""Of a calm person: adults walk 1.2 to 1.4 m/s on a free way (docs/worlds.md); at home there are
 doors and corners, and a cup in the hand is not to be spilt."""
 BEGIN_S, HANDLE_S, TURN_S, SAY_S, LOOK_S = 2.0, 5.0, 2.0, 3.0, 2.0
 """To understand and set out; to grasp or to put down; to turn to something at the end of a way; to
