@@ -10,7 +10,7 @@ import numpy as np
 
 from sim.homes.catalogue import Good, HomeKind, stock
 from sim.homes.draws import one_of, shuffled
-from sim.homes.surfaces import Surface
+from sim.homes.surfaces import DEEP_M, RIM_M, Surface
 from sim.placing import radius_m
 from sim.world_schema import Object
 
@@ -21,6 +21,8 @@ COUNTS = (4, 3, 2, 3, 2, 2, 1, 1)
 """Of things of the first category, the second, ...: several to count and to gather, some alone."""
 USUAL = 0.75
 """How likely a thing is where such things are kept."""
+TO_THE_BACK = 0.4
+"""How likely a thing lies at the far side of what can be walked around."""
 BESIDE = 0.4
 """How likely a thing is put near another that is there."""
 MOST_PER_M, LEAST_FULL = 5, 2
@@ -107,11 +109,15 @@ def _beside(item: Object, other: Object, rng: np.random.Generator) -> tuple[floa
 
 
 def _anywhere(item: Object, surface: Surface, rng: np.random.Generator) -> tuple[float, float]:
-    room = [max(0.0, side / 2 - radius_m(item)) for side in surface.place.size_m]
-    return (
-        round(float(rng.uniform(-room[0], room[0])), 2),
-        round(float(rng.uniform(-room[1], room[1])), 2),
-    )
+    """Near the front mostly, as people put things down; where there are two sides, near either."""
+    depth, width = surface.place.size_m
+    rim = radius_m(item) + RIM_M
+    deep = max(0.0, min(DEEP_M, depth - rim) - rim)
+    ahead = depth / 2 - rim - deep * float(rng.random()) ** 2
+    if not surface.has_one_side and rng.random() < TO_THE_BACK:
+        ahead = -ahead
+    side = max(0.0, width / 2 - radius_m(item))
+    return round(ahead, 2), round(float(rng.uniform(-side, side)), 2)
 
 
 def _sized(good: Good, rng: np.random.Generator) -> tuple[tuple[float, float, float], float]:

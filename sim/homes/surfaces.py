@@ -17,13 +17,14 @@ from sim.homes.ground import HALF_WAY_M, Ground
 from sim.placing import radius_m
 from sim.world_schema import Furniture, Object, World
 
-DEEP_M = 0.38
-"""How far in from an edge that can be stood at things may lie: 0.65 m deep, less a radius and air
-at the back, is what is promised, a little more than half of that what is seldom refused."""
+DEEP_M = 0.35
+"""How far in from an edge that can be stood at the middle of things may lie."""
+HIGHEST_GRASP_M = 1.20
+"""Of a hand: on the highest surface that is within reach (docs/worlds.md) stands nothing tall."""
 REACH_M = DEEP_M + HALF_WAY_M + 0.05
 """From there to the nearest point of a way, its grid's cell included."""
-RIM_M = 0.05
-"""Between a thing and the edge of what it lies on: evaluations move it by up to 3 cm."""
+RIM_M, BOARD_RIM_M = 0.05, 0.03
+"""Between a thing and the edge of a surface, of a board: evaluations move it by up to 3 cm."""
 HAND_M = 0.11
 """Of free surface around the middle of what is put down: half a hand and 4 cm (planning/place)."""
 LIFT_M = 0.05
@@ -72,7 +73,7 @@ class Surface:
     def takes(self, item: Object, at_m: Point, others: Sequence[Object], *, gap_m: float) -> bool:
         """Whether a thing can lie there, that far from all others, and be reached."""
         own = radius_m(item)
-        rim_m = min(RIM_M, 0.03 if self.item.kind == "shelf" else RIM_M)
+        rim_m = BOARD_RIM_M if self.item.kind == "shelf" else RIM_M
         inside = all(
             abs(value) <= side / 2 - own - rim_m
             for value, side in zip(at_m, self.place.size_m, strict=True)
@@ -80,6 +81,7 @@ class Surface:
         return (
             inside
             and item.size_m[2] + LIFT_M <= self.place.clearance_m
+            and self.place.X_WP.p[2] + item.size_m[2] / 2 <= HIGHEST_GRASP_M
             and all(
                 math.dist(at_m, other.at_m or at_m) - own - radius_m(other) >= gap_m
                 for other in others
