@@ -15,6 +15,7 @@ from sim.footprint import Footprint, Point
 from sim.world_schema import Object, Start, World
 
 GAP_M = 0.10  # between objects that are drawn at random: room for a hand around each
+FINGER_M = 0.05  # between objects that are moved a little: a finger, and air on both its sides
 EDGE_M = 0.02  # from an object's side to the edge of its place
 ROBOT_M = 0.40  # of floor that the robot wants around its stance to begin
 TRIES = 2000
@@ -85,18 +86,21 @@ def nudged(
         world: what to vary.
         seed: of the draw; the same seed gives the same world.
         start: where the robot starts (x [m], y [m], heading [deg]) in place of the world's start.
-        by_m: how far the robot, and every object with a spot, may be moved.
+        by_m: how far the robot, and every object with a spot, may be moved; what would come too
+            near to another, or over an edge, stays where it is.
         by_deg: how far the robot may be turned; objects get any heading.
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, 0xD6E]))
     x_m, y_m, yaw_deg = start or (*world.start.at_m, world.start.yaw_deg)
-    objects: list[Object] = []
-    for item in world.objects:
+    places = atlas.places(world)
+    objects = list(world.objects)
+    for index, item in enumerate(world.objects):
         dx, dy, yaw = (float(value) for value in rng.uniform(-1.0, 1.0, 3))
         if item.at_m is not None:
-            at_m = (item.at_m[0] + by_m * dx, item.at_m[1] + by_m * dy)
-            item = msgspec.structs.replace(item, at_m=at_m, yaw_deg=180.0 * yaw)  # noqa: PLW2901
-        objects.append(item)
+            moved = (item.at_m[0] + by_m * dx, item.at_m[1] + by_m * dy)
+            others = [o for o in objects if o.on == item.on and o is not item]
+            at_m = moved if _may_be_at(moved, item, places[item.on], others) else item.at_m
+            objects[index] = msgspec.structs.replace(item, at_m=at_m, yaw_deg=180.0 * yaw)
     dx, dy, turn = (float(value) for value in rng.uniform(-1.0, 1.0, 3))
     begin = Start(at_m=(x_m + by_m * dx, y_m + by_m * dy), yaw_deg=yaw_deg + by_deg * turn)
     return msgspec.structs.replace(world, objects=tuple(objects), start=begin)
@@ -134,6 +138,14 @@ def _free_floor(world: World, rng: np.random.Generator) -> Point:
         if max(inside) >= ROBOT_M and clear_of(world, point, ROBOT_M) is None:
             return point
     raise ConfigError(f"world {world.name!r} has no free floor for the robot to start on")
+
+
+def _may_be_at(spot: Point, item: Object, place: Place, others: list[Object]) -> bool:
+    """Whether an object stands whole on its place there, and a finger goes between any two."""
+    own = radius_m(item)
+    inside = (abs(v) <= side / 2 - own for v, side in zip(spot, place.size_m, strict=True))
+    gaps = (math.dist(spot, o.at_m) - own - radius_m(o) for o in others if o.at_m is not None)
+    return all(inside) and all(gap >= FINGER_M for gap in gaps)
 
 
 def _draw(

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin
+from robot.reality.contract import Begin, Home
 from robot.reality.faults import Fault
 from sim import atlas, faults, placing, world
+from sim.homes import catalogue
 from sim.world_schema import World
 
 if TYPE_CHECKING:
@@ -30,6 +31,16 @@ class Simulation:
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
         return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed)
+
+    def home_kinds(self) -> list[str]:
+        """Kinds of homes that can be made (sim/homes/kinds)."""
+        return catalogue.names()
+
+    def home(self, kind: str, *, seed: int, file: str) -> Home:
+        """Make a home. Raises ConfigError for an unknown kind."""
+        from sim.homes.made import made  # scipy's graphs, which nothing else here needs
+
+        return made(kind, seed, file=file)
 
 
 class SimulatedWorld:

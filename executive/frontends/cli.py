@@ -30,6 +30,7 @@ from executive.frontends.options import (
 )
 from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
+from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import write_ordinary
@@ -207,19 +208,6 @@ def doctor(*, robot: Robot = "juno", as_json: AsJson = False) -> None:
     raise typer.Exit(doctor(robot=robot, as_json=as_json))
 
 
-@app.command()
-def worlds() -> None:
-    """List the shipped worlds with what is in them."""
-    from executive.frontends.reality import REALITY
-
-    for name in REALITY.names():
-        world_map = REALITY.world(name).map
-        objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
-        places = ", ".join(place.name for place in world_map.places)
-        say(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
-    say("Write your own: docs/worlds.md; use it with --world FILE.")
-
-
 @model_app.command()
 def export(
     *,
@@ -244,6 +232,7 @@ def export(
 
 
 # After the commands above, so that `--help` lists first what people use first.
+worlds.register(app)
 missions.register(app)
 history.register(app)
 dumps.register(app)

@@ -34,6 +34,30 @@ class Reality(Protocol):
         """
         ...
 
+    def home_kinds(self) -> list[str]:
+        """Kinds of homes that can be made."""
+        ...
+
+    def home(self, kind: str, *, seed: int, file: str) -> Home:
+        """Make a home, always the same of a kind and a seed.
+
+        Args:
+            kind: one of `home_kinds`.
+            seed: of everything random.
+            file: the world's file, as the tasks name it.
+
+        Raises:
+            ConfigError: there is no such kind, with the nearest name.
+        """
+        ...
+
+
+class Home(NamedTuple):
+    """A made home: the texts of a world file, and of a file of tasks in it."""
+
+    world: str
+    tasks: str
+
 
 class Begin(NamedTuple):
     """Where an object is before anything moved: its pose, and the id of the place it is on."""

@@ -1,0 +1,1 @@
+"""`humanoid worlds`: those that come along, and homes made from a seed."""

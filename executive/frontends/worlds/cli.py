@@ -1,0 +1,64 @@
+"""The command line of `humanoid worlds`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from executive.frontends.options import Seed
+
+app = typer.Typer(
+    invoke_without_command=True,
+    help="List the worlds that come along with what is in them, or make homes from a seed.",
+)
+
+
+def register(parent: typer.Typer) -> None:
+    """Add the commands to the command line."""
+    parent.add_typer(app, name="worlds")
+
+
+@app.callback()
+def worlds(context: typer.Context) -> None:
+    """What is done without a command."""
+    if context.invoked_subcommand is None:
+        from executive.frontends.worlds import commands
+
+        raise typer.Exit(commands.list_all())
+
+
+@app.command(no_args_is_help=True)
+def new(
+    *,
+    kind: Annotated[
+        str, typer.Option("--kind", "-k", help="flat, office, ...: humanoid worlds lists them.")
+    ],
+    seed: Seed = 0,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", "--output", "-o", help="The world file to write (default: print it)."
+        ),
+    ] = None,
+    tasks: Annotated[
+        Path | None,
+        typer.Option("--tasks", "-t", help="Write ten tasks for it into this file (needs --out)."),
+    ] = None,
+) -> None:
+    """Make a home: rooms, doors, furniture, things, people, and what to ask for there.
+
+    The same kind and seed are always the same home. No file is overwritten.
+
+    [bold]Examples[/bold]
+
+      humanoid worlds new --kind flat --seed 7 --out flat7.yaml
+
+      humanoid worlds new -k office -s 3 -o office3.yaml --tasks office3.tasks.yaml
+
+      humanoid worlds new --kind clinic            (print it)
+    """
+    from executive.frontends.worlds import commands
+
+    raise typer.Exit(commands.new(kind, seed=seed, output=output, tasks=tasks))

@@ -1,0 +1,82 @@
+"""What the commands of `humanoid worlds` do."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from executive.frontends.output import say, write
+from executive.frontends.reality import REALITY
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
+from robot.ordinary_files import write_ordinary
+
+PRINTED = "-"
+
+
+def list_all() -> int:
+    """Say what is in the shipped worlds, and which homes can be made."""
+    for name in REALITY.names():
+        world_map = REALITY.world(name).map
+        objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
+        places = ", ".join(place.name for place in world_map.places)
+        say(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
+    say("Write your own: docs/worlds.md; use it with --world FILE.")
+    kinds = ", ".join(REALITY.home_kinds())
+    say(f"Or have one made: humanoid worlds new --kind KIND --seed N ({kinds}).")
+    return ExitStatus.DONE
+
+
+def new(kind: str, *, seed: int, output: Path | None, tasks: Path | None) -> int:
+    """Make a home, and print it or write it down with its tasks.
+
+    Raises:
+        ConfigError: the kind is unknown, a file is there already or cannot be written.
+    """
+    output = None if str(output) == PRINTED else output
+    if tasks is not None and output is None:
+        cure = "name the world's file too: --out home.yaml --tasks home.tasks.yaml"
+        raise ConfigError([Problem("the tasks need the file of their world", suggestion=cure)])
+    if output is not None and tasks is not None and _whole(output) == _whole(tasks):
+        cure = "--out home.yaml --tasks home.tasks.yaml"
+        raise ConfigError([Problem("world and tasks are two files", str(tasks), suggestion=cure)])
+    for path in (output, tasks):
+        if path is not None:
+            _check(path)
+    home = REALITY.home(kind, seed=seed, file=_named(output, tasks))
+    if output is None:
+        write(home.world)
+        return ExitStatus.DONE
+    _put(output, home.world)
+    if tasks is not None:
+        _put(tasks, home.tasks)
+    return ExitStatus.DONE
+
+
+def _named(world: Path | None, tasks: Path | None) -> str:
+    """The world's file, as seen from that of its tasks."""
+    if world is None or tasks is None:
+        return ""
+    return os.path.relpath(_whole(world), _whole(tasks).parent)
+
+
+def _whole(path: Path) -> Path:
+    return Path(os.path.realpath(path.parent)) / path.name
+
+
+def _check(path: Path) -> None:
+    """Refuse a name that a world or its tasks cannot have, before anything is made."""
+    if path.suffix not in (".yaml", ".yml"):
+        cure = f"call it {path.name or 'home'}.yaml: worlds are known by that"
+        raise ConfigError([Problem("this is no name of a YAML file", str(path), suggestion=cure)])
+    if os.path.lexists(path):
+        cure = "choose another name, or remove it first"
+        raise ConfigError([Problem("the file is there already", str(path), suggestion=cure)])
+
+
+def _put(path: Path, text: str) -> None:
+    try:
+        write_ordinary(path, text.encode(), anew=True)
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
+    say(f"Done: {path}")

@@ -1,0 +1,1 @@
+"""Homes made from a seed: rooms, furniture, things, people, and what to ask of a robot there."""

@@ -1,0 +1,22 @@
+"""A home and its tasks as the texts of two files."""
+
+from __future__ import annotations
+
+from robot.reality.contract import Home
+from sim.homes.home import home
+from sim.homes.tasks import tasks
+from sim.homes.writing import tasks_yaml, world_yaml
+
+
+def made(kind: str, seed: int, *, file: str) -> Home:
+    """Make a home; `file` is how its tasks name its world. Raises ConfigError as `home`."""
+    found = home(kind, seed)
+    by = f"humanoid worlds new --kind {kind} --seed {seed}"
+    return Home(
+        world=world_yaml(found, head=f"A home made by `{by}`; docs/worlds.md says what is what."),
+        tasks=tasks_yaml(
+            tasks(found, seed),
+            world=file,
+            head=f"What somebody would ask for there; made by `{by}`.",
+        ),
+    )

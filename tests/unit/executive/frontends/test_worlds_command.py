@@ -1,0 +1,56 @@
+"""`humanoid worlds new`: a home on the screen or in files that were not there."""
+
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.reality import REALITY
+from executive.frontends.worlds import commands
+from robot import yaml_nodes
+from robot.errors import ConfigError
+
+
+def test_a_home_is_printed(capsys):
+    assert commands.new("flat", seed=7, output=None, tasks=None) == 0
+    assert capsys.readouterr().out == REALITY.home("flat", seed=7, file="").world
+    assert commands.new("flat", seed=7, output=Path("-"), tasks=None) == 0
+    assert capsys.readouterr().out == REALITY.home("flat", seed=7, file="").world
+
+
+def test_a_home_and_its_tasks_are_written_down(tmp_path):
+    (tmp_path / "asked").mkdir()
+    world, tasks = tmp_path / "home.yaml", tmp_path / "asked" / "tasks.yaml"
+    commands.new("office", seed=3, output=world, tasks=tasks)
+    assert REALITY.world(str(world)).map.name == "office_3"
+    named = yaml_nodes.read(tasks).plain_data["world"]
+    assert (tasks.parent / named).resolve() == world.resolve()
+
+
+@pytest.mark.parametrize(
+    ("world", "tasks", "wrong"),
+    [
+        (None, "tasks.yaml", "the tasks need the file of their world"),
+        ("-", "tasks.yaml", "the tasks need the file of their world"),
+        ("home.yaml", "./home.yaml", "world and tasks are two files"),
+        ("there.yaml", None, "the file is there already"),
+        ("home.yaml", "there.yaml", "the file is there already"),
+        ("home.txt", None, "call it home.txt.yaml"),
+        ("nowhere/home.yaml", None, "cannot be written"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_and_nothing_is(
+    tmp_path, monkeypatch, world, tasks, wrong
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there.yaml").write_text("mine")
+    with pytest.raises(ConfigError, match=wrong):
+        commands.new("flat", seed=1, output=world and Path(world), tasks=tasks and Path(tasks))
+    assert [path.name for path in tmp_path.iterdir()] == ["there.yaml"]
+    assert (tmp_path / "there.yaml").read_text() == "mine"
+
+
+def test_the_list_says_what_can_be_made(capsys):
+    commands.list_all()
+    said = capsys.readouterr().out
+    assert "kitchen" in said
+    assert all(kind in said for kind in REALITY.home_kinds())
