@@ -66,6 +66,7 @@ class Executive:
         journal: where events go.
         so_far: what the journal tells since this executive began, for all who show it.
         tree: what is ticked.
+        pause_wanted: whether a pause was asked for, and neither `resume` nor `stop` since.
     """
 
     def __init__(
@@ -93,6 +94,7 @@ class Executive:
         self.so_far = reader.run
         self.on_request: Callable[[], None] = lambda: None
         self.outcome: Outcome | None = None
+        self.pause_wanted = False
         self._operator = self.board.claim("operator")
         self._voice = self.board.claim("voice")
         self._say_on = context.say
@@ -153,10 +155,12 @@ class Executive:
 
     def pause(self, why: str = "paused on request") -> None:
         """Bring the robot to a stand and keep it there; `state` says when it stands."""
+        self.pause_wanted = True
         self._post(lambda: self._pause(why), "pause", why=why)
 
     def resume(self) -> None:
         """Go on after a pause, each job with the step it was in."""
+        self.pause_wanted = False
         self._post(self._resume, "resume")
 
     def stop(self, why: str) -> None:
@@ -164,6 +168,7 @@ class Executive:
 
         What is submitted after this is not ended; it begins when the robot stands.
         """
+        self.pause_wanted = False
         with self._lock:
             last = self._count
         self._post(lambda: self._stop(why, last), "stop", why=why)

@@ -85,7 +85,6 @@ def test_a_sentence_is_done(shell: Shell):
         ("inject meteor", "unknown fault"),
         ("run nowhere.yaml", "nowhere.yaml"),
         ("save mission", "save it where?"),
-        ("save mission /nowhere/at/all.yaml", "cannot be written"),
     ],
 )
 def test_what_cannot_be_meant_is_said_and_nothing_moves(shell: Shell, line: str, words: str):
@@ -312,6 +311,33 @@ def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
     assert "the red one" not in text  # it was stopped, and says nothing by itself
     shell.line(f"save mission {path}")
     assert "is there already" in shell.out.text
+    shell.line("save mission /nowhere/at/all.yaml")
+    assert "cannot be written" in shell.out.text
+
+
+def test_where_nothing_was_done_there_is_nothing_to_save(tmp_path: Path):
+    with shell_in(tmp_path, "empty") as shell:
+        shell.line(f"save mission {tmp_path / 'morning.yaml'}")
+        assert "nothing was done yet" in shell.out.text
+
+
+@pytest.mark.parametrize("line", ["resume", "continue", "carry on"])
+def test_who_goes_on_where_nothing_is_paused_is_told_so(shell: Shell, line: str):
+    shell.line("say hello")
+    shell.robot.wait()
+    shell.line(line)
+    assert "Nothing is paused, and nothing is to be done." in shell.out.text
+    assert "say hello" in shell.out.text
+    shell.line("squat for 20 seconds")
+    assert eventually(shell.under_way)
+    shell.line(line)
+    assert "Nothing is paused: “squat for 20 seconds” is under way." in shell.out.text
+    shell.out.clear()
+    shell.line("pause")
+    shell.line(line)  # at once, before the pause was carried out
+    assert "Nothing is paused" not in shell.out.text
+    shell.line("stop")
+    shell.robot.wait()
 
 
 def test_left_and_right_are_as_the_robot_sees_them(shell: Shell):
