@@ -27,6 +27,7 @@ from prompt_toolkit.search import stop_search
 from prompt_toolkit.shortcuts import CompleteStyle
 from prompt_toolkit.styles import Style
 
+from executive.frontends.output import as_mistake
 from executive.frontends.prompt.completion import LineCompleter
 from executive.frontends.prompt.keyboard import HEEDED, Keyboard
 from executive.frontends.prompt.shell import Shell
@@ -147,7 +148,7 @@ class Terminal:
                 mistakes += 1
                 if mistakes >= MOST_MISTAKES:
                     raise
-                shell.out(_as_mistake(error))
+                shell.out(as_mistake(error))
                 continue
             mistakes = 0
             heeded, self._was_heeded = self._was_heeded, False
@@ -173,7 +174,7 @@ class Terminal:
     def _mistake(self, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         """A mistake in what keys or drawing call must not end the prompt, nor hold it up."""
         error = context.get("exception")
-        self._shell.out(_as_mistake(error) if error else str(context.get("message")))
+        self._shell.out(as_mistake(error) if error else str(context.get("message")))
 
     # --- the lines' thread ---
 
@@ -182,7 +183,7 @@ class Terminal:
         try:
             self._shell.line(text, stops=stops)
         except Exception as error:
-            self._shell.out(_as_mistake(error))
+            self._shell.out(as_mistake(error))
         finally:
             self._open_lines -= 1
 
@@ -268,10 +269,6 @@ def leave_modes(event: KeyPressEvent) -> None:
     app.quoted_insert = False
     app.current_buffer.cancel_completion()
     app.current_buffer.exit_selection()
-
-
-def _as_mistake(error: BaseException) -> str:
-    return f"That is a mistake in this software: {type(error).__name__}: {error}"
 
 
 class _LastingHistory(FileHistory):

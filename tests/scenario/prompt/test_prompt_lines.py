@@ -4,13 +4,16 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Thread
 from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from prompt_toolkit.buffer import Buffer
 from prompt_toolkit.keys import Keys
 
-from benchmarks.intents.endpoint import Reply, serving
+from benchmarks.intents.endpoint import Reply, Server, serving
+from executive.frontends.listening.obeying import Conversation
 from executive.frontends.prompt import commands
 from executive.frontends.prompt.cli import words
 from executive.frontends.prompt.plain import work_off
@@ -24,6 +27,7 @@ from executive.meaning import request
 from executive.runs.runtimes import Setup
 from executive.skills.catalogue import SKILLS
 from intents.language_model import Endpoint, LanguageModel
+from intents.speech.ear import Ear, Spoken
 from robot.clock import WallClock
 from tests.fakes.voices import Loudspeaker
 from tests.fakes.waiting import eventually
@@ -372,6 +376,53 @@ def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Pat
             assert shell.robot.executive.jobs[-1].state == "done"
             shell.line("brighten up the evening")
             assert "language model was of no help" in shell.out[-1]
+
+
+@contextmanager
+def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
+    """A shell at work, whose language model never answers."""
+    with serving(Reply(delay_s=3600.0)) as server:
+        endpoint = Endpoint(base_url=server.url, model="local", deadline_s=3600.0)
+        with shell_in(folder, "empty", LanguageModel(endpoint)) as shell:
+            shell.line("squat for 60 seconds")
+            assert eventually(shell.under_way)
+            yield shell, server
+
+
+def test_a_stop_acts_while_a_language_model_is_asked(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        how = {"stops": shell.stops}
+        line = Thread(target=shell.line, args=("brighten up the morning",), kwargs=how)
+        line.start()
+        assert eventually(lambda: server.requests)
+        assert shell.stop_at_once("stop")
+        shell.robot.wait()
+        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+        line.join()
+        assert "“brighten up the morning” was there when you said stop" in shell.out.text
+        assert shell.dialogue.question is None
+
+
+def test_who_leaves_does_not_wait_for_a_language_model(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        line = Thread(target=shell.line, args=("brighten up the morning",))
+        line.start()
+        assert eventually(lambda: server.requests)
+        shell.leave()
+        line.join()
+        assert len(shell.robot.executive.jobs) == 1
+
+
+def test_a_stop_is_heard_while_a_language_model_is_asked(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        ear = cast(Ear, SimpleNamespace(replying=False, said=lambda _text: None))
+        conversation = Conversation(shell, ear, recorded=False)
+        conversation.take(Spoken(kind="sentence", text="brighten up the morning"))
+        assert eventually(lambda: server.requests)
+        conversation.take(Spoken(kind="stop", text="stop"))
+        shell.robot.wait()
+        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+        assert eventually(lambda: "was there when you said stop" in shell.out.text)
 
 
 def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
