@@ -40,6 +40,10 @@ REFRESH_S = 0.2
 PANEL_SHARE = 0.5
 """Of the terminal's height that the tree may take."""
 LEAVING = ("quit", "exit")
+NOT_SUSPENDED = (
+    "Ctrl-Z does not suspend the prompt: nobody could stop the robot then. Ctrl-C stops it, Ctrl-D "
+    "leaves."
+)
 GO_WITHOUT_S = 2.0
 """How long the prompt may take to end after a signal: one that writes to a terminal that does not
 read never does."""
@@ -249,6 +253,10 @@ class Terminal:
                 typed += [KeyPress(Keys.Enter, "\r"), KeyPress(Keys.BracketedPaste, piece)]
             event.key_processor.feed_multiple(typed, first=True)
 
+        def suspend(_event: KeyPressEvent) -> None:
+            """A prompt that is suspended hears no stop."""
+            self._shell.out(NOT_SUSPENDED)
+
         def ignore(_event: KeyPressEvent) -> None:
             """Nobody asked for the mouse: what looks like a report of it is a pasted colour."""
 
@@ -256,6 +264,7 @@ class Terminal:
         for key in (Keys.ControlC, Keys.ControlBackslash):
             add(key, eager=True)(stop)
         add(HEEDED, eager=True)(heeded)
+        add(Keys.ControlZ, eager=True)(suspend)
         add(Keys.BracketedPaste)(paste)
         add(Keys.Vt100MouseEvent)(ignore)
         return keys
