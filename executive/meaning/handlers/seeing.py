@@ -44,7 +44,7 @@ def _aside(where: str) -> Part | None:
         turn = Errand(name="turn around", params=NavigateParams(by=step))
         ahead = Errand(name="look ahead", params=LookParams(towards="ahead"))
         return Series(name="look behind", parts=(turn, ahead))
-    side = next((side for side in SIDES if side == where), None)
+    side = {f"{side}": side for side in SIDES}.get(where)
     return None if side is None else Errand(name=f"look {side}", params=LookParams(towards=side))
 
 
