@@ -8,7 +8,7 @@ from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.handlers.steps import about, search, surfaces
 from executive.meaning.identify import Scene, cannot
-from executive.skills.look import SIDES, LookParams
+from executive.skills.look import SIDES, LookParams, Side
 from executive.skills.navigate import NavigateParams, Step
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series
@@ -16,6 +16,7 @@ from intents import goals
 from robot.messages import Place
 
 AROUND, BEHIND = "around", "behind"
+_SIDES: dict[str, Side] = {side: side for side in SIDES}
 
 
 def look_at(goal: goals.LookAt, scene: Scene) -> Part:
@@ -44,7 +45,7 @@ def _aside(where: str) -> Part | None:
         turn = Errand(name="turn around", params=NavigateParams(by=step))
         ahead = Errand(name="look ahead", params=LookParams(towards="ahead"))
         return Series(name="look behind", parts=(turn, ahead))
-    side = {f"{side}": side for side in SIDES}.get(where)
+    side = _SIDES.get(where)
     return None if side is None else Errand(name=f"look {side}", params=LookParams(towards=side))
 
 
