@@ -67,6 +67,7 @@ def main(
     streams.steady()
     tell_of_mistakes()
     tie_to_parent(int(parent_pid))
+    signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # the launcher answers it
     folder = Path(private)
     try:
         run, front = _turn(folder, int(number), load)

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from intents import replies, wording
 from intents.context import Context, verdict_of
-from intents.goals import Cancel, Find, Goal, Report, Stop, Tell
+from intents.goals import Cancel, Find, Goal, ObjectQuery, Report, Stop, Tell
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.risks import risk
@@ -177,7 +177,7 @@ class Dialogue:
         """
         alone, _ = hear(text, self.vocabulary, context=replace(before, question=None))
         if isinstance(alone, Goals) and isinstance(outcome, Goals) and alone.goals == outcome.goals:
-            told = self._told(text, alone.goals, state)
+            told = self._told(text, alone, state)
             if isinstance(told, Reply):
                 return told
             self.dropped = opened.question.removeprefix("I did not get that. ")
@@ -188,7 +188,7 @@ class Dialogue:
 
     def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
         """Answer what needs no motion, confirm what is risky, and pass on the rest."""
-        told = self._told(text, outcome.goals, state)
+        told = self._told(text, outcome, state)
         if isinstance(told, Reply):
             self.context = after
             return replace(told, ms=outcome.ms)
@@ -205,24 +205,44 @@ class Dialogue:
         self.context = replace(self.context, question=question)
         return question
 
-    def _told(
-        self, text: str, goals: tuple[Goal, ...], state: RobotState
-    ) -> Reply | Question | None:
+    def _told(self, text: str, outcome: Goals, state: RobotState) -> Reply | Question | None:
         """What can be said at once, or asked because it is not known."""
-        reports = [goal for goal in goals if isinstance(goal, Report)]
-        if reports and len(reports) == len(goals):
-            return Reply(text=" ".join(replies.report(goal.topic, state) for goal in reports))
-        sought = goals[0] if len(goals) == 1 else None
-        known = replies.told(sought, state) if isinstance(sought, Tell) else None
-        if known:
-            return Reply(text=known)
-        if not isinstance(sought, Find) or sought.object is None or not _WHERE.search(text):
+        asked = _as_asked(text, outcome)
+        answers = [_known(said, goal, state) for said, goal in asked]
+        told = list(dict.fromkeys(filter(None, answers)))
+        if told and all(answers):
+            return Reply(text=" ".join(told))
+        open_ = [one for one, answer in zip(asked, answers, strict=True) if not answer]
+        sought = _sought(*open_[0]) if len(open_) == 1 else None
+        if sought is None:
             return None
-        found = replies.where(sought.object, state)
-        if found:
-            return Reply(text=found)
-        asked = replies.unknown_place(sought.object)
-        return _confirmation(Goals(goals=goals), asked)
+        question = " ".join([*told, replies.unknown_place(sought)])
+        return _confirmation(Goals(goals=(open_[0][1],)), question)
+
+
+def _as_asked(text: str, outcome: Goals) -> list[tuple[str, Goal]]:
+    """Each goal with the words that it was read from, as far as they can be told apart."""
+    if len(outcome.goals) == 1:
+        return [(text, outcome.goals[0])]
+    asked = [(said, goal) for said, goals in outcome.clauses for goal in goals]
+    if [goal for _, goal in asked] != list(outcome.goals):
+        return [("", goal) for goal in outcome.goals]
+    return asked
+
+
+def _known(said: str, goal: Goal, state: RobotState) -> str:
+    """The answer to a question, from what is known; empty if it is none, or that is not known."""
+    if isinstance(goal, Report):
+        return replies.report(goal.topic, state)
+    if isinstance(goal, Tell):
+        return replies.told(goal, state) or ""
+    sought = _sought(said, goal)
+    return (replies.where(sought, state) or "") if sought is not None else ""
+
+
+def _sought(said: str, goal: Goal) -> ObjectQuery | None:
+    """What it was asked where it is; "find it" is a wish to have it looked for."""
+    return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
 
 
 def _confirmation(outcome: Goals, question: str) -> Question:

@@ -163,6 +163,10 @@ class LanguageModel:
         """Begin the budget of calls and tokens anew."""
         self.calls = self.tokens = 0
 
+    def give_up(self) -> None:
+        """Let a sentence that is being asked about come to nothing, at once; from any thread."""
+        self._wire.give_up()
+
     def close(self) -> None:
         """Give connections back."""
         self._wire.close()

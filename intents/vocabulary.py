@@ -28,7 +28,13 @@ class Thing(_Entry, frozen=True, kw_only=True):
 
 
 class Spot(_Entry, frozen=True, kw_only=True):
-    """A place or a room."""
+    """A place or a room.
+
+    Attributes:
+        furniture: It is walked up to; nobody can be in it or on it.
+    """
+
+    furniture: bool = False
 
 
 class Someone(_Entry, frozen=True, kw_only=True):

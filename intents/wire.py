@@ -11,6 +11,7 @@ import httpx
 MAX_ANSWER_BYTES = 256 * 1024
 _PLAIN = {"Accept-Encoding": "identity"}
 _LATE = "the language model did not answer in time"
+_UNWANTED = "nobody waits for the language model's answer any more"
 
 
 class Unusable(Exception):
@@ -42,10 +43,17 @@ class Wire:
         self._clock = clock
         self._transport = transport
         self._client = self._fresh()
+        self._awaited: queue.SimpleQueue[Reply | Exception] | None = None
 
     def close(self) -> None:
         """Give connections back."""
         self._client.close()
+
+    def give_up(self) -> None:
+        """Let who waits for an answer wait no more; from any thread."""
+        awaited = self._awaited
+        if awaited is not None:
+            awaited.put(Unusable(_UNWANTED))
 
     def post(self, url: str, body: object, *, headers: dict[str, str], until_s: float) -> Reply:
         """Send a body as JSON, and wait for the answer until a time of the clock.
@@ -63,6 +71,7 @@ class Wire:
         )  # fmt: skip
         work = (self._client, request, until_s, came)
         threading.Thread(target=self._exchange, args=work, name="wire", daemon=True).start()
+        self._awaited = came
         try:
             answer = came.get(timeout=max(until_s - self._clock(), 0.001))
         except queue.Empty:
@@ -71,6 +80,10 @@ class Wire:
         except BaseException:  # whoever waited was interrupted
             self._hang_up()
             raise
+        finally:
+            self._awaited = None
+        if isinstance(answer, Unusable):
+            self._hang_up()
         if isinstance(answer, httpx.HTTPError | httpx.InvalidURL | OSError):
             name = type(answer).__name__
             raise Unusable(f"the language model cannot be reached ({name})") from None

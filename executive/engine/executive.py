@@ -66,6 +66,7 @@ class Executive:
         journal: where events go.
         so_far: what the journal tells since this executive began, for all who show it.
         tree: what is ticked.
+        pause_wanted: whether a pause was asked for, and neither `resume` nor `stop` since.
     """
 
     def __init__(
@@ -75,6 +76,7 @@ class Executive:
         *,
         rates_hz: Mapping[str, float],
         make: MakeSkill = catalogue.make,
+        jobs_before: int = 0,
     ) -> None:
         """Build the tree; nothing moves before a job is submitted.
 
@@ -83,6 +85,7 @@ class Executive:
             journal: where events go.
             rates_hz: the promised rate of each topic, from which health is judged.
             make: makes a skill from its parameters.
+            jobs_before: the highest number of a job of this run so far.
         """
         self.board = Blackboard()
         self.journal = journal
@@ -91,6 +94,7 @@ class Executive:
         self.so_far = reader.run
         self.on_request: Callable[[], None] = lambda: None
         self.outcome: Outcome | None = None
+        self.pause_wanted = False
         self._operator = self.board.claim("operator")
         self._voice = self.board.claim("voice")
         self._say_on = context.say
@@ -111,7 +115,7 @@ class Executive:
         self._requests: deque[Request] = deque()
         self._waiting: dict[int, Job] = {}  # submitted, and not taken up by a tick yet
         self._over: deque[Job] = deque(maxlen=KEPT_JOBS)
-        self._count = 0
+        self._count = jobs_before
         self._stop_until = 0
 
     # --- what people ask for, from any thread ---
@@ -125,6 +129,7 @@ class Executive:
         resources: frozenset[Resource] = BODY,
         limits: Limits = UNLIMITED,
         origin: Mapping[str, Any] | None = None,
+        number: int | None = None,
     ) -> int:
         """Put a job into the queue; returns its number.
 
@@ -135,13 +140,13 @@ class Executive:
             resources: the parts of the body that it may use; jobs that share none run side by side.
             limits: what it may take.
             origin: what it is made from, as plain data for the journal: goals, or a mission.
+            number: of a job that an executive before this one had begun (None: a new one).
         """
         node = build(self.stage)
         with self._lock:
-            self._count += 1
-            job = Job(
-                number=self._count, text=text, urgent=urgent, resources=resources, limits=limits
-            )
+            given = self._count + 1 if number is None else number
+            self._count = max(self._count, given)
+            job = Job(number=given, text=text, urgent=urgent, resources=resources, limits=limits)
             self._waiting[job.number] = job
             self.outcome = None
             self._requests.append(lambda: self._add(Work(job, node), dict(origin or {})))
@@ -150,10 +155,12 @@ class Executive:
 
     def pause(self, why: str = "paused on request") -> None:
         """Bring the robot to a stand and keep it there; `state` says when it stands."""
+        self.pause_wanted = True
         self._post(lambda: self._pause(why), "pause", why=why)
 
     def resume(self) -> None:
         """Go on after a pause, each job with the step it was in."""
+        self.pause_wanted = False
         self._post(self._resume, "resume")
 
     def stop(self, why: str) -> None:
@@ -161,6 +168,7 @@ class Executive:
 
         What is submitted after this is not ended; it begins when the robot stands.
         """
+        self.pause_wanted = False
         with self._lock:
             last = self._count
         self._post(lambda: self._stop(why, last), "stop", why=why)

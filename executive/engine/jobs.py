@@ -30,7 +30,7 @@ class Job(msgspec.Struct, frozen=True, kw_only=True):
     """One thing that was asked for, as it stands now.
 
     Attributes:
-        number: counted from 1 in one executive.
+        number: counted from 1 in one run, also where one executive went on for another.
         text: what was asked for, in words.
         urgent: it takes the parts of the body that it needs from jobs that are not.
         resources: the parts of the body that it may use.

@@ -163,3 +163,8 @@ class _Told(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
         """Print one."""
         say(self.format(record), err=True)
+
+
+def as_mistake(error: BaseException) -> str:
+    """What is said of an error that nobody foresaw, where people go on all the same."""
+    return f"That is a mistake in this software: {type(error).__name__}: {error}"

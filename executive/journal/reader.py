@@ -188,7 +188,7 @@ class Reader:
             if len(self._jobs) > MOST_JOBS:
                 self._jobs = {job.number: job for job in self.run.jobs}
             self._jobs[told.job] = job
-        if told.state == "running" and all(state != "running" for _, state in job.states):
+        if told.state == "running" and (not job.states or job.states[-1][1] == "waiting"):
             self._trees.begin(told.text)
         self._tell(job.states, (t_s, told.state), MOST_STATES)
         if told.state == "running" and told.job != self._job:

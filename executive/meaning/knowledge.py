@@ -29,7 +29,10 @@ class Knowledge:
         others = [place for place in self.map.places if place not in rooms]
         return Vocabulary.of(
             objects=[self._thing(info) for info in self.map.objects],
-            places=[Spot(name=place.name, synonyms=place.synonyms) for place in others],
+            places=[
+                Spot(name=place.name, synonyms=place.synonyms, furniture=not place.floor)
+                for place in others
+            ],
             rooms=[Spot(name=place.name, synonyms=place.synonyms) for place in rooms],
             people=[Someone(name=person.name) for person in self.map.people],
             categories=self.map.categories,

@@ -62,7 +62,7 @@ class Reader:
         if isinstance(info, types.Metadata):
             info = info.type
         if node.kind == "text":
-            filled = self._fill(node) if "{{" in node.text else node
+            filled = self._fill(node) if "{" in node.text else node
             if filled is None:
                 raise Mistake
             node = filled

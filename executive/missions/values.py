@@ -19,6 +19,8 @@ from robot.config import nearest
 from robot.yaml_nodes import Node, Scalar, text_node
 
 PLACEHOLDER = re.compile(r"\{\{ *([^{}]*?) *\}\}")
+SINGLE = re.compile(r"(?<!\{)\{ *(\w+) *\}(?!\})")
+"""What was meant to be a placeholder: braces mean nothing else, in no sentence and in no name."""
 SPOKEN: frozenset[ParameterType] = frozenset({"object", "place", "person", "number", "integer"})
 """Types of parameters that may stand inside a sentence."""
 
@@ -52,6 +54,8 @@ class Scope:
 
     def fill(self, node: Node) -> Node | None:
         """A text with its parameters filled in; a text that is only a parameter gets its type."""
+        if not self._is_closed(node):
+            return None
         if "{{" not in node.text:
             return node
         alone = PLACEHOLDER.fullmatch(node.text.strip())
@@ -62,7 +66,21 @@ class Scope:
 
     def fill_words(self, node: Node) -> Node | None:
         """A sentence with its parameters filled in: names and numbers only."""
+        if not self._is_closed(node):
+            return None
         return self._inserted(node, words=True) if "{{" in node.text else node
+
+    def _is_closed(self, node: Node) -> bool:
+        """Whether every placeholder has its two braces; what is wrong is noted."""
+        found = SINGLE.search(node.text)
+        if found is None:
+            return True
+        name, known = found[1], [*self.bound, *self._wrong]
+        cure = f"a parameter is {{{{{name}}}}}"
+        if name not in known:
+            cure = nearest(name, known) if known else "this mission has no parameters"
+        self._problems.add(node, f"{found[0]!r} has one brace where a parameter has two", cure)
+        return False
 
     def _inserted(self, node: Node, *, words: bool) -> Node | None:
         bad = False

@@ -7,6 +7,7 @@ import errno
 import fcntl
 import os
 import re
+import stat
 from pathlib import Path
 from typing import Annotated
 
@@ -79,14 +80,20 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
 
     It is made here, so that two runs that begin in the same second have one each; where none can be
     made, the journal says so.
+
+    Raises:
+        ConfigError: if `base` is not in this user's hands alone, as in a current folder that is
+            shared: who owns it could exchange what lies in it.
     """
     slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     first = base / f"{stamp}-{slug or 'run'}"
+    with contextlib.suppress(OSError):
+        base.mkdir(parents=True, exist_ok=True)
+    _check_own(base)
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
         try:
-            base.mkdir(parents=True, exist_ok=True)
             folder.mkdir(mode=PRIVATE)
         except FileExistsError:
             continue
@@ -94,6 +101,20 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
             break
         return folder
     return first
+
+
+def _check_own(base: Path) -> None:
+    try:
+        found = (base.lstat(), base.stat())
+    except OSError:  # it is not there, and cannot be made
+        return
+    cure = "name a folder of your own with --run-dir, or begin in one"
+    if any(one.st_uid != os.geteuid() for one in found):
+        problem = f"{base.absolute()}, where runs are kept, belongs to another user"
+        raise ConfigError([Problem(problem, suggestion=cure)])
+    if found[1].st_mode & stat.S_IWOTH and not found[1].st_mode & stat.S_ISVTX:
+        problem = f"{base.absolute()}, where runs are kept, can be changed by every user"
+        raise ConfigError([Problem(problem, suggestion=f"{cure}, or chmod o-w it")])
 
 
 def check_free(folder: Path) -> None:

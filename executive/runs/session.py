@@ -65,6 +65,7 @@ class Session(Closing):
         journal: Journal | None = None,
         time_of_day: Callable[[], float] | None = None,
         first: int = 0,
+        jobs_before: int = 0,
         faults: tuple[FaultPlan, ...] = (),
         kill: Callable[[], None] | None = None,
         attended: bool = False,
@@ -78,6 +79,7 @@ class Session(Closing):
             journal: to use in place of a new one in the run's folder.
             time_of_day: for the journal's sibling file.
             first: number of the journal's first event, where it is gone on with.
+            jobs_before: the highest number of a job in that journal.
             faults: what goes wrong on purpose.
             kill: what it means to kill the executive, see `Injector`.
             attended: whether a person is there, to ask for more and to help.
@@ -96,15 +98,18 @@ class Session(Closing):
         )  # fmt: skip
         self._listeners: list[OnTick] = []
         self._attended = attended
-        self.replace_executive()
+        self.replace_executive(jobs_before=jobs_before)
 
     @property
     def now_s(self) -> float:
         """The runtime's time."""
         return self.runtime.clock.now_s()
 
-    def replace_executive(self) -> None:
-        """Put a new executive in the place of one that is gone; it knows nothing of the past."""
+    def replace_executive(self, *, jobs_before: int = 0) -> None:
+        """Put a new executive in the place of one that is gone; it knows nothing of the past.
+
+        `jobs_before` is the highest number that a job has had.
+        """
         context = SkillContext(
             link=self.runtime.link,
             planner=self._planner,
@@ -112,7 +117,9 @@ class Session(Closing):
             seed=self.setup.seed,
         )
         self.holdings = context.holdings
-        self.executive = Executive(context, self.journal, rates_hz=RATES_HZ)
+        self.executive = Executive(
+            context, self.journal, rates_hz=RATES_HZ, jobs_before=jobs_before
+        )
         self.executive.attended = self._attended
         self._recorder = Recorder(self.executive)
 
@@ -135,6 +142,7 @@ class Session(Closing):
         limits: Limits = UNLIMITED,
         origin: Mapping[str, Any] | None = None,
         done: frozenset[str] = frozenset(),
+        number: int | None = None,
     ) -> int:
         """Queue a task; returns the job's number. From any thread.
 
@@ -144,6 +152,7 @@ class Session(Closing):
             limits: what it may take.
             origin: what the task is made from, for the journal (default: the goals).
             done: paths of steps that are done already.
+            number: of a job that is gone on with.
         """
         task, whereabouts = understood.task, msgspec.to_builtins(understood.whereabouts)
         made_from: dict[str, Any] = {
@@ -158,6 +167,7 @@ class Session(Closing):
             resources=queued_for(errand.params for errand in errands(task)),
             limits=limits,
             origin={**(origin or made_from), **({"done": sorted(done)} if done else {})},
+            number=number,
         )
 
     def run(self, *, until: Callable[[], bool] | None = None) -> None:

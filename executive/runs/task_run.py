@@ -49,9 +49,15 @@ class Assignment(msgspec.Struct, frozen=True, kw_only=True):
     done: frozenset[str] = frozenset()
     faults: tuple[FaultPlan, ...] = ()
 
-    def submit_to(self, session: Session) -> None:
-        """Queue it as a job."""
-        session.submit(self.understood, limits=self.limits, origin=self.origin, done=self.done)
+    def submit_to(self, session: Session, *, number: int | None = None) -> None:
+        """Queue it as a job, or as the one of that number, which is gone on with."""
+        session.submit(
+            self.understood,
+            limits=self.limits,
+            origin=self.origin,
+            done=self.done,
+            number=number,
+        )
 
 
 def do(assignment: Assignment, session: Session, *, show: Show, wall: Clock) -> Summary:

@@ -117,7 +117,7 @@ class Child:
         command = [sys.executable, "-m", self.row.module, str(self._file), str(os.getpid())]
         if self._log is None:
             number = str(len(self._starts_s))  # by which a spare knows its turn
-            with _held_back(signal.SIGINT):
+            with _held_back(signal.SIGINT, signal.SIGTSTP):
                 return subprocess.Popen([*command, number], env=_environment())
         with os.fdopen(open_to_append(self._log), "ab") as output:
             return subprocess.Popen(
@@ -149,9 +149,9 @@ def describe_exit(status: int) -> str:
 
 
 @contextmanager
-def _held_back(number: signal.Signals) -> Generator[None]:
-    """A child inherits it so, until it can hear: a wish to stop is not lost while it loads."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+def _held_back(*numbers: signal.Signals) -> Generator[None]:
+    """A child inherits them so, until it can hear: a wish to stop is not lost while it loads."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
     try:
         yield
     finally:

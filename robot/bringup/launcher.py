@@ -3,6 +3,8 @@
 The executive has the terminal; Ctrl-C reaches it once, as it is in the same group. When it dies,
 the robot finishes its step and stands by itself, the executive is started again, and goes on. After
 the last death that the table allows, the robot is lowered and its motors damp.
+
+Nobody could stop a robot whose executive is suspended, so Ctrl-Z is answered with words.
 """
 
 from __future__ import annotations
@@ -32,6 +34,8 @@ from robot.failures import Failure
 
 WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that mean that somebody wants it to end."""
+
+NOT_SUSPENDED = "Ctrl-Z does not suspend a robot: nobody could stop it then. Ctrl-C stops it."
 
 Tell = Callable[[str], None]
 
@@ -99,7 +103,7 @@ class Launcher:
         self._processes = processes
         self._robot: Supervisor | None = None
         self._state = State()
-        self._wished = False
+        self._wished = self._unheeded = False
 
     def run(self) -> Ended:
         """Until an executive has ended by itself, or must not be started again."""
@@ -122,6 +126,9 @@ class Launcher:
         self._executive.start()
         while (status := self._executive.status) is None:
             self._look_after()
+            if self._unheeded:
+                self._unheeded = False
+                self._tell(NOT_SUSPENDED)
             if self._is_up():
                 self._executive.prepare()
             self._clock.sleep_until(self._clock.now_s() + POLL_S)
@@ -190,9 +197,12 @@ class Launcher:
     @contextlib.contextmanager
     def _signals(self) -> Generator[None]:
         """Ctrl-C and a closed terminal reach the executive by themselves; SIGTERM is passed on."""
-        before = {number: signal.getsignal(number) for number in WISHED}
+        before = {number: signal.getsignal(number) for number in (*WISHED, signal.SIGTSTP)}
 
         def hear(number: int, _frame: FrameType | None) -> None:
+            if number == signal.SIGTSTP:
+                self._unheeded = True
+                return
             self._wished = True
             if number == signal.SIGTERM:
                 self._executive.signal(signal.SIGTERM)

@@ -1,25 +1,19 @@
 """The planner of `live` runs: a process of its own, with a budget of wall time.
 
-What runs over its budget, or is cancelled, is killed with its process; another is started.
+What runs over its budget, or is cancelled, is killed with its process; another is started. No call
+waits for a process: not for its start, its answer, or its end.
 """
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
 from dataclasses import dataclass
-from multiprocessing import resource_tracker
-from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
 
-from robot.bus.lifeline import tie_to_parent
 from robot.clock import Clock, WallClock
 from robot.closing import Closing
-from robot.errors import ProcessError
 from robot.failures import failure
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
+from robot.planning.worker_process import Answered, Ready, WorkerProcess
 
 BUDGET_S = 5.0
 STARTS = 3
@@ -57,7 +51,7 @@ class ProcessPlanner(Closing):
         self._running: int | None = None
         self._ready = False
         self._stillborn = 0
-        self._start()
+        self._worker = WorkerProcess(description)
 
     def submit(self, request: PlanRequest, *, now_s: float) -> int:  # noqa: ARG002
         """Put a request in line."""
@@ -85,12 +79,14 @@ class ProcessPlanner(Closing):
 
     def kill_worker(self) -> None:
         """End the process at once, whatever it does; the next poll notices."""
-        self._process.kill()
+        self._worker.kill()
 
     def close(self) -> None:
         """End the worker; safe to call twice."""
-        self._kill()
+        self._running = None
         self._waiting.clear()
+        self._worker.kill()
+        self._worker.wait()
 
     def _advance(self) -> None:
         """Take what the worker sent, stop what ran over, send what is next."""
@@ -112,22 +108,23 @@ class ProcessPlanner(Closing):
             ticket = min(self._waiting)
             self._running = ticket
             self._waiting[ticket].deadline_s = self._clock.now_s() + self._budget_s
-            self._pipe.send((ticket, self._waiting[ticket].request))
+            self._worker.send(ticket, self._waiting[ticket].request)
 
     def _receive(self) -> None:
-        try:
-            while self._pipe.poll():
-                message = self._pipe.recv()
-                if message is None:
-                    self._ready = True
-                elif message[0] == self._running:
-                    self._finish(*message)
-        except (EOFError, OSError):
-            if self._running is not None:
-                cause = "the planner's process died"
-                self._finish(self._running, failure("internal", cause))
-            self._count_death()
-            self._restart()
+        """Take what the worker said; it is replaced when it is gone."""
+        while (message := self._worker.heard()) is not None:
+            if isinstance(message, Ready):
+                self._ready = True
+            elif isinstance(message, Answered):
+                if message.ticket == self._running:
+                    self._finish(message.ticket, message.answer)
+            else:
+                if self._running is not None:
+                    cause = "the planner's process died"
+                    self._finish(self._running, failure("internal", cause))
+                self._count_death()
+                self._restart()
+                return  # a new one, that has said nothing yet
 
     def _count_death(self) -> None:
         """Fail all that wait when one worker after the other dies as it starts."""
@@ -141,48 +138,7 @@ class ProcessPlanner(Closing):
         self._answers[ticket] = answer
         self._running = None
 
-    def _start(self) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._pipe, theirs = context.Pipe()
-        self._process: SpawnProcess = context.Process(
-            target=_work, args=(self._description, theirs), name="planner", daemon=True
-        )
-        # Ctrl-C is for the one who plans, not for the worker: it inherits the blocked signal. The
-        # tracker comes first, because starting it unblocks the signal.
-        resource_tracker.ensure_running()
-        unblocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        self._process.start()
-        signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
-        theirs.close()
-        self._ready = False
-
     def _restart(self) -> None:
-        self._kill()
-        self._start()
-
-    def _kill(self) -> None:
-        self._running = None
-        if self._process.is_alive():
-            self._process.kill()
-        self._process.join(timeout=2.0)
-        self._pipe.close()
-
-
-def _work(description: RobotDescription, pipe: Connection) -> None:
-    """The worker: answers requests until the pipe closes."""
-    from robot.planning.solve import Solver  # loads OMPL and MuJoCo, wanted only in the worker
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    try:
-        tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
-    except ProcessError:  # it is gone already
-        return
-    solver = Solver(description)
-    try:
-        pipe.send(None)
-        while True:
-            ticket, request = pipe.recv()
-            pipe.send((ticket, solver.solve(request)))
-    except (EOFError, OSError):
-        return
+        self._running, self._ready = None, False
+        self._worker.kill()
+        self._worker = WorkerProcess(self._description)

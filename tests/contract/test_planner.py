@@ -1,15 +1,17 @@
 """Both planners keep the same promises: tickets, answers once, cancelling, equal answers."""
 
 import os
+import threading
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from multiprocessing.context import SpawnProcess
 
 import pytest
 
 from robot.failures import Failure
 from robot.model.description import load
-from robot.planning import process
+from robot.planning import worker_process
 from robot.planning.inline import PLAN_SPAN_S, InlinePlanner
 from robot.planning.process import ProcessPlanner
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PickRequest, PlanRequest
@@ -136,7 +138,7 @@ def die_at_once(*_: object) -> None:
 def test_a_worker_that_does_not_start_is_an_answer_and_not_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(process, "_work", die_at_once)
+    monkeypatch.setattr(worker_process, "_work", die_at_once)
     with ProcessPlanner(ROBOT, budget_s=PATIENCE_S) as planner:
         for _ in range(2):
             answer = ask(planner, PATH)
@@ -144,3 +146,36 @@ def test_a_worker_that_does_not_start_is_an_answer_and_not_waited_for(
             assert (answer.code, answer.cause) == (
                 "internal", "the planner's process does not start",
             )  # fmt: skip
+
+
+def test_who_ticks_waits_neither_for_the_start_nor_for_the_end_of_a_process(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A machine that has no time for a new process: nothing is answered, and every call returns."""
+    begin, caller = threading.Event(), threading.get_ident()
+    waited: list[int] = []
+    start, join = SpawnProcess.start, SpawnProcess.join
+
+    def slow_start(one: SpawnProcess) -> None:
+        waited.append(threading.get_ident())
+        assert begin.wait(PATIENCE_S)
+        start(one)
+
+    def slow_join(one: SpawnProcess, timeout: float | None = None) -> None:
+        waited.append(threading.get_ident())
+        join(one, timeout)
+
+    monkeypatch.setattr(SpawnProcess, "start", slow_start)
+    monkeypatch.setattr(SpawnProcess, "join", slow_join)
+    clock = ByHand()
+    with ProcessPlanner(ROBOT, budget_s=2.0, clock=clock) as planner:
+        ticket = planner.submit(PICK, now_s=0.0)
+        assert planner.poll(ticket, now_s=0.0) is None
+        planner.cancel(ticket)
+        begin.set()
+        late = planner.submit(PICK, now_s=0.0)
+        while planner.poll(late, now_s=0.0) is None:
+            clock.time_s += 10.0  # over its budget as soon as it is sent: killed, and another one
+            time.sleep(0.01)
+    assert len(waited) >= 3
+    assert caller not in waited

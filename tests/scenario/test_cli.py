@@ -365,3 +365,24 @@ def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
         status, text = humanoid("do", "brighten up the evening", "--fast", "--model", str(file))
     assert status == ExitStatus.INVALID, text
     assert "The language model was of no help: " in text
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("parse", "say hello"), ("mission", "check", "hello"), ("mission", "plan", "hello"),
+        ("why",), ("history",), ("worlds",), ("doctor",),
+    ],
+    ids=" ".join,
+)  # fmt: skip
+def test_a_command_that_only_looks_writes_nothing(humanoid, tmp_path, words):
+    humanoid(*words)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["../evening", "/tmp/evening", "a/b", "..", ".hidden"])
+def test_a_new_mission_is_made_in_this_folder_and_nowhere_else(humanoid, tmp_path, name):
+    status, text = humanoid("mission", "new", name)
+    assert status == 2, text
+    assert list(tmp_path.iterdir()) == []
+    assert not list(tmp_path.parent.glob("evening*"))

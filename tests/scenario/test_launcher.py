@@ -108,6 +108,20 @@ def test_ctrl_c_while_the_executive_is_loading_is_heeded(shell):
     assert job.told == []
 
 
+def test_ctrl_z_suspends_nobody_who_has_to_hear_a_stop(shell):
+    job = shell(ends=False, dies=0, spare_after_s=0.0)
+    first = job.wait_up()
+    assert eventually(lambda: len(executives(job.job.pid, "tests.fakes.fronts")) == 2)
+    os.killpg(job.job.pid, signal.SIGTSTP)
+    os.kill(first, signal.SIGKILL)
+    second = job.wait_up(2)  # launcher and spare go on as ever
+    os.killpg(job.job.pid, signal.SIGTSTP)
+    os.kill(second, signal.SIGINT)
+    status, text = job.end()
+    assert status == 1
+    assert "Ctrl-Z does not suspend a robot" in text
+
+
 def test_a_killed_executive_is_started_again_and_the_robot_stays(shell, tmp_path):
     job = shell(dies=1, ends=False)
     second = job.wait_up(2)

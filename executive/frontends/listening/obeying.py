@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 from executive.behaviours.ask import ANSWERS
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
-from executive.frontends.output import say
+from executive.frontends.output import as_mistake, say
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech, able
@@ -69,7 +70,11 @@ def heard_risk(goals: tuple[Goal, ...]) -> str:
 
 
 class Conversation:
-    """A person and a robot, both of whom speak."""
+    """A person and a robot, both of whom speak.
+
+    What was heard is worked off in a thread of its own, however long that takes (a language model
+    has seconds), so that a cry to stop is heard meanwhile.
+    """
 
     def __init__(self, shell: Shell, listener: Ear, *, recorded: bool) -> None:
         """Begin.
@@ -83,11 +88,21 @@ class Conversation:
         self._shell = shell
         self._ear = listener
         self._recorded = recorded
+        self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="sentences")
         shell.speech.screen = self._said
         shell.robot.session.journal.listen(self._note)
 
     def run(self, options: Listen) -> int:
         """Listen to the end; returns the exit status."""
+        try:
+            self._listen(options)
+        finally:
+            if self._shell.robot.lost is not None or self._shell.robot.interrupts.count:
+                self._shell.leave()
+            self._worker.shutdown(wait=True)
+        return self._status()
+
+    def _listen(self, options: Listen) -> None:
         shell = self._shell
         with sound(options) as blocks:
             for block in blocks:
@@ -101,7 +116,6 @@ class Conversation:
             else:
                 for one in self._ear.finish():
                     self.take(one)
-        return self._status()
 
     def take(self, one: Spoken) -> None:
         """Do what was said."""
@@ -116,11 +130,20 @@ class Conversation:
         elif shell.robot.executive.question and one.text in ANSWERS:
             shell.robot.executive.answer(one.text)
         else:
-            shell.sentence(one.text)
-            if self._recorded:
-                shell.robot.wait()
-        asked = shell.dialogue.question is not None or bool(shell.robot.executive.question)
-        self._ear.replying = asked
+            doing = self._worker.submit(self._do, one.text, shell.stops)
+            if not self._recorded:
+                return
+            doing.result()
+            shell.robot.wait()
+        self._ear.replying = shell.asks
+
+    def _do(self, text: str, stops: int) -> None:
+        """One sentence; a mistake in this software must not end the listening."""
+        try:
+            self._shell.hear(text, stops=stops)
+        except Exception as error:
+            self._shell.out(as_mistake(error))
+        self._ear.replying = self._shell.asks
 
     def _said(self, text: str) -> str:
         """What is said of a text: all but cries to stop, for it would heed them."""

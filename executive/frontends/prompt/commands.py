@@ -309,7 +309,18 @@ class _Steering:
         self._shell.answer("Pausing; `resume` goes on with the step.")
 
     def resume(self, _rest: str) -> None:
-        self._shell.robot.executive.resume()
+        executive = self._shell.robot.executive
+        if executive.pause_wanted:
+            executive.resume()
+        elif executive.held:
+            held = ", ".join(executive.held)
+            self._shell.answer(f"Nothing is paused; a breakpoint holds {held}: say `continue`.")
+        elif under_way := self._shell.under_way():
+            self._shell.answer(f"Nothing is paused: “{under_way[0].text}” is under way.")
+        else:
+            over = [job for job in executive.jobs if job.state in OVER]
+            last = f" The last job: {_row(over[-1]).strip()}." if over else ""
+            self._shell.answer(f"Nothing is paused, and nothing is to be done.{last}")
 
     def stop(self, _rest: str) -> None:
         self._shell.stop("the operator said stop")
@@ -343,10 +354,13 @@ class _Steering:
         elif executive.held:
             executive.go_on()
         else:
-            executive.resume()
+            self.resume("")
 
     def step(self, _rest: str) -> None:
-        self._shell.robot.executive.step_once()
+        executive = self._shell.robot.executive
+        if not executive.held:
+            self._shell.out("No step is held now; the next one will be.")
+        executive.step_once()
 
     def break_at(self, rest: str) -> None:
         executive = self._shell.robot.executive

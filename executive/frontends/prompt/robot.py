@@ -135,6 +135,7 @@ class Robot(Closing):
             interrupts=self.interrupts,
             time_of_day=self._time_of_day,
             first=left.next_number if left is not None and returns else 0,
+            jobs_before=left.jobs if left is not None and returns else 0,
             attended=True,
         ) as session:
             self.session = session

@@ -139,6 +139,7 @@ class Shell:
         with self._submitting:
             self.stops += 1
             self.robot.executive.stop(why)
+        self._ask_model_no_more()
         self.speech.hush()
         self.dialogue.forget()
 
@@ -157,6 +158,11 @@ class Shell:
             self.stops += 1
             if self.robot.busy:
                 self.robot.executive.stop("the operator leaves")
+        self._ask_model_no_more()
+
+    def _ask_model_no_more(self) -> None:
+        if self._model is not None:
+            self._model.give_up()
 
     def line(self, text: str, *, stops: int | None = None) -> None:
         """Do what a line says; never raises for what is in it.
@@ -170,10 +176,20 @@ class Shell:
             if self.stop_at_once(text):
                 return
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
-            if stops not in (None, self.stops):
-                self._refuse(f"Not done: “{text}” was there when you said stop")
+            if self._stopped_since:
+                self._refuse_stopped(text)
             elif text:
                 self._take(text)
+        except RobotError as error:
+            self._refuse(f"Not done: {error}")
+        finally:
+            self._stops_before = None
+
+    def hear(self, text: str, *, stops: int) -> None:
+        """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
+        self._stops_before = stops
+        try:
+            self.sentence(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
         finally:
@@ -196,6 +212,10 @@ class Shell:
             self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
+        if self._stopped_since:  # it may have taken as long as a language model does
+            self.dialogue.forget()
+            self._refuse_stopped(text)
+            return None
         if self.dialogue.dropped:
             self.out(f"I ask no more: {self.dialogue.dropped}")
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
@@ -248,10 +268,10 @@ class Shell:
             self._refuse(self.gone)
             return
         with self._submitting:
-            stopped = self._stops_before not in (None, self.stops)
+            stopped = self._stopped_since
             number = 0 if stopped else self.robot.submit(understood, urgent=urgent, **how)
         if stopped:
-            self._refuse(f"Not done: “{understood.text}” was there when you said stop")
+            self._refuse_stopped(understood.text)
             return
         self._holds = understood.holds
         world = self.robot.executive.board.read(WORLD)
@@ -289,6 +309,14 @@ class Shell:
             self._refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None
         return understood
+
+    @property
+    def _stopped_since(self) -> bool:
+        """Whether there was a stop since the line that is being done was entered."""
+        return self._stops_before not in (None, self.stops)
+
+    def _refuse_stopped(self, text: str) -> None:
+        self._refuse(f"Not done: “{text}” was there when you said stop")
 
     def _refuse(self, why: str, cure: str = "") -> None:
         self.refused += 1

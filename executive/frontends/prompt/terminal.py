@@ -27,6 +27,7 @@ from prompt_toolkit.search import stop_search
 from prompt_toolkit.shortcuts import CompleteStyle
 from prompt_toolkit.styles import Style
 
+from executive.frontends.output import as_mistake
 from executive.frontends.prompt.completion import LineCompleter
 from executive.frontends.prompt.keyboard import HEEDED, Keyboard
 from executive.frontends.prompt.shell import Shell
@@ -39,6 +40,10 @@ REFRESH_S = 0.2
 PANEL_SHARE = 0.5
 """Of the terminal's height that the tree may take."""
 LEAVING = ("quit", "exit")
+NOT_SUSPENDED = (
+    "Ctrl-Z does not suspend the prompt: nobody could stop the robot then. Ctrl-C stops it, Ctrl-D "
+    "leaves."
+)
 GO_WITHOUT_S = 2.0
 """How long the prompt may take to end after a signal: one that writes to a terminal that does not
 read never does."""
@@ -147,7 +152,7 @@ class Terminal:
                 mistakes += 1
                 if mistakes >= MOST_MISTAKES:
                     raise
-                shell.out(_as_mistake(error))
+                shell.out(as_mistake(error))
                 continue
             mistakes = 0
             heeded, self._was_heeded = self._was_heeded, False
@@ -173,7 +178,7 @@ class Terminal:
     def _mistake(self, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         """A mistake in what keys or drawing call must not end the prompt, nor hold it up."""
         error = context.get("exception")
-        self._shell.out(_as_mistake(error) if error else str(context.get("message")))
+        self._shell.out(as_mistake(error) if error else str(context.get("message")))
 
     # --- the lines' thread ---
 
@@ -182,7 +187,7 @@ class Terminal:
         try:
             self._shell.line(text, stops=stops)
         except Exception as error:
-            self._shell.out(_as_mistake(error))
+            self._shell.out(as_mistake(error))
         finally:
             self._open_lines -= 1
 
@@ -248,6 +253,10 @@ class Terminal:
                 typed += [KeyPress(Keys.Enter, "\r"), KeyPress(Keys.BracketedPaste, piece)]
             event.key_processor.feed_multiple(typed, first=True)
 
+        def suspend(_event: KeyPressEvent) -> None:
+            """A prompt that is suspended hears no stop."""
+            self._shell.out(NOT_SUSPENDED)
+
         def ignore(_event: KeyPressEvent) -> None:
             """Nobody asked for the mouse: what looks like a report of it is a pasted colour."""
 
@@ -255,6 +264,7 @@ class Terminal:
         for key in (Keys.ControlC, Keys.ControlBackslash):
             add(key, eager=True)(stop)
         add(HEEDED, eager=True)(heeded)
+        add(Keys.ControlZ, eager=True)(suspend)
         add(Keys.BracketedPaste)(paste)
         add(Keys.Vt100MouseEvent)(ignore)
         return keys
@@ -268,10 +278,6 @@ def leave_modes(event: KeyPressEvent) -> None:
     app.quoted_insert = False
     app.current_buffer.cancel_completion()
     app.current_buffer.exit_selection()
-
-
-def _as_mistake(error: BaseException) -> str:
-    return f"That is a mistake in this software: {type(error).__name__}: {error}"
 
 
 class _LastingHistory(FileHistory):

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import math
+
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.handlers.steps import about, search, surfaces
 from executive.meaning.identify import Scene, cannot
-from executive.skills.look import LookParams
-from executive.skills.navigate import NavigateParams
+from executive.skills.look import SIDES, LookParams, Side
+from executive.skills.navigate import NavigateParams, Step
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series
 from intents import goals
 from robot.messages import Place
 
-AROUND = "around"
+AROUND, BEHIND = "around", "behind"
+_SIDES: dict[str, Side] = {side: side for side in SIDES}
 
 
 def look_at(goal: goals.LookAt, scene: Scene) -> Part:
@@ -29,8 +32,21 @@ def look_at(goal: goals.LookAt, scene: Scene) -> Part:
         return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
     if goal.place is None:
         raise cannot("invalid_goal", "look at what?", suggestion="name an object or a place")
+    if not scene.knowledge.places(goal.place) and (aside := _aside(goal.place)) is not None:
+        return aside
     place = scene.places(goal.place)[0]
     return Errand(name=f"look at the {goal.place}", params=LookParams(place_id=place.id))
+
+
+def _aside(where: str) -> Part | None:
+    """A look to a side of the robot; no neck turns far enough to see what is behind."""
+    if where == BEHIND:
+        step = Step(turn_rad=math.pi)
+        turn = Errand(name="turn around", params=NavigateParams(by=step))
+        ahead = Errand(name="look ahead", params=LookParams(towards="ahead"))
+        return Series(name="look behind", parts=(turn, ahead))
+    side = _SIDES.get(where)
+    return None if side is None else Errand(name=f"look {side}", params=LookParams(towards=side))
 
 
 def find(goal: goals.Find, scene: Scene) -> Part:

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias, cast
 import msgspec
 
 from executive.missions.btcpp.xml import Element
+from robot import plain_data
 
 Step: TypeAlias = Any
 Ports: TypeAlias = dict[str, str]
@@ -73,6 +74,6 @@ def condition_in(element: Element, attributes: Ports) -> Any:
     if max(accumulate(_NESTING.get(letter, 0) for letter in data), default=0) > MAX_NESTING:
         raise element.wrong(f"the condition is nested deeper than {MAX_NESTING} levels", cure)
     try:
-        return msgspec.json.decode(data)
-    except (msgspec.DecodeError, RecursionError):
+        return plain_data.from_json(data)
+    except ValueError:
         raise element.wrong(f"the condition is no JSON: {data[:40]}", cure) from None

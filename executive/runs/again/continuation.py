@@ -42,6 +42,11 @@ class Left(msgspec.Struct, frozen=True, kw_only=True):
         """Of the event that comes after those in the journal."""
         return self.events[-1].n + 1 if self.events else 0
 
+    @property
+    def jobs(self) -> int:
+        """The highest number of a job so far; 0 where there was none."""
+        return max((_of(event) or 0 for event in self.events if _submits(event)), default=0)
+
     def newest(self, where: Setting) -> Assignment | None:
         """The newest job, made again; None if none had been submitted.
 
@@ -105,8 +110,8 @@ def go_on(session: Session, assignment: Assignment, events: list[Event], *, anew
     Args:
         session: that goes on.
         assignment: what was asked for.
-        events: of the job that was cut off.
-        anew: whether the robot is another one.
+        events: of the job that was cut off, from its submission on.
+        anew: whether the robot is another one, and this another run: the job is a new one there.
     """
     where = session.setup.where
     found = agreement.look(
@@ -123,7 +128,9 @@ def go_on(session: Session, assignment: Assignment, events: list[Event], *, anew
         session.now_s, "resumed", why=_words(found, anew=anew), done=sorted(found.done),
         again=[{"step": step, "why": why} for step, why in found.again],
     )  # fmt: skip
-    msgspec.structs.replace(assignment, done=found.done).submit_to(session)
+    left = msgspec.structs.replace(assignment, done=found.done)
+    number = next((_of(event) for event in events if _submits(event)), None)
+    left.submit_to(session, number=None if anew else number)
 
 
 def _words(found: Agreement, *, anew: bool) -> str:
@@ -157,23 +164,19 @@ def newest_job(events: list[Event]) -> list[Event]:
 def unfinished(events: list[Event]) -> list[list[Event]]:
     """Of every job that was not over: its events from its submission on, the oldest first.
 
-    What the hands hold counts for all of them, whichever job took it. Jobs are numbered in the
-    order of their submission, anew in every executive of a run; one that returns submits again what
-    was open, so that the newest executive's jobs are all there is.
+    What the hands hold counts for all of them, whichever job took it. A job that is gone on with is
+    submitted again under its number, with the steps that were done by then: the last time counts.
     """
-    submitted: list[int] = []
-    over: set[int] = set()
+    submitted: dict[int, int] = {}
     for at, event in enumerate(events):
-        if event.event == "returned":
-            submitted, over = [], set()
-        elif _submits(event):
-            submitted.append(at)
-        elif event.event == "job" and event.data.get("state") in OVER:
-            over.add(_of(event) or 0)
-    open_ = [(number, at) for number, at in enumerate(submitted, start=1) if number not in over]
+        number = _of(event)
+        if number is not None and _submits(event):
+            submitted[number] = at
+        elif number is not None and event.event == "job" and event.data.get("state") in OVER:
+            submitted.pop(number, None)
     return [
         [event for event in events[at:] if event.event == "held" or _of(event) in (number, None)]
-        for number, at in open_
+        for number, at in submitted.items()
     ]
 
 

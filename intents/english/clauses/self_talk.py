@@ -1,6 +1,7 @@
 """What the robot can tell of itself: its state, and small talk."""
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 
 from intents.english.words import lexicon
@@ -116,6 +117,10 @@ _ABOUT_ROBOT: tuple[tuple[ReportTopic, re.Pattern[str]], ...] = tuple(
 )
 """Questions about the robot, in order: the first pattern that fits a whole clause counts."""
 _LONGEST = 14
+_LINKS = lexicon.words("and then but also")
+_ASKING = lexicon.words(
+    "what which who whose where when why how whereabouts are is do does did can have has will"
+)
 _SMALL_TALK = lexicon.words(
     "what which is it the a an of today tomorrow day time date week month year current now this "
     "joke something funny about yourself your team teams 's name country affiliation leader are "
@@ -129,9 +134,23 @@ def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
     end = at
     while end < len(text) and text.word(end)[0].isalnum() and end <= at + _LONGEST:
         end += 1
-    said = " ".join(text.words[at:end])
-    topic = _topic(said) if end > at else None
-    return ([Report(topic=topic)], end) if topic else None
+    for stop in _ends(text, at, end):
+        topic = _topic(" ".join(text.words[at:stop]))
+        if topic:
+            return [Report(topic=topic)], stop
+    return None
+
+
+def _ends(text: Text, at: int, end: int) -> Iterator[int]:
+    """Where a question may end: before another one that is linked to it, else as late as it can."""
+    links = [link for link in range(at + 1, end) if text.word(link) in _LINKS]
+    for link in links:
+        following = link + 1 + (text.word(link + 1) in _LINKS)
+        if text.word(following) in _ASKING:
+            yield link
+    if end > at:
+        yield end
+    yield from reversed(links)
 
 
 @lru_cache(maxsize=256)

@@ -28,6 +28,15 @@ _SEARCHED = ("scan", "check", "comb through", "scanning", "checking")
 """Verbs with which it is the place that is named first: scan the shelf for the cup."""
 _BESIDES: tuple[How, ...] = ("behind", "under", "above", "left", "right")
 """Where a robot that walks to a place does not come to stand."""
+_THROUGH = (
+    ("onto", ["on", "top", "of"]),
+    *((way, [said]) for way, said in (
+        ("into", "into"), ("into", "in"), ("into", "inside"), ("into", "within"),
+        ("onto", "onto"), ("onto", "on"), ("onto", "upon"), ("onto", "atop"),
+        ("through", "through"), ("over", "over"), ("across", "across"),
+    )),
+)  # fmt: skip
+"""Ways that lead where only a floor is, with the last words before what is named."""
 _BY = ("forward", "backward", "left", "right")
 
 
@@ -78,6 +87,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("I need to know where to go to")
     slots.done()
     _must_be_to(target, clause)
+    for phrase in target.phrases:
+        must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
 
 
@@ -90,6 +101,20 @@ def _must_be_to(target: Complement, clause: Clause) -> None:
     if way:
         places = "two" if way == "between" else "one"
         raise NotUnderstood(f"I can walk to a place, not {way} {places}")
+
+
+def must_be_beside(phrase: NounPhrase, clause: Clause, scope: Scope) -> None:
+    """Refuse to walk into, onto or through what is no room: furniture, and things.
+
+    Raises:
+        NotUnderstood: That was said.
+    """
+    before = [*clause.verb.split()[1:], *clause.text.words[clause.first : phrase.start]]
+    way = next((way for way, said in _THROUGH if before[-len(said) :] == said), "")
+    way = way or ("into" if clause.verb == "enter" else "")
+    name = phrase.name("room", "place", "object")
+    if way and name and (phrase.name("object") == name or name in scope.index.furniture):
+        raise NotUnderstood(f"I can walk to the {name}, not {way} it")
 
 
 def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:

@@ -1,5 +1,6 @@
 """Postures, balance and gestures of the robot itself."""
 
+from intents.english.frames.motion import must_be_beside
 from intents.english.frames.slots import Slots
 from intents.english.phrases.complements import Clause
 from intents.english.phrases.phrase import NounPhrase
@@ -41,6 +42,7 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
         place = slots.take("at")
         if place:
             slots.done()
+            must_be_beside(place.phrase, clause, scope)
             return [GoTo(place=to_place(place.phrase, scope))]
         return _balance(slots, "stand")
     if limb.said not in _LEGS:

@@ -31,6 +31,7 @@ from intents.goals import (
 
 _TOO = lexicon.phrases("too,also,as well,likewise")
 _MORE = lexicon.phrases("more,a bit more,a little more,some more,further,a bit further,again more")
+_SIDES = lexicon.words("left right up down ahead behind")
 _LINKING = ("and", "also", "then", "plus", "next", "about")
 
 
@@ -85,10 +86,19 @@ def gapped(sentence: Sentence, at: int) -> Found | None:
     if said is None:
         return None
     complements, end = read_complements(sentence.text, at)
-    if not any(c.phrases for c in complements) or not goes_on(sentence.text, end):
+    again = bool(sentence.before) and _has_direction(sentence.before[-1])  # "left and then right"
+    told = any(c.phrases or (c.direction and again) for c in complements)
+    if not told or not goes_on(sentence.text, end):
         return None
     kept = [(s, said.first) for s in said.senses if s not in SPEECH and s != "count"]
     return first_that_fits(sentence, kept, said.at, list(sentence.notes.particles), resumed=at)
+
+
+def _has_direction(goal: Goal) -> bool:
+    """Whether another direction could stand in it: "to the table and back" is another matter."""
+    if isinstance(goal, GoTo):
+        return goal.by is not None
+    return isinstance(goal, LookAt) and goal.place in _SIDES
 
 
 def gapped_after_and(sentence: Sentence, at: int) -> Found | None:

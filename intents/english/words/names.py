@@ -66,6 +66,7 @@ class NameIndex:
 
     Attributes:
         words: Every word of every name, singular and as spelled.
+        furniture: Names of places that are walked up to and nothing else.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
@@ -75,6 +76,8 @@ class NameIndex:
         self._longest = 1
         self.words: frozenset[str] = frozenset()
         self._variants = _variants(vocabulary)
+        floors = [s.name for s in (*vocabulary.rooms, *vocabulary.places) if not s.furniture]
+        self.furniture = frozenset(s.name for s in vocabulary.places).difference(floors)
         spellings = _spellings(vocabulary)
         taken = {_key(_split(s)) for _, s in spellings if _split(s)}
         aliases = [(n, s) for n, s in _aliases(vocabulary) if _key(_split(s)) not in taken]

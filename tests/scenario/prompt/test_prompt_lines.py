@@ -4,13 +4,16 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Thread
 from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from prompt_toolkit.buffer import Buffer
 from prompt_toolkit.keys import Keys
 
-from benchmarks.intents.endpoint import Reply, serving
+from benchmarks.intents.endpoint import Reply, Server, serving
+from executive.frontends.listening.obeying import Conversation
 from executive.frontends.prompt import commands
 from executive.frontends.prompt.cli import words
 from executive.frontends.prompt.plain import work_off
@@ -24,6 +27,7 @@ from executive.meaning import request
 from executive.runs.runtimes import Setup
 from executive.skills.catalogue import SKILLS
 from intents.language_model import Endpoint, LanguageModel
+from intents.speech.ear import Ear, Spoken
 from robot.clock import WallClock
 from tests.fakes.voices import Loudspeaker
 from tests.fakes.waiting import eventually
@@ -85,7 +89,6 @@ def test_a_sentence_is_done(shell: Shell):
         ("inject meteor", "unknown fault"),
         ("run nowhere.yaml", "nowhere.yaml"),
         ("save mission", "save it where?"),
-        ("save mission /nowhere/at/all.yaml", "cannot be written"),
     ],
 )
 def test_what_cannot_be_meant_is_said_and_nothing_moves(shell: Shell, line: str, words: str):
@@ -312,6 +315,33 @@ def test_what_was_done_is_kept_as_a_mission(shell: Shell, tmp_path: Path):
     assert "the red one" not in text  # it was stopped, and says nothing by itself
     shell.line(f"save mission {path}")
     assert "is there already" in shell.out.text
+    shell.line("save mission /nowhere/at/all.yaml")
+    assert "cannot be written" in shell.out.text
+
+
+def test_where_nothing_was_done_there_is_nothing_to_save(tmp_path: Path):
+    with shell_in(tmp_path, "empty") as shell:
+        shell.line(f"save mission {tmp_path / 'morning.yaml'}")
+        assert "nothing was done yet" in shell.out.text
+
+
+@pytest.mark.parametrize("line", ["resume", "continue", "carry on"])
+def test_who_goes_on_where_nothing_is_paused_is_told_so(shell: Shell, line: str):
+    shell.line("say hello")
+    shell.robot.wait()
+    shell.line(line)
+    assert "Nothing is paused, and nothing is to be done." in shell.out.text
+    assert "say hello" in shell.out.text
+    shell.line("squat for 20 seconds")
+    assert eventually(shell.under_way)
+    shell.line(line)
+    assert "Nothing is paused: “squat for 20 seconds” is under way." in shell.out.text
+    shell.out.clear()
+    shell.line("pause")
+    shell.line(line)  # at once, before the pause was carried out
+    assert "Nothing is paused" not in shell.out.text
+    shell.line("stop")
+    shell.robot.wait()
 
 
 def test_left_and_right_are_as_the_robot_sees_them(shell: Shell):
@@ -346,6 +376,53 @@ def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Pat
             assert shell.robot.executive.jobs[-1].state == "done"
             shell.line("brighten up the evening")
             assert "language model was of no help" in shell.out[-1]
+
+
+@contextmanager
+def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
+    """A shell at work, whose language model never answers."""
+    with serving(Reply(delay_s=3600.0)) as server:
+        endpoint = Endpoint(base_url=server.url, model="local", deadline_s=3600.0)
+        with shell_in(folder, "empty", LanguageModel(endpoint)) as shell:
+            shell.line("squat for 60 seconds")
+            assert eventually(shell.under_way)
+            yield shell, server
+
+
+def test_a_stop_acts_while_a_language_model_is_asked(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        how = {"stops": shell.stops}
+        line = Thread(target=shell.line, args=("brighten up the morning",), kwargs=how)
+        line.start()
+        assert eventually(lambda: server.requests)
+        assert shell.stop_at_once("stop")
+        shell.robot.wait()
+        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+        line.join()
+        assert "“brighten up the morning” was there when you said stop" in shell.out.text
+        assert shell.dialogue.question is None
+
+
+def test_who_leaves_does_not_wait_for_a_language_model(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        line = Thread(target=shell.line, args=("brighten up the morning",))
+        line.start()
+        assert eventually(lambda: server.requests)
+        shell.leave()
+        line.join()
+        assert len(shell.robot.executive.jobs) == 1
+
+
+def test_a_stop_is_heard_while_a_language_model_is_asked(tmp_path: Path):
+    with asking_for_ever(tmp_path) as (shell, server):
+        ear = cast(Ear, SimpleNamespace(replying=False, said=lambda _text: None))
+        conversation = Conversation(shell, ear, recorded=False)
+        conversation.take(Spoken(kind="sentence", text="brighten up the morning"))
+        assert eventually(lambda: server.requests)
+        conversation.take(Spoken(kind="stop", text="stop"))
+        shell.robot.wait()
+        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+        assert eventually(lambda: "was there when you said stop" in shell.out.text)
 
 
 def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):

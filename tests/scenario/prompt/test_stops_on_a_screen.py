@@ -70,6 +70,14 @@ def test_ctrl_c_leaves_a_search(evening: Evening):
         evening.press(CTRL_U)
 
 
+def test_ctrl_z_is_answered_and_the_next_stop_acts(evening: Evening):
+    evening.walk()
+    evening.press("\x1a")
+    assert evening.shows("Ctrl-Z does not suspend the prompt"), evening.text
+    evening.press(CTRL_C)
+    assert evening.shows("stand | ")
+
+
 @pytest.mark.parametrize("pending", ["\x11", "\x1d", "\x18", "go to the k\t"])
 def test_ctrl_c_leaves_a_pending_key_or_a_menu(evening: Evening, pending: str):
     evening.walk()

@@ -6,7 +6,17 @@ import pytest
 
 from intents import dialogue as dialogue_module
 from intents.dialogue import Dialogue
-from intents.goals import Cancel, Find, Gesture, LookAt, ObjectQuery, Place, Stop
+from intents.goals import (
+    Cancel,
+    Find,
+    Gesture,
+    GoTo,
+    LookAt,
+    ObjectQuery,
+    Place,
+    Report,
+    Stop,
+)
 from intents.grounding import Entity
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
@@ -70,6 +80,54 @@ def test_questions_are_answered_from_state(asked: str, told: str) -> None:
     (reply,) = talk(asked)
     assert isinstance(reply, Reply), reply
     assert told in reply.text
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("where are you and what do you hold?", ("bench in the cellar", "white jar")),
+        ("what are you holding and where are you?", ("white jar", "bench in the cellar")),
+        ("what can you do, and what are you carrying?", ("pick things up", "white jar")),
+        ("how are you and then what are you doing", ("well", "doing nothing")),
+        ("where are you? where is the green jar?", ("cellar", "The green jar is at the bench")),
+        ("where is the green jar and what do you see", ("The green jar is at", "I see")),
+        ("what colour is the green jar and where are you", ("jar is green", "cellar")),
+        ("tell me where you are and what you hold", ("cellar", "white jar")),
+    ],
+)
+def test_two_questions_in_one_line_are_both_answered(asked: str, told: tuple[str, str]) -> None:
+    (reply,) = talk(asked)
+    assert isinstance(reply, Reply), reply
+    first, second = (reply.text.index(part) for part in told)
+    assert first < second
+
+
+def test_of_two_questions_the_one_that_can_be_answered_is_and_the_other_is_asked_about() -> None:
+    asked, going = talk("what do you hold and where is the torch?", "yes")
+    assert isinstance(asked, Question)
+    assert "white jar" in asked.question
+    assert "I do not know where the torch is. Shall I look for it?" in asked.question
+    assert isinstance(going, Goals)
+    assert going.goals == (Find(object=ObjectQuery(name="torch")),)
+
+
+def test_a_question_beside_a_wish_is_a_step_of_it() -> None:
+    (turn,) = talk("what are you holding and go to the stove")
+    assert isinstance(turn, Goals)
+    assert turn.goals == (Report(topic="holding"), GoTo(place="stove"))
+
+
+def test_to_find_something_is_a_wish_also_beside_a_question() -> None:
+    (turn,) = talk("find the green jar and tell me where you are")
+    assert isinstance(turn, Goals)
+    assert [type(goal) for goal in turn.goals] == [Find, Report]
+
+
+@pytest.mark.parametrize("asked", ["what can you see and do", "where are you and blorb"])
+def test_half_a_question_is_not_passed_over(asked: str) -> None:
+    (turn,) = talk(asked)
+    assert isinstance(turn, Question)
+    assert "I do not understand" in turn.question
 
 
 def test_the_state_decides_the_answer() -> None:

@@ -202,6 +202,26 @@ def test_the_key_is_sent_and_shown_nowhere(caplog: pytest.LogCaptureFixture) -> 
     assert "s3cret" not in shown
 
 
+def test_a_redirect_is_not_followed_and_the_key_stays() -> None:
+    with serving(RIGHT) as elsewhere:
+        there = f"{elsewhere.url}/chat/completions"
+        with serving(Reply(status=307, location=there)) as server:
+            model = LanguageModel(endpoint(server.url), key=Key("s3cret"))
+            assert model("tidy up", WORDS, Context()) is None
+        assert "307" in model.trouble
+        assert elsewhere.requests == []
+
+
+def test_no_proxy_of_the_environment_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    with serving(RIGHT) as proxy, serving(RIGHT) as server:
+        for name in ("HTTP_PROXY", "http_proxy", "ALL_PROXY", "all_proxy"):
+            monkeypatch.setenv(name, proxy.url)
+        model = LanguageModel(endpoint(server.url), key=Key("s3cret"))
+        assert isinstance(model("tidy up", WORDS, Context()), Goals)
+        assert proxy.requests == []
+        assert len(server.requests) == 1
+
+
 @pytest.mark.parametrize("secret", ["s3cret\nX-Other: 1", "s3cret\0", "s3crét"])
 def test_what_no_header_can_carry_is_no_key_and_not_shown(secret: str) -> None:
     with pytest.raises(ValueError, match="plain characters") as error:

@@ -33,7 +33,7 @@ BOTH_READ = [
     (ends.resultative, verb.verb, "I need the thermos put on the sofa"),
     (time_clauses.until_told, verb.verb, "stay there until we are back, then come here"),
     (time_clauses.in_a_while, verb.verb, "take five seconds"),
-    (ends.thing_first, fronted.fronted, "all drinks go into the toolbox"),
+    (ends.thing_first, fronted.fronted, "all drinks go to the toolbox"),
 ]
 
 

@@ -45,12 +45,43 @@ def refusal(text: str) -> Refused:
             ["pick up the green bottle", "put the green bottle on the upper shelf"],
         ),
         ("wait 3 seconds", ["wait 3 s"]),
+        ("look left", ["look left"]),
+        ("look to your right, then up", ["look right", "look up"]),
+        ("look down and then straight ahead", ["look down", "look ahead"]),
+        ("look behind you", ["turn around", "look ahead"]),
         ("say hello to ann", ["look at Ann", "say hello"]),
         ("what are you holding", ["report holding"]),
     ],
 )
 def test_sentences_become_steps(text, expected):
     assert steps(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("walk into the table", "I can walk to the table, not into it"),
+        ("walk onto the table", "I can walk to the table, not onto it"),
+        ("step on top of the upper shelf", "I can walk to the upper shelf, not onto it"),
+        ("stand on the table", "I can walk to the table, not onto it"),
+        ("enter the table", "I can walk to the table, not into it"),
+        ("walk over the table", "I can walk to the table, not over it"),
+        ("go through the table", "I can walk to the table, not through it"),
+        ("walk onto the bottle", "I can walk to the bottle, not onto it"),
+    ],
+)
+def test_nobody_walks_into_furniture_or_onto_things(text, words):
+    assert words in refusal(text).reason
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [("walk into the kitchen", "kitchen"), ("go through the kitchen", "kitchen"),
+     ("enter the kitchen", "kitchen"), ("walk over to the table", "table"),
+     ("go on to the table", "table"), ("stand at the table", "table")],
+)  # fmt: skip
+def test_rooms_are_walked_into_and_furniture_up_to(text, place):
+    assert steps(text) == [f"go to the {place}"]
 
 
 def test_several_things_are_fetched_one_after_the_other():

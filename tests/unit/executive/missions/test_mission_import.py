@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from executive.missions import nav2
-from executive.missions.btcpp import importing, leaves
+from executive.missions.btcpp import importing, leaves, nodes
 from executive.missions.btcpp.xml import parse
 from robot import yaml_nodes
 from robot.errors import ConfigError
@@ -163,7 +163,7 @@ def test_what_is_left_out_stands_above_the_mission(tmp_path):
 
 
 def test_no_node_is_both_known_and_refused():
-    assert not leaves.refused().keys() & (leaves.table().keys() | importing._NODES.keys())
+    assert not leaves.refused().keys() & (leaves.table().keys() | nodes.NODES.keys())
 
 
 def test_format_3_is_read_with_its_names_and_its_subtrees():

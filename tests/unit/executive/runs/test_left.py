@@ -7,8 +7,9 @@ import pytest
 
 from executive.engine.jobs import Limits
 from executive.engine.loop import Interrupts
+from executive.journal.why import told
 from executive.meaning.request import Understood, request
-from executive.runs.again.continuation import Left, left_in
+from executive.runs.again.continuation import Left, left_in, return_to
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from tests.fakes.puppet_runtime import PuppetRuntime
@@ -30,8 +31,8 @@ def left(session: Session) -> Left:
     return left_in(session.setup.folder)
 
 
-def understood() -> Understood:
-    found = request("say hello, then go to the table", WHERE)
+def understood(text: str = "say hello, then go to the table") -> Understood:
+    found = request(text, WHERE)
     assert isinstance(found, Understood), found
     return found
 
@@ -58,3 +59,22 @@ def test_where_nothing_was_asked_for_nothing_is_left_to_do(session: Session, tmp
     assert left(session).newest(WHERE) is None
     assert left_in(tmp_path / "nowhere") == Left(folder=tmp_path / "nowhere", events=[])
     assert left_in(tmp_path / "nowhere").next_number == 0
+
+
+def test_an_executive_that_follows_another_one_goes_on_with_the_numbers_of_jobs(session: Session):
+    session.submit(understood("say hello"))
+    session.run()
+    session.submit(understood("go to the table"))
+    found = left(session)
+    session.replace_executive(jobs_before=found.jobs)
+    return_to(session, found)
+    assert session.submit(understood("say goodbye")) == 3
+    session.run()
+    assert {job.number: job.text for job in session.executive.jobs} == {
+        2: "go to the table", 3: "say goodbye",
+    }  # fmt: skip
+    assert session.setup.folder is not None
+    for number, text in enumerate(("say hello", "go to the table", "say goodbye"), start=1):
+        why = told(session.setup.folder, job=number).text
+        assert f"Asked for: {text}" in why
+        assert why.startswith("Done")

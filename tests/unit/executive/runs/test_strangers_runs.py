@@ -196,6 +196,32 @@ def test_a_folder_of_another_user_is_refused(tmp_path):
         run_folder.claim(tmp_path)
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
+@pytest.mark.parametrize("link", [False, True])
+def test_a_folder_of_runs_that_another_user_has_made_is_refused_with_the_cure(tmp_path, link):
+    base = tmp_path / "runs"
+    if link:
+        base.symlink_to(tmp_path)
+    else:
+        base.mkdir()
+    os.chown(base, 65534, 65534, follow_symlinks=False)
+    with pytest.raises(ConfigError, match="belongs to another user") as refused:
+        run_folder.folder_for("squat", stamp="20260101-120000", base=base)
+    assert "--run-dir" in (refused.value.problems[0].suggestion or "")
+    assert [path.name for path in tmp_path.iterdir()] == ["runs"]
+    assert link or not list(base.iterdir())
+
+
+def test_a_folder_of_runs_in_which_every_user_can_exchange_them_is_refused(tmp_path):
+    base = tmp_path / "runs"
+    base.mkdir()
+    base.chmod(0o777)
+    with pytest.raises(ConfigError, match="every user"):
+        run_folder.folder_for("squat", stamp="20260101-120000", base=base)
+    base.chmod(0o1777)
+    assert run_folder.folder_for("squat", stamp="20260101-120000", base=base).is_dir()
+
+
 def test_a_link_in_the_place_of_a_journal_is_one_that_is_there(tmp_path):
     (tmp_path / "journal.jsonl").symlink_to(tmp_path / "nowhere")
     with pytest.raises(ConfigError, match="holds a run"):

@@ -83,6 +83,20 @@ def test_the_head_is_sent_to_the_point_in_the_odometry_frame(stage, target, p_W)
     assert not stage.commands(Walk)
 
 
+@pytest.mark.parametrize(
+    ("side", "bearing_rad", "above"),
+    [("ahead", 0.0, 0), ("left", 0.5 * math.pi, 0), ("right", -0.5 * math.pi, 0), ("up", 0.0, 1),
+     ("down", 0.0, -1)],
+)  # fmt: skip
+def test_a_side_is_that_of_the_robot_wherever_it_stands(stage, side, bearing_rad, above):
+    stage.puppet.X_WS = X_WS = SE3.from_xy_yaw(0.5, -0.3, 2.0)
+    assert stage.run(LookParams(towards=side)).status == "succeeded"
+    x_m, y_m, z_m = (X_WS.inverse() @ stage.puppet.X_WN @ SE3(stage.commands(Look)[-1].p_N)).p
+    assert math.atan2(y_m, x_m) == pytest.approx(bearing_rad, abs=0.05)
+    assert (z_m > 1.5) - (z_m < 0.5) == above
+    assert not stage.commands(Walk)
+
+
 def test_a_search_of_the_places_says_where_it_looked(stage):
     cup = stage.puppet.things["cup"]
     cup.known, cup.seen_s = False, -math.inf
