@@ -89,14 +89,14 @@ def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:
 
 
 def _if(goal: goals.If, scene: Scene) -> Part:
-    question = question_of(goal.condition, scene)
+    question, look = question_of(goal.condition, scene), look_of(goal.condition, scene)
     held = list(scene.held)
     then = Series(name="then", parts=tuple(part_of(child, scene) for child in goal.then))
     after = list(scene.held)
     scene.held = held
     otherwise = Series(name="else", parts=tuple(part_of(child, scene) for child in goal.else_))
     scene.held = [object_id for object_id in after if object_id in scene.held]
-    return Branch(name="if", question=question, then=then, otherwise=otherwise)
+    return Branch(name="if", question=question, then=then, otherwise=otherwise, look=in_turn(look))
 
 
 def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
@@ -110,10 +110,29 @@ def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
                      suggestion="ask whether an object is there, or held")  # fmt: skip
     ids = frozenset(info.id for info in scene.fitting(condition.object))
     at = condition.object.at
-    places = steps.surfaces(scene.places(at)) if at else ()
+    places = steps.to_look_over(scene.places(at), scene) if at else ()
     holding = isinstance(condition, goals.Holding)
     known = answers.is_held(ids) if holding else answers.is_there(ids, places)
     return (lambda board: not known(board)) if condition.negated else known
+
+
+def look_of(condition: goals.Condition, scene: Scene) -> tuple[Errand, ...]:
+    """What has to be looked at to decide a condition, if anything has.
+
+    That nothing was seen where nobody looked is no reason for the other branch.
+    """
+    if not isinstance(condition, goals.Present) or condition.object is None:
+        return ()
+    at, ids = condition.object.at, [info.id for info in scene.fitting(condition.object)]
+    name = f"look over the {at}" if at else "look around"
+    return steps.inspect(name, at, scene, ids=ids) if ids else ()
+
+
+def in_turn(looks: tuple[Errand, ...]) -> Part | None:
+    """Looks one after the other; None if there are none."""
+    if len(looks) < 2:
+        return looks[0] if looks else None
+    return Series(name="look", parts=looks)
 
 
 def _report(goal: goals.Report, scene: Scene) -> Part:

@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.tasks import part_of
+from executive.meaning.tasks import in_turn, part_of
 from executive.meaning.validation import check
 from executive.missions import schema as s
 from executive.missions.calling import Calls
@@ -290,7 +290,13 @@ class Compiler:
         if finding is None:
             return None
         name = f"if {finding.text}"
-        return p.Branch(name=name, question=finding.question, then=then, otherwise=otherwise)
+        return p.Branch(
+            name=name,
+            question=finding.question,
+            then=then,
+            otherwise=otherwise,
+            look=in_turn(finding.looks),
+        )
 
     def _repeat(self, record: s.RepeatStep, node: Node, scope: Scope) -> p.Part:
         times = self._within(record.repeat, 1, MAX_ROUNDS, node, "repeat")

@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
+from scipy import ndimage, sparse
+from scipy.sparse import csgraph
 
 from robot.kinematics.spline import ClampedSpline
 from robot.se3 import Array
@@ -45,6 +46,27 @@ def distance_to(mask: Mask) -> Array:
     """Distance of every cell to the mask, in cells."""
     result: Any = ndimage.distance_transform_edt(~mask)
     return result
+
+
+def ways_over(mask: Mask, start: tuple[int, int]) -> Array:
+    """Length of the shortest way from a cell to every other over the mask, in cells; inf: none.
+
+    A way goes from cell to cell, diagonally too.
+    """
+    height, width = mask.shape
+    number = np.arange(height * width).reshape(height, width)
+    tails, heads, lengths = [], [], []
+    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        first = (slice(0, height - down), slice(max(0, -right), width - max(0, right)))
+        second = (slice(down, height), slice(max(0, right), width + min(0, right)))
+        both = mask[first] & mask[second]
+        tails.append(number[first][both])
+        heads.append(number[second][both])
+        lengths.append(np.full(int(both.sum()), np.hypot(down, right)))
+    ends = (np.concatenate(tails), np.concatenate(heads))
+    graph = sparse.csr_matrix((np.concatenate(lengths), ends), shape=(number.size, number.size))
+    result: Any = csgraph.dijkstra(graph, directed=False, indices=int(number[start]))
+    return result.reshape(height, width)
 
 
 def spline(times_s: Array, positions: Array, at_s: Array, *, derivative: int = 0) -> Array:
