@@ -81,10 +81,10 @@ class RulePlanner:
             return r.LookPlan(stance=None)
         best = max(request.worth)
         first = request.points_W[request.worth.index(best)]
-        near = (i for i, p in enumerate(request.points_W) if math.dist(p, first) < 1.5)
+        near = [i for i, p in enumerate(request.points_W) if math.dist(p, first) < 1.5]
         return r.LookPlan(
             stance=(first[0] - 1.0, first[1], 0.0),
-            gazes_W=(first,),
+            gazes_W=tuple(request.points_W[i] for i in near),
             sees=tuple(near),
             length_m=math.dist((x, y), first[:2]),
         )

@@ -333,7 +333,7 @@ class Puppet:
                 thing.known = True
         for place in self.world_map.places:
             for i, p_W in enumerate(() if place.floor else place.samples().tolist()):
-                if math.dist(p_W, self._gaze) < 1.2 and math.dist(p_W, self.X_WS.p) < 3.6:
+                if math.dist(p_W, self._gaze) < 0.5 and math.dist(p_W, self.X_WS.p) < 3.6:
                     self._looked[place.id][i] = self.time_s
 
     def _hand(self, side: str) -> m.HandState:
