@@ -34,9 +34,9 @@ ABOVE_M = 0.04
 HEAD_RAD, CONE_RAD = 0.95, 0.42
 """How far the head is turned to a side, and what of a picture counts about its middle."""
 HEADINGS = 8
-WALK_M_S, TURN_RAD_S = 0.25, 0.4
-SET_OFF_S, TURN_S, LOOK_S = 4.0, 1.5, 0.7
-"""As timed in kitchens: setting off and stepping in cost seconds however short the way is."""
+WALK_M_S, TURN_RAD_S = 0.2, 0.4
+SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
+"""As timed in a flat and an office: setting off and stepping in cost seconds on any way."""
 SLACK = 0.9
 """A way may be as narrow as this part of the body's radius to both sides; base paths agree."""
 

@@ -16,6 +16,8 @@ from robot.se3 import SE3
 
 SIGHT_M = 3.0
 """From as near as this it is tried from here first whether an object is where it was."""
+IN_VIEW_S = 2.0
+"""What was seen that lately need not be looked for again."""
 FRESH_S = 600.0
 """What was looked over longer ago may hold something else by now."""
 
@@ -31,7 +33,8 @@ def find(
     """
     name = body.object_info(object_id).name
     believed = _believed(body, object_id)
-    if believed is not None and not by_sight:
+    just_now = fresh_track(body, object_id, body.now_s - IN_VIEW_S) is not None
+    if believed is not None and (just_now or not by_sight):
         return believed
     if believed is not None:
         found = yield from _check_belief(body, object_id, believed)
