@@ -311,16 +311,20 @@ class Compiler:
         self._hands = _common(before, self._hands)
         if finding is None:
             return None
-        return p.Loop(
+        looks = tuple(
+            look for look in finding.looks if look.object_name
+        )  # of places that are named
+        loop = p.Loop(
             name=f"while {finding.text}",
-            bodies=bodies,
+            bodies=tuple(_and_then(body, looks) for body in bodies),
             at_most=at_most,
             question=finding.question,
         )
+        return p.Series(name=loop.name, parts=(*looks, loop)) if looks else loop
 
-    def _bodies(self, steps: s.Steps, scope: Scope, times: int) -> tuple[p.Part, ...]:
+    def _bodies(self, steps: s.Steps, scope: Scope, times: int) -> tuple[p.Series, ...]:
         """The rounds of a loop, until one begins with the hands as the one before began."""
-        bodies: list[p.Part] = []
+        bodies: list[p.Series] = []
         before: Hands | None = None
         while len(bodies) < min(times, 4) and before != self._hands:
             before = self._hands
@@ -377,6 +381,11 @@ class Compiler:
 def _items(node: Node | None) -> list[Node]:
     """The items of a list, or nothing."""
     return node.items if node is not None and node.kind == "list" else []
+
+
+def _and_then(body: p.Series, looks: tuple[p.Errand, ...]) -> p.Series:
+    """A round that ends with the looks that decide on the next one."""
+    return replace(body, parts=(*body.parts, *looks))
 
 
 def _common(one: Hands, other: Hands) -> Hands:
