@@ -3,9 +3,12 @@
 import math
 
 import pytest
+from msgspec.structs import replace
 
+from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.inspect import RECENT_S, InspectParams
 from executive.skills.search import SearchParams
+from executive.skills.skill import Lasting
 from robot.messages import Look, Walk
 from robot.planning.requests import LookPlan, LookRequest
 from robot.se3 import SE3
@@ -90,6 +93,23 @@ def test_a_search_after_one_in_vain_looks_again(stage):
     stage.puppet.things["cup"].X_WO = ON_COUNTER
     assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
     assert any(isinstance(asked, LookRequest) for asked in stage.planner.requests)
+
+
+def test_what_looks_for_things_may_take_longer_in_a_larger_house(stage):
+    def limit_s() -> float:
+        skill = stage.make(SearchParams(object_id="cup"))
+        assert isinstance(skill, Lasting)
+        return skill.limit_s()
+
+    small_s, known = limit_s(), stage.puppet.world_map
+    stage.puppet.world_map = replace(known, bounds_m=(-10, -10, 10, 10))
+    wide_s = limit_s()
+    table = known.places[0]
+    more = tuple(
+        replace(table, id=f"table_{n}", X_WP=SE3((n, 5.0, 0.7)), of=f"table_{n}") for n in range(9)
+    )
+    stage.puppet.world_map = replace(stage.puppet.world_map, places=(*known.places, *more))
+    assert DEFAULT_LIMIT_S < small_s < wide_s < limit_s()
 
 
 def test_where_it_was_said_to_be_is_looked_at_first(stage):

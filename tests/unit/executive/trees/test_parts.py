@@ -263,6 +263,13 @@ def test_without_the_look_neither_branch_is_taken():
     assert set(ids(rig)) == {"1.look"}
 
 
+def test_a_skill_may_take_as_long_as_it_says():
+    scripts = {NavigateParams: [Script(steps=10**6, limit_s=limit_s) for limit_s in (1.0, 3.0)]}
+    _rig, verdict = play(WALK, scripts)
+    assert verdict.code == "timeout"
+    assert "longer than 3 s" in verdict.cause
+
+
 def test_a_branch_that_was_taken_is_not_looked_at_again():
     branch = p.Branch(name="if", question=lambda board: False, then=WAIT, otherwise=PICK, look=WALK)
     rig, _ = play(series(branch, SAY), done=frozenset({"1?then"}))
