@@ -71,6 +71,7 @@ CATALOGUE: dict[str, FailureKind] = {
     "grasp_missed": FailureKind("the fingers closed on air", "check where the object is"),
     "object_dropped": FailureKind("the object left the hand", "check the object"),
     "object_not_seen": FailureKind("the object is not where it was", "show it to the camera"),
+    "place_not_seen": FailureKind("a place could not be looked over", "clear the view of it"),
     "on_the_floor": FailureKind(
         "the object lies on the floor, lower than a hand reaches", "put it back onto a table"
     ),

@@ -6,6 +6,7 @@ Frames (docs/frames.md): W world; N odometry (the controller's own: smooth, drif
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import msgspec
@@ -19,6 +20,8 @@ Side = Literal["left", "right"]
 Mode = Literal["damping", "stand", "walk", "fallen", "rising"]
 Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
+SAMPLE_M = 0.25
+"""How far apart the points of a surface are by which it is said what of it was seen [m]."""
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True):
@@ -327,7 +330,8 @@ class Place(msgspec.Struct, frozen=True, kw_only=True):
     """A surface that things are put on: a rectangle with its centre and axes X_WP, z up.
 
     `size_m` its extent along x and y; `clearance_m` the free height above it; `of` the furniture.
-    `floor` places (rooms, spots) are walked to and have no surface.
+    `floor` places (rooms, spots) are walked to and have no surface. `kind` is the sort of furniture
+    ("table", "chair"), empty where nobody said.
     """
 
     id: str
@@ -339,6 +343,24 @@ class Place(msgspec.Struct, frozen=True, kw_only=True):
     room: str = ""
     floor: bool = False
     synonyms: tuple[str, ...] = ()
+    kind: str = ""
+
+    def samples(self) -> NDArray[np.float64]:
+        """Points spread over the surface [m], shape (n, 3) in W; `Looked` is about each of them."""
+        grid = [
+            (np.arange(count) + 0.5) / count - 0.5
+            for count in (max(1, math.ceil(size / SAMPLE_M)) for size in self.size_m)
+        ]
+        x, y = np.meshgrid(grid[0] * self.size_m[0], grid[1] * self.size_m[1], indexing="ij")
+        points_P = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+        return points_P @ self.X_WP.rotation().T + np.array(self.X_WP.p)
+
+
+class Looked(msgspec.Struct, frozen=True, kw_only=True):
+    """When each of a surface's `samples` was last seen well [s], -inf: never, in their order."""
+
+    place_id: str
+    seen_s: tuple[float, ...]
 
 
 class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
@@ -420,6 +442,7 @@ class WorldState(Message, frozen=True, kw_only=True):
     `fix_age_s` is the age of the last fix that was believed; `jumps` counts how often the estimate
     of X_WN had to be thrown over. `unmapped` is what the sensors see and the map does not explain.
     `people` are tracked like objects; one not seen yet (`seen_s` -inf) is where the map says.
+    `looked` is what of the surfaces has been in view, near enough and with nothing before it.
     """
 
     X_WN: SE3
@@ -428,5 +451,6 @@ class WorldState(Message, frozen=True, kw_only=True):
     tracks: tuple[Track, ...]
     people: tuple[Track, ...] = ()
     unmapped: tuple[Obstacle, ...] = ()
+    looked: tuple[Looked, ...] = ()
     jumps: int = 0
     source: Source = "oracle"

@@ -178,6 +178,7 @@ def _surfaces(world: World, item: Furniture) -> list[Place]:
                 clearance_m=surface.clearance_m,
                 of=item.id,
                 room=room_at(world, item.at_m),
+                kind=item.kind,
             )
         )
     return found

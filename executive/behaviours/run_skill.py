@@ -21,7 +21,7 @@ from executive.behaviours.scope import Scope
 from executive.behaviours.stage import Stage, broken
 from executive.blackboard import Blackboard
 from executive.skills.parameters import SkillParams
-from executive.skills.skill import Resumable, Skill, SkillReport
+from executive.skills.skill import Lasting, Resumable, Skill, SkillReport
 from robot.failures import Failure, failure
 
 Bound = Callable[[Blackboard], SkillParams | Failure]
@@ -41,7 +41,7 @@ class RunSkill(Behaviour):
         stage: Stage,
         step_id: str = "",
         attempt: int = 0,
-        limit_s: float = DEFAULT_LIMIT_S,
+        limit_s: float | None = None,
     ) -> None:
         """Make the leaf; the skill itself is made when its turn comes.
 
@@ -51,14 +51,16 @@ class RunSkill(Behaviour):
             stage: shared by all leaves.
             step_id: the step's path in its job, for the journal.
             attempt: 0 the first time, more for a retry.
-            limit_s: the longest it may take, interruptions left out.
+            limit_s: the longest it may take, interruptions left out; None: what the skill says, or
+                `DEFAULT_LIMIT_S`.
         """
         super().__init__(name)
         self._params = params
         self._stage = stage
         self.step_id = step_id
         self._attempt = attempt
-        self._limit_s = limit_s
+        self._wanted_limit_s = limit_s
+        self._limit_s = limit_s or DEFAULT_LIMIT_S
         self._left: SkillParams | None = None
         self._finished = False
         self._resumed = False
@@ -120,6 +122,8 @@ class RunSkill(Behaviour):
                 return self._give_up(params)
             self._left = params
             self._skill = self._stage.make_skill(params, self._attempt)
+            if self._wanted_limit_s is None and isinstance(self._skill, Lasting):
+                self._limit_s = self._skill.limit_s()
             self._begun_s = now_s
         late = self._spent_s + now_s - self._begun_s > self._limit_s
         if not self._acting:

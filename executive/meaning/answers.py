@@ -7,8 +7,9 @@ from collections.abc import Iterable
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import HELD, WORLD, Blackboard
-from executive.meaning.knowledge import Knowledge, stands_on
+from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
+from executive.skills.motions.support import stands_on
 from executive.skills.say import SayParams
 from intents import replies
 from intents.goals import ReportTopic
@@ -26,13 +27,12 @@ def is_there(ids: frozenset[str], places: Iterable[Place]) -> Predicate:
     return lambda board: bool(_seen(board, ids, surfaces))
 
 
-def count(ids: frozenset[str], places: Iterable[Place], *, noun: str) -> Bound:
+def count(ids: frozenset[str], places: Iterable[Place], *, noun: str, where: str = "") -> Bound:
     """Says how many of the objects have been seen (on one of the places, if any)."""
     surfaces = tuple(places)
 
     def words(board: Blackboard) -> SayParams:
         number = len(_seen(board, ids, surfaces))
-        where = f" on the {surfaces[0].name}" if surfaces else ""
         plural = "" if number == 1 else "s"
         return SayParams(text=f"I see {number} {noun}{plural}{where}.")
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
+from executive.skills.motions.support import stands_on
 from intents.grounding import Entity
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
 from robot.se3 import SE3, Vector3
 
 T = TypeVar("T")
-ON_TOP_M = 0.3
 SMALL, BIG = 0.75, 1.33
 """Volume relative to the mean of its name: less is small, more is big."""
 
@@ -102,13 +102,6 @@ class Knowledge:
         if named is None and name is None and len(people) == 1:
             return people[0]
         return named
-
-
-def stands_on(X_WO: SE3, place: Place) -> bool:
-    """Whether an object's middle is over a surface, at most `ON_TOP_M` above it."""
-    x, y, z = (place.X_WP.inverse() @ X_WO).p
-    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
-    return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
 
 
 def _is_room(place: Place) -> bool:

@@ -8,7 +8,7 @@ those that are made of other goals are here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
 import msgspec
@@ -89,14 +89,61 @@ def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:
 
 
 def _if(goal: goals.If, scene: Scene) -> Part:
-    question = question_of(goal.condition, scene)
-    held = list(scene.held)
-    then = Series(name="then", parts=tuple(part_of(child, scene) for child in goal.then))
-    after = list(scene.held)
-    scene.held = held
-    otherwise = Series(name="else", parts=tuple(part_of(child, scene) for child in goal.else_))
-    scene.held = [object_id for object_id in after if object_id in scene.held]
-    return Branch(name="if", question=question, then=then, otherwise=otherwise)
+    held, cases = list(scene.held), _cases(goal, scene)
+    look = in_turn(look_of(goal.condition, scene))
+    branch: Part = Series(name="else", parts=tuple(part_of(child, scene) for child in goal.else_))
+    common = list(scene.held)
+    for n, case in reversed(list(enumerate(cases))):
+        scene.held = list(held)
+        question = question_of(case.condition, scene)
+        then = Series(name="then", parts=tuple(part_of(child, scene) for child in case.then))
+        common = [object_id for object_id in common if object_id in scene.held]
+        branch = Branch(
+            name="if", question=question, then=then, otherwise=branch, look=None if n else look
+        )
+    scene.held = common
+    return branch
+
+
+def _cases(goal: goals.If, scene: Scene) -> list[goals.If]:
+    """The condition for each thing that "a mug" may turn out to be, what is done being about it.
+
+    Only if what is done is about that thing at all, which cannot be known before it was looked.
+    """
+    condition = goal.condition
+    said = condition.object if isinstance(condition, goals.Present) else None
+    if said is None or condition.negated or said.count not in (None, 1):
+        return [goal]
+    same = (said, msgspec.structs.replace(said, at=None))
+    spoken_of = any(getattr(child, "object", None) in same for child in goals.each(goal.then))
+    found = scene.fitting(said) if spoken_of else []
+    if len(found) < 2:
+        return [goal]
+    return [
+        msgspec.structs.replace(
+            goal,
+            condition=msgspec.structs.replace(condition, object=_named(said, info)),
+            then=tuple(_about(child, same, info) for child in goal.then),
+        )
+        for info in found
+    ]
+
+
+def _about(goal: goals.Goal, same: Collection[goals.ObjectQuery], info: ObjectInfo) -> goals.Goal:
+    """A goal, and those inside it, with one object in the place of its description."""
+    slots: dict[str, object] = {
+        slot: tuple(_about(child, same, info) for child in getattr(goal, slot))
+        for slot in ("goals", "then", "else_")
+        if hasattr(goal, slot)
+    }
+    query = getattr(goal, "object", None)
+    if isinstance(query, goals.ObjectQuery) and query in same:
+        slots["object"] = _named(query, info)
+    return msgspec.structs.replace(goal, **slots)
+
+
+def _named(query: goals.ObjectQuery, info: ObjectInfo) -> goals.ObjectQuery:
+    return goals.ObjectQuery(name=info.id, at=query.at)
 
 
 def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
@@ -110,10 +157,29 @@ def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
                      suggestion="ask whether an object is there, or held")  # fmt: skip
     ids = frozenset(info.id for info in scene.fitting(condition.object))
     at = condition.object.at
-    places = steps.surfaces(scene.places(at)) if at else ()
+    places = steps.to_look_over(scene.places(at), scene) if at else ()
     holding = isinstance(condition, goals.Holding)
     known = answers.is_held(ids) if holding else answers.is_there(ids, places)
     return (lambda board: not known(board)) if condition.negated else known
+
+
+def look_of(condition: goals.Condition, scene: Scene) -> tuple[Errand, ...]:
+    """What has to be looked at to decide a condition, if anything has.
+
+    That nothing was seen where nobody looked is no reason for the other branch.
+    """
+    if not isinstance(condition, goals.Present) or condition.object is None:
+        return ()
+    at, ids = condition.object.at, [info.id for info in scene.fitting(condition.object)]
+    name = f"look over the {at}" if at else "look around"
+    return steps.inspect(name, at, scene, ids=ids) if ids else ()
+
+
+def in_turn(looks: tuple[Errand, ...]) -> Part | None:
+    """Looks one after the other; None if there are none."""
+    if len(looks) < 2:
+        return looks[0] if looks else None
+    return Series(name="look", parts=looks)
 
 
 def _report(goal: goals.Report, scene: Scene) -> Part:

@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.tasks import part_of
+from executive.meaning.tasks import in_turn, part_of
 from executive.meaning.validation import check
 from executive.missions import schema as s
 from executive.missions.calling import Calls
@@ -290,7 +290,13 @@ class Compiler:
         if finding is None:
             return None
         name = f"if {finding.text}"
-        return p.Branch(name=name, question=finding.question, then=then, otherwise=otherwise)
+        return p.Branch(
+            name=name,
+            question=finding.question,
+            then=then,
+            otherwise=otherwise,
+            look=in_turn(finding.looks),
+        )
 
     def _repeat(self, record: s.RepeatStep, node: Node, scope: Scope) -> p.Part:
         times = self._within(record.repeat, 1, MAX_ROUNDS, node, "repeat")
@@ -305,16 +311,20 @@ class Compiler:
         self._hands = _common(before, self._hands)
         if finding is None:
             return None
-        return p.Loop(
+        looks = tuple(
+            look for look in finding.looks if look.object_name
+        )  # of places that are named
+        loop = p.Loop(
             name=f"while {finding.text}",
-            bodies=bodies,
+            bodies=tuple(_and_then(body, looks) for body in bodies),
             at_most=at_most,
             question=finding.question,
         )
+        return p.Series(name=loop.name, parts=(*looks, loop)) if looks else loop
 
-    def _bodies(self, steps: s.Steps, scope: Scope, times: int) -> tuple[p.Part, ...]:
+    def _bodies(self, steps: s.Steps, scope: Scope, times: int) -> tuple[p.Series, ...]:
         """The rounds of a loop, until one begins with the hands as the one before began."""
-        bodies: list[p.Part] = []
+        bodies: list[p.Series] = []
         before: Hands | None = None
         while len(bodies) < min(times, 4) and before != self._hands:
             before = self._hands
@@ -371,6 +381,11 @@ class Compiler:
 def _items(node: Node | None) -> list[Node]:
     """The items of a list, or nothing."""
     return node.items if node is not None and node.kind == "list" else []
+
+
+def _and_then(body: p.Series, looks: tuple[p.Errand, ...]) -> p.Series:
+    """A round that ends with the looks that decide on the next one."""
+    return replace(body, parts=(*body.parts, *looks))
 
 
 def _common(one: Hands, other: Hands) -> Hands:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from executive.behaviours.conditions import Predicate
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.tasks import question_of
+from executive.meaning.tasks import look_of, question_of
 from executive.missions import schema as s
 from executive.missions.names import Names
 from executive.missions.problems import Problems
@@ -52,7 +52,7 @@ class Conditions:
     ) -> Finding | None:
         """A condition in the form of the goals."""
         try:
-            question = question_of(condition, scene)
+            question, looks = question_of(condition, scene), look_of(condition, scene)
         except CannotMean as end:
             self._problems.add(node, end.failure.cause, end.failure.suggestion)
             return None
@@ -62,7 +62,7 @@ class Conditions:
             self._problems.add(node, f"{text!r} names nothing in this world", "name an object")
             return None
         found = self._hands if isinstance(condition, goals.Holding) else self._whereabouts(infos)
-        return Finding(text=text, question=question, found=found)
+        return Finding(text=text, question=question, found=found, looks=looks)
 
     def _record(
         self, record: s.ConditionRecord, node: Node, scope: Scope, scene: Scene
@@ -142,6 +142,7 @@ class Conditions:
             text=f"not: {inner.text}",
             question=lambda board: not question(board),
             found=inner.found,
+            looks=inner.looks,
         )
 
     def _joined(self, kind: str, node: Node, scope: Scope, scene: Scene) -> Finding | None:
@@ -159,6 +160,7 @@ class Conditions:
             text=word.join(finding.text for finding in good),
             question=lambda board: join(question(board) for question in questions),
             found=_all_words([finding.found for finding in good if finding.found]),
+            looks=tuple(look for finding in good for look in finding.looks),
         )
 
     # --- what is so instead, in words ---

@@ -115,7 +115,8 @@ class _Forecaster:
             case p.Branch():
                 self._row(path, depth, part.name, "branch")
                 spans = [self.part(c, w, depth + 1) for w, c in p.children(part, path)]
-                return max(spans)
+                look_s = spans.pop(0) if part.look is not None else 0.0
+                return look_s + max(spans)
             case p.Parallel():
                 self._row(path, depth, part.name, "parallel")
                 return max(self.part(c, w, depth + 1) for w, c in p.children(part, path))

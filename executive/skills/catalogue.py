@@ -10,6 +10,7 @@ from executive.skills.context import SkillContext
 from executive.skills.follow import Follow
 from executive.skills.gesture import Gesture
 from executive.skills.give import Give
+from executive.skills.inspect import Inspect
 from executive.skills.look import Look
 from executive.skills.navigate import Navigate
 from executive.skills.parameters import SkillParams
@@ -27,6 +28,7 @@ from robot.model.description import RobotDescription
 SKILLS: tuple[type[ScriptedSkill[Any]], ...] = (
     Navigate,
     Search,
+    Inspect,
     Pick,
     PutDown,
     Give,

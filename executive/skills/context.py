@@ -33,6 +33,7 @@ class SkillContext:
         say: where spoken words go.
         speed_limit: the fastest walk allowed now [m/s]; it changes while a skill walks.
         holdings: what the hands hold; outlives a skill, so that place knows what pick took.
+        searched_s: when a search for an object, by id, came to its end without it.
     """
 
     link: BodyLink
@@ -42,3 +43,4 @@ class SkillContext:
     say: Callable[[str], None] = _silent
     speed_limit: Callable[[], float] = _unlimited
     holdings: Holdings = field(default_factory=Holdings)
+    searched_s: dict[str, float] = field(default_factory=dict[str, float])

@@ -20,6 +20,7 @@ from executive.skills.motions.grasp import (
     has_fallen,
     last_seen,
 )
+from executive.skills.motions.look_over import limit_s
 from executive.skills.motions.object_search import find
 from executive.skills.motions.planning import ask, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
@@ -104,6 +105,10 @@ class Pick(ScriptedSkill[PickParams]):
         self._X_WG_closed: SE3 | None = None
         self._closing: Side | None = None
         self._stance: PickPlan | None = None  # the plan at whose stance it stands
+
+    def limit_s(self) -> float:
+        """As long as it takes to look everywhere, and then some."""
+        return limit_s(self.body)
 
     def script(self) -> Script[None]:
         """Find, approach, grasp, lift, withdraw; on a failure withdraw all the same."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from executive.skills.forecast import Forecast, Outlook
+from executive.skills.motions.look_over import limit_s
 from executive.skills.motions.object_search import find
 from executive.skills.motions.script import Script
 from executive.skills.motions.stow import stow_arms
@@ -34,6 +35,10 @@ class Search(ScriptedSkill[SearchParams]):
         asked = [outlook.map.place(place_id) for place_id in wanted.place_ids]
         at = next(iter(asked), None) or outlook.place_of(wanted.object_id)
         return outlook.walk_to_place(at).then(SEARCH_S)
+
+    def limit_s(self) -> float:
+        """As long as it takes to look everywhere, and then some."""
+        return limit_s(self.body)
 
     def script(self) -> Script[None]:
         """Find it with the eyes, wherever it is believed to be."""

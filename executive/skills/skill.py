@@ -53,6 +53,15 @@ class Skill(Protocol):
 
 
 @runtime_checkable
+class Lasting(Protocol):
+    """A skill that knows how long it may take; the others have one limit for all."""
+
+    def limit_s(self) -> float:
+        """The longest it may take where it is, interruptions left out [s]."""
+        ...
+
+
+@runtime_checkable
 class Resumable(Protocol):
     """A skill that, interrupted, knows what is left of it; the others are begun again."""
 

@@ -78,9 +78,11 @@ def _inside(part: p.Part, stage: Stage, path: str, done: Done) -> list[Behaviour
 
 
 def _branch(part: p.Branch, stage: Stage, path: str, done: Done) -> Behaviour:
-    then, otherwise = _inside(part, stage, path, done)
+    *look, then, otherwise = _inside(part, stage, path, done)
     question = _remembered(part, stage, path, done)
-    return either(part.name, question, then=then, otherwise=otherwise, board=stage.board)
+    choice = either(part.name, question, then=then, otherwise=otherwise, board=stage.board)
+    decided = {f"{path}?then", f"{path}?else"} & done
+    return in_order(part.name, [*look, choice]) if look and not decided else choice
 
 
 def _remembered(part: p.Branch, stage: Stage, path: str, done: Done) -> p.Predicate:
@@ -224,7 +226,7 @@ def _towards(node: p.Part, at: str, path: str) -> tuple[list[str], tuple[str, p.
             passed += _all_of(child, at)
             continue
         if path == where or path.startswith((f"{where}.", f"{where}#")):
-            if isinstance(node, p.Branch):
+            if isinstance(node, p.Branch) and child is not node.look:
                 return [f"{at}?{where.rpartition('.')[2]}"], (where, child)
             return ([] if isinstance(node, p.Parallel) else passed), (where, child)
         passed.append(f"{where}/")

@@ -5,6 +5,7 @@ by a run that is taken up again::
 
     2           the second step                2.1        the first step of the second
     2.then.1    the first step of a branch     2#3.1      the first step of the third round
+    2.look.1    the first look that it takes to decide a branch
     2.no_path.1 what is done on that failure   2.always.1 what is done after 2 in any case
     2*2.1       the same in a second attempt   2+1        2 again, after its first recovery
 """
@@ -47,12 +48,16 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Branch(msgspec.Struct, frozen=True, kw_only=True):
-    """One part or the other, as the answer to a question is when it is asked."""
+    """One part or the other, as the answer to a question is when it is asked.
+
+    With a `look` that is done before, so that the answer is known and not guessed.
+    """
 
     name: str
     question: Predicate
     then: Part
     otherwise: Part
+    look: Part | None = None
 
 
 class Parallel(msgspec.Struct, frozen=True, kw_only=True):
@@ -120,11 +125,15 @@ class GiveUp(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
-    """One thing that should be so: in words, as a question, and what is so instead, in words."""
+    """One thing that should be so: in words, as a question, and what is so instead, in words.
+
+    `looks` is what has to be looked at for the answer to be known.
+    """
 
     text: str
     question: Predicate
     found: Words | None = None
+    looks: tuple[Errand, ...] = ()
 
 
 class Expect(msgspec.Struct, frozen=True, kw_only=True):
@@ -169,6 +178,8 @@ def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
         case Series(parts=parts) | Parallel(parts=parts):
             yield from ((below(path, n + 1), child) for n, child in enumerate(parts))
         case Branch():
+            if part.look is not None:
+                yield below(path, "look"), part.look
             yield below(path, "then"), part.then
             yield below(path, "else"), part.otherwise
         case Loop():

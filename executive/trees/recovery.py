@@ -32,7 +32,7 @@ from executive.behaviours.run_skill import RunSkill
 from executive.behaviours.stage import Stage
 from executive.trees.idioms import Alternatives, in_order
 from executive.trees.parts import Errand
-from executive.trees.remedies import ASKING, HELP, REMEDIES, Remedy, question
+from executive.trees.remedies import ASKING, HELP, REMEDIES, Remedy, is_idle, question
 from robot.failures import Failure, failure
 
 PER_STEP, PER_TASK = 6, 14
@@ -49,10 +49,10 @@ class Rule(msgspec.Struct, frozen=True):
         """How often something is done in one step."""
         return sum(times for _, times in self.tries)
 
-    def next(self, code: str, used: Counter[tuple[str, Remedy]]) -> tuple[Remedy, int] | None:
+    def next(self, reason: Failure, used: Counter[tuple[str, Remedy]]) -> tuple[Remedy, int] | None:
         """The remedy whose turn it is, and how often it may be tried; None when all are used up."""
         for remedy, times in self.tries:
-            if used[code, remedy] < times:
+            if used[reason.code, remedy] < times and not is_idle(remedy, reason):
                 return remedy, times
         return None
 
@@ -86,6 +86,7 @@ RULES: dict[str, Rule] = {
     "grasp_missed": _first(look_again=2, step_back=1, ask=1),
     "object_dropped": _first(fetch_again=2, ask=1),
     "object_not_seen": _first(look_again=1, ask=1),
+    "place_not_seen": _first(wait=1, ask=1),
     "on_the_floor": _first(ask=1),
     "not_taken": _first(ask=1),
     "person_near": _first(wait=2, step_back=1, ask=1),
@@ -142,7 +143,7 @@ class Recover(Behaviour):
         """Look the failure up."""
         reason = self._stage.scope.failure or failure("internal", "it failed without a reason")
         code = reason.code
-        turn = RULES[code].next(code, self._used)
+        turn = RULES[code].next(reason, self._used)
         refused = self._refusal(code, turn is None)
         if turn is None or refused:
             self.feedback_message = refused

@@ -74,6 +74,12 @@ REMEDIES: dict[Remedy, tuple[str, Callable[[Errand, Failure], tuple[Errand, ...]
 }
 """Remedy to its name for people and the steps that come before the next attempt."""
 
+
+def is_idle(remedy: Remedy, reason: Failure) -> bool:
+    """Whether a remedy would only do again what the failure says was done to its end."""
+    return remedy == "look_again" and reason.evidence.get("looked") == "everywhere"
+
+
 ASKING: frozenset[Remedy] = frozenset({"get_up", "ask"})
 """Remedies that begin with a question to a person."""
 
@@ -94,6 +100,7 @@ HELP: dict[str, str] = {
     "grasp_missed": _SHOW,
     "object_dropped": _SHOW,
     "object_not_seen": _SHOW,
+    "place_not_seen": "please clear the way to {it} and the view of it",
     "on_the_floor": _SHOW,
     "place_missed": _SHOW,
     "arm_stalled": "please clear the way of my arm",

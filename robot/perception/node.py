@@ -14,6 +14,7 @@ from robot.drivers.senses import Senses
 from robot.drivers.wiring import Wiring
 from robot.fusion.history import BodyHistory
 from robot.fusion.localisation import Localiser
+from robot.fusion.looked_over import LookedOver
 from robot.fusion.unmapped import UnmappedObstacles
 from robot.fusion.world_model import Hand, WorldModel
 from robot.messages import (
@@ -69,6 +70,7 @@ class PerceptionNode(Closing):
         self._history = BodyHistory()
         self._localiser = Localiser(self._history)
         self._world = WorldModel(camera_range_m=sensors.camera.range_m)
+        self._looked = LookedOver()
         radius_m = description.body_radius_m
         self._unmapped = UnmappedObstacles(body_radius_m=radius_m)
         self._in_view = UnmappedObstacles(
@@ -109,6 +111,7 @@ class PerceptionNode(Closing):
         if world_map is not None and world_map is not self._known:
             self._known = world_map
             self._world.know(world_map.objects, world_map.people)
+            self._looked.know(world_map.places)
             people = {person.id for person in world_map.people}  # they walk: nothing explains them
             fixed = tuple(thing for thing in world_map.obstacles if thing.id not in people)
             self._unmapped.know(fixed)
@@ -132,13 +135,17 @@ class PerceptionNode(Closing):
                 self._unmapped.see(message, X_WLidar)
 
     def _look_out(self, image: DepthImage) -> None:
-        """Find what stands in the way in a depth image; every other one will do."""
+        """Find in a depth image what stands in the way, and what it shows of the surfaces.
+
+        Every other one will do.
+        """
         if image.stamp_s - self._looked_s < LOOK_OUT_S or math.isinf(self._localiser.fixed_s):
             return
         X_WC, X_NB = self._site_in_world(self._camera, image.stamp_s), self._history.newest
         if X_WC is not None and X_NB is not None and self._known is not None:
             self._looked_s = image.stamp_s
             self._in_view.see_depth(image, X_WC, self._localiser.X_WN @ X_NB.X_NB)
+            self._looked.see(image, X_WC)
 
     def _depth_at(self, stamp_s: float) -> DepthImage | None:
         depth = self._depth
@@ -176,6 +183,7 @@ class PerceptionNode(Closing):
                 tracks=self._world.tracks(),
                 people=self._world.people(),
                 unmapped=unmapped,
+                looked=self._looked.looked(),
                 jumps=localiser.jumps,
                 source=localiser.source,
             ),

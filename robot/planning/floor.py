@@ -13,6 +13,10 @@ from robot.planning.solids import Solid
 from robot.se3 import Array
 
 CELL_M = 0.04
+WAY_CELLS = 2
+"""Lengths of ways are reckoned on a coarser grid: three cells fit in a doorway's middle."""
+LEAVE_M = 1.0
+"""A place too near furniture to turn in is left by no more than that [m]."""
 LOWEST_M, HIGHEST_M = 0.03, 1.35
 """Solids outside of this range of heights are walked over or under [m]."""
 
@@ -94,6 +98,25 @@ class Floor:
         far = CELL_M * numerics.distance_to(mask)
         return numerics.grid_values(far, self._rows_columns(xy), outside=None)
 
+    def ways_m(self, x_m: float, y_m: float, *, radius_m: float) -> Ways:
+        """How far it is to walk from a point to everywhere that keeps `radius_m` clear."""
+        step = slice(None, None, WAY_CELLS)
+        free = self._field[step, step] >= radius_m
+        height, width = free.shape
+        cell_m = WAY_CELLS * CELL_M
+        rows, columns = np.nonzero(free)
+        x, y = self._x0 + cell_m * columns, self._y0 + cell_m * rows
+        away_m = np.hypot(x - x_m, y - y_m)
+        lengths = np.full((height, width), np.inf)
+        if len(away_m) and away_m.min() <= LEAVE_M:
+            nearest = int(np.argmin(away_m))
+            start = (int(rows[nearest]), int(columns[nearest]))
+            lengths = (
+                cell_m * numerics.cheapest_ways(np.where(free, 1.0, np.inf), 1, start)[0]
+                + away_m[nearest]
+            )
+        return Ways(lengths, (self._x0, self._y0), cell_m)
+
     def home(self, labels: Indices, x_m: float, y_m: float) -> int:
         """Label of the free region nearest to a point, within 1 m (0: none)."""
         angles = np.arange(24) * (2 * math.pi / 24)
@@ -121,6 +144,21 @@ class Floor:
     def _edge(self, x_m: float, y_m: float) -> float:
         x0, y0, x1, y1 = self.bounds_m
         return min(x_m - x0, x1 - x_m, y_m - y0, y1 - y_m)
+
+
+class Ways:
+    """Lengths of the ways from one point to all others, around what stands there."""
+
+    def __init__(self, lengths_m: Array, corner_m: tuple[float, float], cell_m: float) -> None:
+        self._lengths_m, self._corner_m, self._cell_m = lengths_m, corner_m, cell_m
+
+    def lengths_m(self, xy: Array) -> Array:
+        """To points, shape (n, 2) to (n,); inf where none leads."""
+        column, row = np.rint((xy - np.array(self._corner_m)) / self._cell_m).astype(int).T
+        height, width = self._lengths_m.shape
+        inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
+        found = self._lengths_m[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+        return np.where(inside, found, np.inf)
 
 
 def with_room(

@@ -24,7 +24,7 @@ import msgspec
 
 from robot.failures import Failure
 from robot.messages import Obstacle, Place, Shape, Side, WorldMap, WorldState
-from robot.se3 import SE3
+from robot.se3 import SE3, Vector3
 
 Stance: TypeAlias = tuple[float, float, float]
 Joints: TypeAlias = tuple[float, ...]
@@ -123,6 +123,41 @@ class BasePath(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     length_m: float
     clearance_m: float
     clearances_m: tuple[float, ...] = ()
+
+
+# --- looking ---
+
+
+class LookRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
+    """Where to look from next, standing at `start`, to see points of surfaces.
+
+    `points_W` are points [m], and `worth` what it is worth to see each of them (more: sooner).
+    With `stay` the robot is to turn on the spot at most.
+    """
+
+    start: Stance
+    points_W: tuple[Vector3, ...]
+    worth: tuple[float, ...]
+    around: Surroundings
+    stay: bool = False
+
+
+class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
+    """A view: where to stand for it, and what the eyes are to rest on, in order.
+
+    Attributes:
+        stance: None where none of the points can be seen from anywhere one can walk to.
+        gazes_W: points to look at from there, by turning the head alone.
+        sees: which of the points asked for are expected to be seen.
+        length_m: of the way there.
+        cut_off: which points can be seen from places that no way leads to, and from no others.
+    """
+
+    stance: Stance | None
+    gazes_W: tuple[Vector3, ...] = ()
+    sees: tuple[int, ...] = ()
+    length_m: float = 0.0
+    cut_off: tuple[int, ...] = ()
 
 
 # --- picking and placing -----------------------------------------------------------------------
@@ -253,6 +288,6 @@ class ArmPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     duration_s: float
 
 
-PlanRequest: TypeAlias = BasePathRequest | PickRequest | PlaceRequest | ArmRequest
-Plan: TypeAlias = BasePath | PickPlan | PlacePlan | ArmPlan
+PlanRequest: TypeAlias = BasePathRequest | LookRequest | PickRequest | PlaceRequest | ArmRequest
+Plan: TypeAlias = BasePath | LookPlan | PickPlan | PlacePlan | ArmPlan
 PlanResult: TypeAlias = Plan | Failure

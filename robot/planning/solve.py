@@ -11,11 +11,13 @@ from robot.planning.place import plan_place
 from robot.planning.requests import (
     ArmRequest,
     BasePathRequest,
+    LookRequest,
     PickRequest,
     PlanRequest,
     PlanResult,
 )
 from robot.planning.robot_body import Body
+from robot.planning.views import plan_look
 
 
 class Solver:
@@ -38,6 +40,8 @@ class Solver:
             return plan_base_path(self.body, request)
         if isinstance(request, ArmRequest):
             return plan_arm(self.body, request)
+        if isinstance(request, LookRequest):
+            return plan_look(self.body, request)
         robot = self.body.description
         if not robot.hands:
             return failure("unsupported", f"{robot.name} has no hands", robot=robot.name)

@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 
 from robot.failures import Failure, failure
 from robot.planning import requests as r
-from robot.se3 import SE3
+from robot.se3 import SE3, wrap_angle
 from tests.fakes.puppet import joints
 
 STANDOFF_M = 0.35
 DELAY_S = 0.2
+SIGHT_M, HEAD_RAD = 3.4, 1.1
 
 
 @dataclass
@@ -46,6 +47,8 @@ class RulePlanner:
         match request:
             case r.BasePathRequest():
                 return self._path(request)
+            case r.LookRequest():
+                return self._look(request)
             case r.PickRequest():
                 return self._pick(request)
             case r.PlaceRequest():
@@ -60,6 +63,30 @@ class RulePlanner:
             waypoints=((sx, sy, heading), (gx, gy, heading), request.goal),
             length_m=math.hypot(gx - sx, gy - sy),
             clearance_m=0.1,
+        )
+
+    def _look(self, request: r.LookRequest) -> r.LookPlan:
+        """From here as long as anything is ahead, then from before a point that is worth most."""
+        x, y, yaw = request.start
+        here = [
+            i
+            for i, p in enumerate(request.points_W)
+            if math.hypot(p[0] - x, p[1] - y) < SIGHT_M
+            and abs(wrap_angle(math.atan2(p[1] - y, p[0] - x) - yaw)) < HEAD_RAD
+        ]
+        if here:
+            gazes = tuple(request.points_W[i] for i in here)
+            return r.LookPlan(stance=request.start, gazes_W=gazes, sees=tuple(here))
+        if request.stay:
+            return r.LookPlan(stance=None)
+        best = max(request.worth)
+        first = request.points_W[request.worth.index(best)]
+        near = [i for i, p in enumerate(request.points_W) if math.dist(p, first) < 1.5]
+        return r.LookPlan(
+            stance=(first[0] - 1.0, first[1], 0.0),
+            gazes_W=tuple(request.points_W[i] for i in near),
+            sees=tuple(near),
+            length_m=math.dist((x, y), first[:2]),
         )
 
     def _pick(self, request: r.PickRequest) -> r.PickPlan | Failure:

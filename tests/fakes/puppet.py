@@ -65,6 +65,11 @@ class Puppet:
     def __post_init__(self) -> None:
         self._id = 0
         self._gaze = (0.0, 0.0, 0.0)
+        self._looked = {
+            place.id: [-math.inf] * len(place.samples())
+            for place in self.world_map.places
+            if not place.floor
+        }
         self._walk: m.Walk | None = None
         self._walk_to: m.WalkTo | None = None
         self._until: dict[m.Channel, float] = {}
@@ -128,6 +133,9 @@ class Puppet:
                 for name, X_WO in self.people.items()
             ),
             unmapped=self.unmapped,
+            looked=tuple(
+                m.Looked(place_id=name, seen_s=tuple(seen)) for name, seen in self._looked.items()
+            ),
         )
 
     def body(self) -> m.BodyState:
@@ -323,6 +331,10 @@ class Puppet:
             if not self.blind and math.dist(thing.X_WO.p, self._gaze) < 0.5:
                 thing.seen_s = self.time_s
                 thing.known = True
+        for place in self.world_map.places:
+            for i, p_W in enumerate(() if place.floor else place.samples().tolist()):
+                if math.dist(p_W, self._gaze) < 0.5 and math.dist(p_W, self.X_WS.p) < 3.6:
+                    self._looked[place.id][i] = self.time_s
 
     def _hand(self, side: str) -> m.HandState:
         load_n = 0.0

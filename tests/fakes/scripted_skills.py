@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import Resource, SkillReport
 from robot.failures import failure
@@ -21,6 +22,7 @@ class Script:
     stop_steps: int = 0
     resources: frozenset[Resource] = frozenset({"legs"})
     raises: bool = False
+    limit_s: float = DEFAULT_LIMIT_S
 
 
 @dataclass
@@ -35,6 +37,9 @@ class FakeSkill:
 
     def __post_init__(self) -> None:
         self.resources = self.script.resources
+
+    def limit_s(self) -> float:
+        return self.script.limit_s
 
     def start(self, now_s: float) -> None:
         self.calls.append("start")

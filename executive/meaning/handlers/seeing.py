@@ -6,7 +6,7 @@ import math
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
-from executive.meaning.handlers.steps import about, search, surfaces
+from executive.meaning.handlers.steps import about, inspect, search, to_look_over
 from executive.meaning.identify import Scene, cannot
 from executive.skills.look import SIDES, LookParams, Side
 from executive.skills.navigate import NavigateParams, Step
@@ -66,16 +66,16 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         raise cannot("unsupported", "this robot cannot count people yet")
     ids = frozenset(info.id for info in scene.fitting(goal.object))
     query = goal.object
-    places = surfaces(scene.places(query.at)) if query.at else ()
-    looks = tuple(_visit(place) for place in places)
+    places = to_look_over(scene.places(query.at), scene) if query.at else ()
     noun = query.name or query.category or "object"
-    tell = Errand(name="say how many", params=answers.count(ids, places, noun=noun))
+    looks = inspect(f"look over the {query.at}" if query.at else "look around", query.at, scene)
+    where = _whereabouts(query.at, places)
+    tell = Errand(name="say how many", params=answers.count(ids, places, noun=noun, where=where))
     return Series(name=f"count the {noun}s", parts=(*looks, tell))
 
 
-def _visit(place: Place) -> Series:
-    parts = (
-        Errand(name=f"go to the {place.name}", params=NavigateParams(place_id=place.id)),
-        Errand(name=f"look at the {place.name}", params=LookParams(place_id=place.id)),
-    )
-    return Series(name=f"inspect the {place.name}", parts=parts)
+def _whereabouts(at: str | None, places: tuple[Place, ...]) -> str:
+    """Where that is, as people say it."""
+    if not at:
+        return ""
+    return f" in the {at}" if len({place.of for place in places}) > 1 else f" on the {at}"

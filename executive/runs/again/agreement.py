@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import msgspec
 
 from executive.journal.journal import Event
-from executive.meaning.knowledge import Knowledge, stands_on
+from executive.meaning.knowledge import Knowledge
 from executive.skills.holding import Held
+from executive.skills.motions.support import stands_on
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.trees.build import finished

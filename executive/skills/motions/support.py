@@ -18,6 +18,7 @@ from robot.se3 import SE3
 NEAR_M = 0.02
 UPRIGHT_RAD = 0.2
 OVERHANG_M = 0.02
+ON_TOP_M = 0.3
 TOUCHING_M = 0.01
 """Two things as near as this are taken to touch: where they stand is known that well."""
 
@@ -33,6 +34,13 @@ def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
         if abs(z_m + bottom_m - surface_m) < NEAR_M and _is_over(place, X_WO):
             return SE3((x_m, y_m, surface_m - bottom_m), X_WO.quat_wxyz)
     return X_WO
+
+
+def stands_on(X_WO: SE3, place: Place) -> bool:
+    """Whether an object's middle is over a surface, at most `ON_TOP_M` above it."""
+    x, y, z = (place.X_WP.inverse() @ X_WO).p
+    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
+    return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
 
 
 def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:

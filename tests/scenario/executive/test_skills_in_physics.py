@@ -8,6 +8,7 @@ import pytest
 from executive.skills.balance import BalanceParams
 from executive.skills.catalogue import make
 from executive.skills.context import SkillContext
+from executive.skills.inspect import InspectParams
 from executive.skills.motions.support import tilt
 from executive.skills.navigate import FloorPose, NavigateParams, Step
 from executive.skills.pick import PickParams
@@ -67,6 +68,27 @@ def test_walk_turn_and_postures(planner):
         report = carry_out(runtime, context, BalanceParams(mode="one_leg", duration_s=1.5))
         assert report.status == "succeeded", report
         assert runtime.link.body().mode == "stand"
+
+
+def seen_share(runtime, place_id):
+    """How much of a surface the world model has seen."""
+    (looked,) = (one for one in runtime.link.world().looked if one.place_id == place_id)
+    return sum(map(math.isfinite, looked.seen_s)) / len(looked.seen_s)
+
+
+@pytest.mark.slow
+def test_boards_that_are_looked_over_have_been_seen_and_a_glance_from_afar_is_none(planner):
+    with FastRuntime(Simulation().world("kitchen"), seed=1) as runtime:
+        runtime.advance(0.5)
+        context = SkillContext(link=runtime.link, planner=planner, description=JUNO, seed=1)
+        boards = ("shelf_lower", "shelf_middle")
+        assert all(seen_share(runtime, board) == 0.0 for board in boards)
+        report = carry_out(runtime, context, InspectParams(place_ids=boards))
+        assert report.status == "succeeded", report
+        assert all(seen_share(runtime, board) > 0.8 for board in boards)
+        begin_s = runtime.clock.now_s()
+        assert carry_out(runtime, context, InspectParams(place_ids=boards)).status == "succeeded"
+        assert runtime.clock.now_s() - begin_s < 1.0
 
 
 @pytest.mark.slow

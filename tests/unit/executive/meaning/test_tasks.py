@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import pytest
+from msgspec.structs import replace
 
 from benchmarks.intents.endpoint import Reply, serving
+from executive.meaning.handlers.steps import to_look_over
+from executive.meaning.identify import Scene
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.request import Refused, Understood, request
+from executive.skills.inspect import InspectParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from executive.trees.parts import errands
+from executive.trees.parts import Branch, errands
 from intents.language_model import Endpoint, LanguageModel
 from intents.outcomes import Question
+from robot.se3 import SE3
 from tests.fakes.worlds import WHERE, world_map
 
 
@@ -82,6 +87,58 @@ def test_nobody_walks_into_furniture_or_onto_things(text, words):
 )  # fmt: skip
 def test_rooms_are_walked_into_and_furniture_up_to(text, place):
     assert steps(text) == [f"go to the {place}"]
+
+
+@pytest.mark.parametrize(
+    ("text", "look"),
+    [
+        ("if the red cup is on the table, wave", "look over the table"),
+        ("if there is no red cup on the table, wave", "look over the table"),
+        ("if there is a red cup, wave", "look around"),
+        ("if you are holding the red cup, wave", None),
+    ],
+)
+def test_where_a_condition_is_about_is_looked_at_before(text, look):
+    assert steps(text) == [*([look] if look else []), "wave"]
+
+
+def test_all_boards_of_a_shelf_and_all_surfaces_of_a_room_are_looked_over():
+    known = world_map()
+    lower, upper = (place for place in known.places if place.of == "shelf")
+    shelf = replace(upper, id="shelf", name="shelf")
+    inside = replace(lower, id="stool", of="stool", X_WP=SE3((0.0, 1.0, 0.5)), room="kitchen")
+    places = (*known.places, shelf, inside)
+    scene = Scene(Knowledge(replace(known, places=places)))
+    looked = [to_look_over(scene.places(name), scene) for name in ("shelf", "kitchen", "table")]
+    assert [[place.id for place in one] for one in looked] == [
+        ["shelf_lower", "shelf_upper"],
+        ["stool"],
+        ["table"],
+    ]
+
+
+def test_what_is_there_is_taken_whichever_it_turns_out_to_be():
+    text = "if there is a cup on the table, bring it to the upper shelf, otherwise wave"
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Understood)
+    (branch,) = outcome.task.parts
+    taken = [errand.params.object_id for errand in errands(branch.then)]
+    assert set(taken) == {"cup_red"}
+    assert branch.look is not None
+    other = branch.otherwise
+    assert isinstance(other, Branch)
+    assert {errand.params.object_id for errand in errands(other.then)} == {"cup_blue"}
+    assert other.look is None
+    assert [errand.name for errand in errands(other.otherwise)] == ["wave"]
+
+
+def test_counting_looks_over_all_of_the_place_first():
+    outcome = request("how many cups are on the lower shelf?", WHERE)
+    assert isinstance(outcome, Understood)
+    look, say = errands(outcome.task)
+    assert isinstance(look.params, InspectParams)
+    assert look.params.object_ids == ()
+    assert say.name == "say how many"
 
 
 def test_several_things_are_fetched_one_after_the_other():

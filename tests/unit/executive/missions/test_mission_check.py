@@ -16,6 +16,7 @@ from executive.missions.check import Options
 from executive.missions.load import FOLDER, shipped
 from executive.missions.plan import forecast
 from executive.missions.template import template
+from executive.skills.inspect import InspectParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.skills.say import SayParams
@@ -413,6 +414,33 @@ def test_a_parameter_that_is_wrong_is_there_all_the_same(write):
     assert "did you mean 'object'" in found[1]
     assert "no object 'red cpu'" in found[2]
     assert "there is no parameter 'd' here" in found[3]
+
+
+def looks(part: p.Part) -> list[tuple[str, tuple[str, ...]]]:
+    """Path of every look that a task has, and what is looked for."""
+    return [
+        (path, node.params.object_ids)
+        for path, node in p.walk(part)
+        if isinstance(node, p.Errand) and isinstance(node.params, InspectParams)
+    ]
+
+
+def test_the_places_of_a_condition_are_looked_over_before_it_is_decided(write):
+    condition = "{any: [{seen: red cup, on: table}, {not: {seen: box, on: table}}]}"
+    text = mission(f"  - say: x\n  - if: {condition}\n    then: [say: y]\n")
+    found = looks(check(write(text)).task)
+    assert [path for path, _ in found] == ["2.look.1", "2.look.2"]
+    assert found[0][1] != found[1][1]
+
+
+def test_the_places_of_a_loop_are_looked_over_before_every_round(write):
+    text = mission("  - while: {seen: red cup, on: table}\n    at_most: 3\n    do: [say: x]\n")
+    assert [path for path, _ in looks(check(write(text)).task)] == ["1.1", "1.2#1.2"]
+
+
+def test_hands_need_no_look(write):
+    text = mission("  - if: {holding: red cup}\n    then: [say: x]\n")
+    assert looks(check(write(text)).task) == []
 
 
 def test_a_loop_that_is_wrong_keeps_its_name(write):

@@ -9,6 +9,7 @@ from executive.skills.catalogue import SKILLS, make
 from executive.skills.follow import FollowParams
 from executive.skills.gesture import GestureParams
 from executive.skills.give import GiveParams
+from executive.skills.inspect import InspectParams
 from executive.skills.look import LookParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
@@ -34,6 +35,7 @@ EXAMPLES = (
     SayParams(text="hello"),
     WaitParams(duration_s=1.0),
     StopParams(),
+    InspectParams(place_ids=("table",)),
 )
 
 

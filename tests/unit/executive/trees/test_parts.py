@@ -243,6 +243,42 @@ def test_a_branch_is_taken_as_before_when_the_run_goes_on():
     assert ids(rig) == ["1.then.1", "2"]
 
 
+def test_what_has_to_be_looked_at_comes_before_a_branch_is_taken():
+    seen: list[str] = []
+
+    def question(_board):
+        return bool(seen)
+
+    rig, _ = play(p.Branch(name="if", question=question, then=WAIT, otherwise=PICK, look=WALK))
+    assert ids(rig) == ["look", "else"]
+    seen.append("it")
+    rig, _ = play(p.Branch(name="if", question=question, then=WAIT, otherwise=PICK, look=WALK))
+    assert ids(rig) == ["look", "then"]
+
+
+def test_without_the_look_neither_branch_is_taken():
+    branch = p.Branch(name="if", question=lambda board: False, then=WAIT, otherwise=PICK, look=WALK)
+    rig, verdict = play(series(branch), WALK_FAILS)
+    assert verdict.code == "fallen"
+    assert set(ids(rig)) == {"1.look"}
+
+
+def test_a_skill_may_take_as_long_as_it_says():
+    scripts = {NavigateParams: [Script(steps=10**6, limit_s=limit_s) for limit_s in (1.0, 3.0)]}
+    _rig, verdict = play(WALK, scripts)
+    assert verdict.code == "timeout"
+    assert "longer than 3 s" in verdict.cause
+
+
+def test_a_branch_that_was_taken_is_not_looked_at_again():
+    branch = p.Branch(name="if", question=lambda board: False, then=WAIT, otherwise=PICK, look=WALK)
+    rig, _ = play(series(branch, SAY), done=frozenset({"1?then"}))
+    assert ids(rig) == ["1.then", "2"]
+    assert before(series(branch, SAY), "1.then") == {"1?then"}
+    assert before(series(branch, SAY), "1.look") == frozenset()
+    assert before(series(branch, SAY), "2") == {"1/"}
+
+
 def cut(rig: Rig, after: str) -> frozenset[str]:
     """What is done when a run is cut off after the first event of a step."""
     events = [{"event": e.event, **e.data} for e in rig.journal.recent]
@@ -314,7 +350,11 @@ def _wrapped(inner: st.SearchStrategy[p.Part]) -> st.SearchStrategy[p.Part]:
         inner.map(lambda part: p.Loop(name="l", bodies=(part,), at_most=2)),
         st.tuples(inner, st.booleans()).map(
             lambda both: p.Branch(
-                name="b", question=lambda board: both[1], then=both[0], otherwise=both[0]
+                name="b",
+                question=lambda board: both[1],
+                then=both[0],
+                otherwise=both[0],
+                look=WALK if both[1] else None,
             )
         ),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -71,6 +73,14 @@ def test_remedies_go_from_local_to_global_and_a_person_comes_last():
         assert "ask" not in names[:-1]
         if "step_back" in names:
             assert set(names[names.index("step_back") + 1 :]) <= {"ask"}
+
+
+def test_a_search_that_looked_everywhere_is_not_followed_by_another():
+    rule = RULES["object_not_seen"]
+    hidden = failure("object_not_seen", "it did not show")
+    nowhere = failure("object_not_seen", "it is nowhere", looked="everywhere")
+    assert rule.next(hidden, Counter()) == ("look_again", 1)
+    assert rule.next(nowhere, Counter()) == ("ask", 1)
 
 
 def test_a_fallen_robot_gets_up_only_when_a_person_lets_it():

@@ -1,0 +1,109 @@
+"""Look over places: all of them, or until one of some things is seen there."""
+
+from __future__ import annotations
+
+from executive.skills.forecast import Forecast, Outlook
+from executive.skills.motions.likelihood import surfaces_of
+from executive.skills.motions.look_over import limit_s, look_over
+from executive.skills.motions.script import Script, give_up
+from executive.skills.motions.stow import stow_arms
+from executive.skills.motions.support import stands_on
+from executive.skills.motions.survey import Prospect, Survey
+from executive.skills.parameters import SkillParams
+from executive.skills.scripted import ScriptedSkill
+from executive.skills.skill import Resource
+from robot.messages import Track
+
+RECENT_S = 120.0
+"""What was seen that long ago is taken to be so still: the length of a short job."""
+HALF = 0.5
+"""A surface of which less was seen has not been looked at."""
+THERE_M, THERE = 0.35, 8.0
+"""It is looked first near to where such a thing is believed to be."""
+INSPECT_S = 4.0
+"""Of looking a surface over: for the forecast."""
+
+
+class InspectParams(SkillParams, frozen=True, kw_only=True):
+    """Look over places (none: what can be seen from here without walking).
+
+    With objects it ends as soon as one of them is seen there, or all are known to be elsewhere.
+    """
+
+    place_ids: tuple[str, ...] = ()
+    object_ids: tuple[str, ...] = ()
+
+
+class Inspect(ScriptedSkill[InspectParams]):
+    """See all of some surfaces; what was seen lately is not looked at again."""
+
+    name = "inspect"
+    summary = "look over a place, all of it"
+    takes = InspectParams
+    resources: frozenset[Resource] = frozenset({"legs", "head", "left_arm", "right_arm"})
+
+    @classmethod
+    def forecast(cls, wanted: InspectParams, outlook: Outlook) -> Forecast:
+        """A walk to every place."""
+        told = Forecast(0.0 if wanted.place_ids else INSPECT_S)
+        for place_id in wanted.place_ids:
+            way = outlook.walk_to_place(outlook.map.place(place_id))
+            told = Forecast(told.takes_s + way.takes_s + INSPECT_S, told.problem or way.problem)
+        return told
+
+    def limit_s(self) -> float:
+        """As long as it takes to look at the places, and then some."""
+        return limit_s(self.body, len(self.parameters.place_ids))
+
+    def script(self) -> Script[None]:
+        """Look until it is known."""
+        body = self.body
+        self._since_s = body.now_s - RECENT_S
+        survey = self._survey()
+        survey.take(body.world.looked)
+        if self._is_known() or not len(survey.left):
+            return
+        yield from stow_arms(body)
+        stay = not self.parameters.place_ids
+        if (yield from look_over(body, survey, self._is_known, stay=stay)) or stay:
+            return
+        for place in survey.places:
+            if survey.seen_share(place) < HALF:
+                raise give_up(
+                    "place_not_seen",
+                    f"could not look over the {place.name}; {survey.words()}",
+                    place=place.id,
+                )
+
+    def _survey(self) -> Survey:
+        body, wanted = self.body, self.parameters
+        asked = [body.place(place_id) for place_id in wanted.place_ids]
+        places = [place for place in asked or surfaces_of(body.map) if not place.floor]
+        survey = Survey((Prospect(place=place) for place in places), since_s=self._since_s)
+        for track in self._tracks():
+            if track.X_WO is not None:
+                survey.favour(track.X_WO.p, within_m=THERE_M, factor=THERE)
+        return survey
+
+    def _tracks(self) -> list[Track]:
+        wanted = self.parameters.object_ids
+        return [track for track in self.body.world.tracks if track.id in wanted]
+
+    def _is_known(self) -> bool:
+        """Whether one of the objects was seen there lately, or all of them elsewhere."""
+        tracks = self._tracks()
+        if not tracks:
+            return False
+        if any(self._is_there(track) for track in tracks if self._is_fresh(track)):
+            return True
+        return bool(self.parameters.place_ids) and all(map(self._is_fresh, tracks))
+
+    def _is_fresh(self, track: Track) -> bool:
+        return track.held_by is not None or (track.seen_s >= self._since_s and not track.missing)
+
+    def _is_there(self, track: Track) -> bool:
+        places = [self.body.place(place_id) for place_id in self.parameters.place_ids]
+        X_WO = track.X_WO
+        if X_WO is None or track.held_by is not None:
+            return False
+        return not places or any(stands_on(X_WO, place) for place in places)

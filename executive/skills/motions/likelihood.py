@@ -1,0 +1,106 @@
+"""Where a thing is likely to be: what people put where, and what has been seen of it here.
+
+Weights, not probabilities: they order the looks. A wrong one costs a detour, never a find, for in
+the end everything is looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from executive.skills.motions.support import stands_on
+from executive.skills.motions.survey import Prospect
+from robot.messages import ObjectInfo, Place, Track, WorldMap
+
+LYING = 0.3
+"""Beds and sofas hold things now and then; tables, counters, shelves and cabinets are for it."""
+KINDS = {"bed": LYING, "sofa": LYING, "box": 0.5, "chair": 0.1}
+HANDY_M = (0.5, 1.3)
+"""Surfaces at heights that people put things on; a lower crate or a higher machine is not one."""
+LARGEST_BLOCK_M2 = 1.0
+"""A solid block with a larger top is a machine."""
+ODD_HEIGHT = 0.4
+SAME_WORD = 6.0
+"""A filter is kept in the filter rack."""
+ALIKE_HERE, ALIKE_NEAR = 3.0, 1.5
+"""Others of its sort were seen on the surface, or in the same room."""
+SHORTEST_WORD = 4
+SAID, LIKELY, UNLIKELY = range(3)
+"""Ranks: where it was said to be, then where it may well be, then everywhere else."""
+
+
+def prospects(
+    info: ObjectInfo, world_map: WorldMap, tracks: Iterable[Track], *, said: Iterable[str] = ()
+) -> list[Prospect]:
+    """Every surface of the map with how likely an object is to be there; `said`: ids of places."""
+    seen = [(track, world_map.object(track.id)) for track in tracks if _is_known(track)]
+    here: dict[str, list[ObjectInfo]] = {}
+    surfaces = surfaces_of(world_map)
+    for track, other in seen:
+        on = _under(track, surfaces)
+        if on is not None and other is not None and other.id != info.id:
+            here.setdefault(on.id, []).append(other)
+    rooms = {
+        place.room
+        for place in surfaces
+        if any(other.category == info.category for other in here.get(place.id, ()))
+    }
+    wanted = frozenset(said)
+    found: list[Prospect] = []
+    for place in surfaces:
+        things = here.get(place.id, [])
+        rank = SAID if place.id in wanted else UNLIKELY if _is_odd(place, things) else LIKELY
+        alike = any(other.category == info.category for other in things)
+        near = ALIKE_NEAR if place.room and place.room in rooms else 1.0
+        worth = _usual(place) * (ALIKE_HERE if alike else near)
+        found.append(Prospect(place=place, worth=worth * _same_word(info, place), rank=rank))
+    return found
+
+
+def surfaces_of(world_map: WorldMap) -> list[Place]:
+    """Every surface once: a shelf as a whole is one of its boards by another name."""
+    found: dict[tuple[float, ...], Place] = {}
+    for place in world_map.places:
+        if not place.floor:
+            found.setdefault(place.X_WP.p, place)
+    return list(found.values())
+
+
+def _usual(place: Place) -> float:
+    """How often things are put there, whatever they are."""
+    handy = HANDY_M[0] <= place.X_WP.p[2] <= HANDY_M[1]
+    return KINDS.get(place.kind, 1.0) * (1.0 if handy else ODD_HEIGHT)
+
+
+def _is_odd(place: Place, things: list[ObjectInfo]) -> bool:
+    """Whether nobody looks there first: a seat, a machine, a crate; unless things are on it."""
+    if things:
+        return False
+    if place.kind == "chair":
+        return True
+    handy = HANDY_M[0] <= place.X_WP.p[2] <= HANDY_M[1]
+    block = place.kind == "box" and place.size_m[0] * place.size_m[1] > LARGEST_BLOCK_M2
+    return block or (place.kind == "box" and not handy)
+
+
+def _same_word(info: ObjectInfo, place: Place) -> float:
+    """More for a place that is called after such things: "bookshelf" for a book."""
+    words = {
+        word.casefold()
+        for name in (info.plain_name, info.category, *info.synonyms)
+        for word in name.split()
+        if len(word) >= SHORTEST_WORD
+    }
+    called = " ".join((place.name, *place.synonyms)).casefold().split()
+    return SAME_WORD if any(name.startswith(word) for name in called for word in words) else 1.0
+
+
+def _is_known(track: Track) -> bool:
+    return track.X_WO is not None and not track.missing and track.held_by is None
+
+
+def _under(track: Track, places: Iterable[Place]) -> Place | None:
+    """The highest surface that something stands on."""
+    X_WO = track.X_WO
+    under = [place for place in places if X_WO is not None and stands_on(X_WO, place)]
+    return max(under, key=lambda place: place.X_WP.p[2], default=None)

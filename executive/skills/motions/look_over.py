@@ -1,0 +1,162 @@
+"""Looking over surfaces until something shows or nothing is left: view by view, the best first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from executive.skills.motions.body_access import Body
+from executive.skills.motions.gaze import check_camera, turn_head
+from executive.skills.motions.likelihood import surfaces_of
+from executive.skills.motions.planning import ask, stance_of
+from executive.skills.motions.script import GaveUp, Script
+from executive.skills.motions.support import surroundings
+from executive.skills.motions.survey import Rows, Survey
+from executive.skills.motions.walk import stand_still, turn_by, walk_to
+from robot.planning.requests import LookPlan, LookRequest, Stance
+from robot.se3 import Vector3, wrap_angle
+
+GLANCE_S, STARE_S = 0.35, 0.9
+"""A picture or two at least; at most until what should show has shown (pictures come at 5 Hz)."""
+NEAR_GAZE_RAD = 0.45
+HERE_M, SMALL_TURN_RAD = 0.1, 0.2
+NO_WAY = ("no_path", "goal_in_collision", "path_blocked")
+
+BESIDES_S = 240.0
+"""What a skill may take besides looking: that is what all others may take in all."""
+PLACE_S, WALK_M_S = 15.0, 0.2
+"""Of looking a surface over, and the pace between them, stops and turns among it."""
+DETOUR = 1.5
+"""A round over n points of an area A is about as long as sqrt(n A); walls and doors make it longer.
+
+In homes of 15 and 23 surfaces the planned round was 1.5 and 1.3 times that.
+"""
+
+Until = Callable[[], bool]
+
+
+def limit_s(body: Body, places: int | None = None) -> float:
+    """How long a skill may take that looks at so many places (None: all), it grows with the house.
+
+    In seconds: for every surface, for a round of them all, and besides.
+    """
+    world_map = body.link.map()
+    if world_map is None:
+        return BESIDES_S
+    count = len(surfaces_of(world_map)) if places is None else places
+    x0, y0, x1, y1 = world_map.bounds_m
+    round_m = DETOUR * math.sqrt(count * (x1 - x0) * (y1 - y0))
+    return BESIDES_S + PLACE_S * count + round_m / WALK_M_S
+
+
+def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -> Script[bool]:
+    """Look at what a survey has left, until something is so or nothing is left to be seen.
+
+    Returns whether it came to be so; the robot stands then. With `stay` it only turns on the spot.
+    """
+    while True:
+        survey.take(body.world.looked)
+        if until():
+            return True
+        view = yield from _next_view(body, survey, stay=stay)
+        if view is None:
+            return until()
+        plan, rows = view
+        assert plan.stance is not None
+        body.phase = f"looking over {survey.names(rows)}"
+        try:
+            yield from _go(body, plan.stance, until)
+        except GaveUp as end:
+            if end.failure.code not in NO_WAY:
+                raise
+            survey.tried(rows)
+            continue
+        for p_W in plan.gazes_W:
+            if (yield from _gaze(body, survey, p_W, rows, until)):
+                return True
+        survey.tried(rows)
+
+
+def stand_to_see(body: Body, p_W: Vector3) -> Script[bool]:
+    """Walk to where a point can be seen from; whether there is such a place and a way to it."""
+    request = LookRequest(
+        start=stance_of(body.X_WS), points_W=(p_W,), worth=(1.0,), around=surroundings(body)
+    )
+    plan = yield from ask(body, request, LookPlan)
+    if plan.stance is None:
+        return False
+    try:
+        yield from _go(body, plan.stance, lambda: False)
+    except GaveUp as end:
+        if end.failure.code not in NO_WAY:
+            raise
+        return False
+    return True
+
+
+def _next_view(body: Body, survey: Survey, *, stay: bool) -> Script[tuple[LookPlan, Rows] | None]:
+    """The best view of what is left, of likely places before others; None if none shows any."""
+    while len(left := survey.left):
+        request = LookRequest(
+            start=stance_of(body.X_WS),
+            points_W=survey.points_W(left),
+            worth=survey.worth(left),
+            around=surroundings(body),
+            stay=stay,
+        )
+        plan = yield from ask(body, request, LookPlan)
+        survey.cut_off(left[list(plan.cut_off)])
+        if plan.stance is not None:
+            return plan, left[list(plan.sees)]
+        survey.give_up(left)
+    return None
+
+
+def _go(body: Body, stance: Stance, until: Until) -> Script[None]:
+    """Walk to a stance, or turn to face as there; stop on the way when it has come to be so."""
+    x_m, y_m, yaw_rad = stance
+    here = stance_of(body.X_WS)
+    turn_rad = wrap_angle(yaw_rad - here[2])
+    if np.hypot(x_m - here[0], y_m - here[1]) > HERE_M:
+        move = walk_to(body, stance)
+    elif abs(turn_rad) > SMALL_TURN_RAD:
+        move = turn_by(body, turn_rad)
+    else:
+        return
+    for _ in move:
+        if until():
+            move.close()
+            break
+        yield
+    yield from stand_still(body)
+
+
+def _gaze(body: Body, survey: Survey, p_W: Vector3, rows: Rows, until: Until) -> Script[bool]:
+    """Rest the eyes on a point until what is about it has been seen; whether it came to be so."""
+    here = _about(body, survey, p_W, rows)
+    survey.take(body.world.looked)
+    if until():
+        return True
+    if not survey.unseen(here):
+        return False  # it was seen in passing
+    yield from turn_head(body, p_W)
+    check_camera(body)
+    begin_s = body.now_s
+    while body.now_s - begin_s < STARE_S:
+        yield
+        survey.take(body.world.looked)
+        if until():
+            return True
+        if body.now_s - begin_s >= GLANCE_S and not survey.unseen(here):
+            break
+    return False
+
+
+def _about(body: Body, survey: Survey, p_W: Vector3, rows: Rows) -> Rows:
+    """Which points lie about the line of sight to one, by direction from where the robot stands."""
+    at = np.array(body.X_WS.p[:2])
+    off, line = np.array(survey.points_W(rows))[:, :2] - at, np.array(p_W[:2]) - at
+    cos = off @ line / np.maximum(np.linalg.norm(off, axis=1) * np.linalg.norm(line), 1e-9)
+    return rows[cos > np.cos(NEAR_GAZE_RAD)]

@@ -1,0 +1,212 @@
+"""Where to look from next: of all places to stand, the one that shows most for the time it takes.
+
+A view is a stance and a few directions of the head. What it shows is reckoned with the prior map:
+a point of a surface is seen from near enough, not at a grazing angle, with nothing between. What it
+costs is the way to walk there, around walls and through doors. Where likely points are worth more,
+taking the best ratio first is what brings the expected time to a find down.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import msgspec
+import mujoco
+import numpy as np
+
+from robot.planning.floor import Floor, with_room
+from robot.planning.numerics import Indices, Mask, even
+from robot.planning.requests import LookPlan, LookRequest, Stance
+from robot.planning.robot_body import UPRIGHT, Body
+from robot.planning.sight import Screens
+from robot.planning.solids import Solid, solid, solids_of
+from robot.se3 import Array, Vector3
+
+CELL_M = 0.2
+"""Distance of the places to stand that are tried: narrower than anything is looked into."""
+NEAR_M = 1.9
+"""Somewhat nearer than what perception takes for seen well, so that a planned view is one."""
+GRAZING_RAD, STEEP_RAD = 0.06, 1.05
+"""Least and greatest angle at which eyes look down on a surface; below that the chest is."""
+ABOVE_M = 0.04
+"""Half the height of a small thing: so much above the surface the line of sight ends."""
+HEAD_RAD, CONE_RAD = 0.95, 0.42
+"""How far the head is turned to a side, and what of a picture counts about its middle."""
+HEADINGS = 8
+WALK_M_S, TURN_RAD_S = 0.2, 0.4
+SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
+"""As timed in a flat and an office: setting off and stepping in cost seconds on any way."""
+SLACK = 0.9
+"""A way may be as narrow as this part of the body's radius to both sides; base paths agree."""
+
+
+class _View(msgspec.Struct, frozen=True):
+    """What can be seen from a stance, by the points' rows, and what it takes to get there."""
+
+    worth_per_s: float
+    stance: Stance
+    rows: Indices
+    length_m: float = 0.0
+
+
+def plan_look(body: Body, request: LookRequest) -> LookPlan:
+    """The best view of the points asked for; a plan without a stance where there is none."""
+    points, worth = np.array(request.points_W).reshape(-1, 3), np.array(request.worth)
+    radius_m = body.description.body_radius_m
+    around, start = request.around, request.start
+    floor = Floor(solids_of(around), with_room(around.map.bounds_m, *start[:2], radius_m=radius_m))
+    standing = tuple(
+        solid(thing.id, thing.X_WO, shape)
+        for thing in around.map.obstacles
+        for shape in thing.shapes
+    )
+    atlas = _atlas(standing, around.map.bounds_m, _eye_m(body))
+    lengths_m = floor.ways_m(*start[:2], radius_m=SLACK * radius_m).lengths_m(atlas.cells)
+    stands = floor.clearances_m(atlas.cells) >= radius_m
+    shown = atlas.shown(points) & (stands & (not request.stay))
+    near, reached = atlas.shown_at(points, start[:2]), np.isfinite(lengths_m)
+    turns = floor.clearance_m(*start[:2]) >= radius_m
+    views = [
+        *_views_here(points, worth, near, start, turns=turns),
+        *_views_there(points, worth, shown & reached, atlas.cells, lengths_m),
+    ]
+    beyond = shown.any(axis=1) & ~near & ~(shown & reached).any(axis=1)
+    cut_off = tuple(np.flatnonzero(beyond).tolist())
+    if not views:
+        return LookPlan(stance=None, cut_off=cut_off)
+    best = max(views, key=lambda view: view.worth_per_s)
+    return LookPlan(
+        stance=best.stance,
+        gazes_W=_gazes(points, worth, best, eye_m=_eye_m(body)),
+        sees=tuple(best.rows.tolist()),
+        length_m=best.length_m,
+        cut_off=cut_off,
+    )
+
+
+def _views_here(
+    points: Array, worth: Array, near: Mask, start: Stance, *, turns: bool
+) -> list[_View]:
+    """The view without turning, and those after turning on the spot, if there is room for it."""
+    rows = np.flatnonzero(near)
+    bearings = np.arctan2(points[rows, 1] - start[1], points[rows, 0] - start[0])
+    views: list[_View] = []
+    for k in range(HEADINGS if turns else 1):
+        yaw = start[2] + 2.0 * math.pi * k / HEADINGS
+        inside = rows[np.abs(_wrapped(bearings - yaw)) < HEAD_RAD]
+        if len(inside):
+            turn_s = TURN_S + abs(float(_wrapped(yaw - start[2]))) / TURN_RAD_S if k else 0.0
+            rate = float(worth[inside].sum()) / (turn_s + LOOK_S)
+            views.append(_View(rate, (*start[:2], float(_wrapped(yaw))), inside))
+    return views
+
+
+def _views_there(
+    points: Array, worth: Array, shown: Mask, cells: Array, lengths_m: Array
+) -> list[_View]:
+    """The best view from somewhere else, if there is any; `shown` has a row a point."""
+    rows, columns = np.nonzero(shown)
+    if not len(rows):
+        return []
+    off = points[rows, :2] - cells[columns]
+    bearings = np.arctan2(off[:, 1], off[:, 0])
+    cost_s = SET_OFF_S + lengths_m / WALK_M_S + LOOK_S
+    best = (0.0, 0, 0.0)
+    for yaw in (2.0 * math.pi * k / HEADINGS for k in range(HEADINGS)):
+        inside = np.abs(_wrapped(bearings - yaw)) < HEAD_RAD
+        gains = np.bincount(columns[inside], worth[rows[inside]], minlength=len(cells))
+        rates = gains / np.where(np.isfinite(cost_s), cost_s, np.inf)
+        cell = int(np.argmax(rates))
+        best = max(best, (float(rates[cell]), cell, yaw))
+    rate, cell, yaw = best
+    inside = (columns == cell) & (np.abs(_wrapped(bearings - yaw)) < HEAD_RAD)
+    mean = _mean_bearing(bearings[inside], worth[rows[inside]])
+    seen = (columns == cell) & (np.abs(_wrapped(bearings - mean)) < HEAD_RAD)
+    x_m, y_m = cells[cell].tolist()
+    return [_View(rate, (x_m, y_m, mean), rows[seen], float(lengths_m[cell]))]
+
+
+def _gazes(points: Array, worth: Array, view: _View, *, eye_m: float) -> tuple[Vector3, ...]:
+    """Points to look at so that all of a view comes into the picture, what is worth most first."""
+    eye = np.array((*view.stance[:2], eye_m))
+    left, lines = view.rows, points - eye
+    lines /= np.maximum(np.linalg.norm(lines, axis=1, keepdims=True), 1e-9)
+    gazes: list[Vector3] = []
+    while len(left):
+        together = lines[left] @ lines[left].T > math.cos(CONE_RAD)
+        first = int(np.argmax(together @ worth[left]))
+        x, y, z = points[left[first]].tolist()
+        gazes.append((x, y, z))
+        left = left[~together[first]]
+    return tuple(gazes)
+
+
+class _Atlas:
+    """From where on the floor of a map each point can be seen; remembered point by point."""
+
+    def __init__(
+        self,
+        standing: tuple[Solid, ...],
+        bounds_m: tuple[float, float, float, float],
+        eye_m: float,
+    ) -> None:
+        x0, y0, x1, y1 = bounds_m
+        xs = even(x0, x1, 1 + max(1, round((x1 - x0) / CELL_M)))
+        ys = even(y0, y1, 1 + max(1, round((y1 - y0) / CELL_M)))
+        grid_x, grid_y = np.meshgrid(xs, ys)
+        self.cells = np.stack([grid_x.ravel(), grid_y.ravel()], axis=1)
+        self._screens, self._eye_m = Screens(standing), eye_m
+        self._known: dict[tuple[float, ...], Mask] = {}
+
+    def shown(self, points: Array) -> Mask:
+        """Which points are seen from which cells, shape (points, cells)."""
+        rows = [self._shown(tuple(point)) for point in points.tolist()]
+        return np.array(rows, dtype=bool).reshape(len(points), len(self.cells))
+
+    def shown_at(self, points: Array, at: tuple[float, float]) -> Mask:
+        """Which points are seen from one place, shape (points,)."""
+        here = np.array([at])
+        return np.array([self._sees(point, here)[0] for point in points], dtype=bool)
+
+    def _shown(self, point: tuple[float, ...]) -> Mask:
+        if point not in self._known:
+            self._known[point] = self._sees(np.array(point), self.cells)
+        return self._known[point]
+
+    def _sees(self, point: Array, cells: Array) -> Mask:
+        off = cells - point[:2]
+        aside_m, above_m = np.hypot(off[:, 0], off[:, 1]), self._eye_m - point[2]
+        slope = np.arctan2(above_m, aside_m)
+        seen = (np.hypot(aside_m, above_m) < NEAR_M) & (slope < STEEP_RAD)
+        seen &= (slope > GRAZING_RAD) | (above_m < 0.0)
+        rows = np.flatnonzero(seen)
+        eyes = np.column_stack([cells[rows], np.full(len(rows), self._eye_m)])
+        seen[rows] = self._screens.in_sight(point + np.array([0.0, 0.0, ABOVE_M]), eyes)
+        return seen
+
+
+@lru_cache(maxsize=4)
+def _atlas(
+    standing: tuple[Solid, ...], bounds_m: tuple[float, float, float, float], eye_m: float
+) -> _Atlas:
+    return _Atlas(standing, bounds_m, eye_m)
+
+
+@lru_cache(maxsize=4)
+def _eye_m(body: Body) -> float:
+    """How high the camera is over the floor when the robot stands."""
+    standing, data = body.standing(UPRIGHT), body.model.data()
+    body.model.write_base(data, standing.X_SB)
+    body.model.write_joints(data, standing.q)
+    mujoco.mj_kinematics(body.model.model, data)
+    camera = body.model.site_id(body.description.sensors.camera.site)
+    return float(body.model.site_pose(data, camera).p[2])
+
+
+def _mean_bearing(bearings: Array, worth: Array) -> float:
+    return math.atan2(float(worth @ np.sin(bearings)), float(worth @ np.cos(bearings)))
+
+
+def _wrapped(angles_rad: Array | float) -> Array:
+    return (np.asarray(angles_rad) + math.pi) % (2.0 * math.pi) - math.pi

@@ -1,0 +1,118 @@
+"""A place is looked over until what is asked is known, and no longer."""
+
+import math
+
+import pytest
+from msgspec.structs import replace
+
+from executive.behaviours.run_skill import DEFAULT_LIMIT_S
+from executive.skills.inspect import RECENT_S, InspectParams
+from executive.skills.search import SearchParams
+from executive.skills.skill import Lasting
+from robot.messages import Look, Walk
+from robot.planning.requests import LookPlan, LookRequest
+from robot.se3 import SE3
+from tests.fakes.stage import Stage
+
+ON_COUNTER = SE3((2.0, 2.6, 0.75))
+
+
+@pytest.fixture
+def stage():
+    stage = Stage()
+    cup = stage.puppet.things["cup"]
+    cup.known, cup.seen_s = False, -math.inf
+    return stage
+
+
+def share(stage, place_id: str) -> float:
+    (looked,) = (one for one in stage.puppet.world().looked if one.place_id == place_id)
+    return sum(math.isfinite(seen_s) for seen_s in looked.seen_s) / len(looked.seen_s)
+
+
+def test_all_of_a_place_is_looked_at(stage):
+    assert stage.run(InspectParams(place_ids=("counter",))).status == "succeeded"
+    assert share(stage, "counter") == 1.0
+
+
+def test_what_was_looked_over_lately_is_not_looked_at_again(stage):
+    stage.run(InspectParams(place_ids=("counter",)))
+    before = len(stage.commands(Look))
+    assert stage.run(InspectParams(place_ids=("counter",))).status == "succeeded"
+    assert len(stage.commands(Look)) == before
+    stage.puppet.time_s += 2.0 * RECENT_S
+    stage.run(InspectParams(place_ids=("counter",)))
+    assert len(stage.commands(Look)) > before
+
+
+def test_it_ends_when_one_of_the_things_is_seen_there(stage):
+    stage.puppet.things["cup"].X_WO = ON_COUNTER
+    asked = InspectParams(place_ids=("counter", "table"), object_ids=("cup",))
+    assert stage.run(asked).status == "succeeded"
+    assert stage.puppet.things["cup"].seen_s == pytest.approx(stage.puppet.time_s, abs=1.0)
+
+
+def test_nothing_is_looked_at_when_all_things_were_just_seen_elsewhere(stage):
+    cup = stage.puppet.things["cup"]
+    cup.known, cup.seen_s = True, 0.0
+    asked = InspectParams(place_ids=("counter",), object_ids=("cup",))
+    assert stage.run(asked).status == "succeeded"
+    assert not stage.commands(Look)
+
+
+def test_without_a_place_it_only_looks_around(stage):
+    assert stage.run(InspectParams()).status == "succeeded"
+    assert not stage.commands(Walk)
+    assert stage.commands(Look)
+
+
+def test_a_place_that_cannot_be_seen_is_no_empty_place(stage):
+    stage.planner._look = lambda request: LookPlan(
+        stance=None, cut_off=tuple(range(len(request.points_W)))
+    )
+    report = stage.run(InspectParams(place_ids=("counter",), object_ids=("cup",)))
+    assert report.failure.code == "place_not_seen"
+    assert "no way leads to the counter" in report.failure.cause
+
+
+def test_a_search_goes_on_where_another_skill_has_looked(stage):
+    """What is known of the surfaces outlives the skill, the try and the job."""
+    stage.puppet.blind = True
+    stage.run(InspectParams(place_ids=("counter", "table")))
+    asked = len(stage.planner.requests)
+    report = stage.run(SearchParams(object_id="cup"))
+    assert report.failure.code == "object_not_seen"
+    assert "looked on the table and the counter" in report.failure.cause
+    assert len(stage.planner.requests) == asked
+
+
+def test_a_search_after_one_in_vain_looks_again(stage):
+    stage.puppet.blind = True
+    assert stage.run(SearchParams(object_id="cup")).failure.evidence["looked"] == "everywhere"
+    stage.puppet.blind = False
+    stage.puppet.things["cup"].X_WO = ON_COUNTER
+    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    assert any(isinstance(asked, LookRequest) for asked in stage.planner.requests)
+
+
+def test_what_looks_for_things_may_take_longer_in_a_larger_house(stage):
+    def limit_s() -> float:
+        skill = stage.make(SearchParams(object_id="cup"))
+        assert isinstance(skill, Lasting)
+        return skill.limit_s()
+
+    small_s, known = limit_s(), stage.puppet.world_map
+    stage.puppet.world_map = replace(known, bounds_m=(-10, -10, 10, 10))
+    wide_s = limit_s()
+    table = known.places[0]
+    more = tuple(
+        replace(table, id=f"table_{n}", X_WP=SE3((n, 5.0, 0.7)), of=f"table_{n}") for n in range(9)
+    )
+    stage.puppet.world_map = replace(stage.puppet.world_map, places=(*known.places, *more))
+    assert DEFAULT_LIMIT_S < small_s < wide_s < limit_s()
+
+
+def test_where_it_was_said_to_be_is_looked_at_first(stage):
+    stage.puppet.X_WS = SE3((-1.0, -2.5, 0.0))
+    stage.run(SearchParams(object_id="cup", place_ids=("counter",)), until_phase="looking over")
+    assert stage.phases[-1] == "looking over the counter"

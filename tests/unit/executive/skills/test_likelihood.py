@@ -1,0 +1,84 @@
+"""Likely places come first: said ones, surfaces for things, where such things are; seats last."""
+
+import msgspec
+
+from executive.skills.motions.likelihood import LIKELY, SAID, UNLIKELY, prospects
+from executive.skills.motions.survey import Prospect
+from robot.messages import ObjectInfo, Place, Shape, Track, WorldMap
+from robot.se3 import SE3
+
+SHAPE = Shape(kind="box", size_m=(0.06, 0.06, 0.1))
+
+
+def thing(name: str, category: str) -> ObjectInfo:
+    return ObjectInfo(id=name, name=name, category=category, color="", shape=SHAPE, mass_kg=0.2)
+
+
+def surface(name: str, kind: str, x_m: float, z_m: float, size: float = 0.6) -> Place:
+    X_WP = SE3((x_m, 0.0, z_m))
+    return Place(id=name, name=name, X_WP=X_WP, size_m=(size, size), of=name, kind=kind)
+
+
+PLACES = (
+    surface("table", "table", 0.0, 0.74),
+    surface("chair", "chair", 2.0, 0.45),
+    surface("machine", "box", 4.0, 1.4, size=1.5),
+    surface("nightstand", "box", 6.0, 0.62),
+    surface("sofa", "sofa", 8.0, 0.42),
+    surface("book rack", "shelf", 10.0, 0.9),
+    surface("cabinet", "cabinet", 12.0, 0.85),
+)
+BOOK, OTHER, CAN = thing("novel", "book"), thing("atlas", "book"), thing("cola", "can")
+MAP = WorldMap(
+    stamp_s=0.0,
+    name="home",
+    obstacles=(),
+    places=PLACES,
+    objects=(BOOK, OTHER, CAN),
+    people=(),
+    categories={},
+    bounds_m=(-1, -1, 14, 1),
+)
+
+
+def on(info: ObjectInfo, place: Place) -> Track:
+    x_m, y_m, z_m = place.X_WP.p
+    return Track(id=info.id, X_WO=SE3((x_m, y_m, z_m + 0.05)), seen_s=1.0)
+
+
+def of(info: ObjectInfo, *tracks: Track, said: tuple[str, ...] = ()) -> dict[str, Prospect]:
+    return {found.place.id: found for found in prospects(info, MAP, tracks, said=said)}
+
+
+def test_seats_and_machines_wait_until_nothing_else_is_left() -> None:
+    ranks = {name: found.rank for name, found in of(CAN).items()}
+    assert ranks == {place.id: LIKELY for place in PLACES} | {
+        "chair": UNLIKELY,
+        "machine": UNLIKELY,
+    }
+
+
+def test_a_seat_that_things_are_on_is_a_surface() -> None:
+    assert of(BOOK, on(CAN, PLACES[1]))["chair"].rank == LIKELY
+
+
+def test_what_was_said_comes_before_everything() -> None:
+    found = of(CAN, said=("chair",))
+    assert found["chair"].rank == SAID
+    assert all(other.rank > SAID for name, other in found.items() if name != "chair")
+
+
+def test_tables_are_more_likely_than_sofas() -> None:
+    found = of(CAN)
+    assert found["table"].worth > found["nightstand"].worth > found["sofa"].worth
+
+
+def test_where_others_of_its_sort_are_is_likely() -> None:
+    found = of(BOOK, on(OTHER, PLACES[6]), on(CAN, PLACES[0]))
+    assert found["cabinet"].worth > found["table"].worth
+    gone = msgspec.structs.replace(on(OTHER, PLACES[6]), missing=True)
+    assert of(BOOK, gone)["cabinet"].worth == of(BOOK)["cabinet"].worth
+
+
+def test_a_place_that_is_called_after_such_things_is_likely() -> None:
+    assert of(BOOK)["book rack"].worth > of(CAN)["book rack"].worth
