@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
-from executive.meaning.handlers.steps import about, search, surfaces
+from executive.meaning.handlers.steps import about, many, search, several, visit
 from executive.meaning.identify import Scene, cannot
+from executive.meaning.settling import counted, places_at, where_words
 from executive.skills.look import LookParams
-from executive.skills.navigate import NavigateParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series
 from intents import goals
-from robot.messages import Place
+from robot.messages import ObjectInfo
 
 AROUND = "around"
 
@@ -20,10 +20,10 @@ def look_at(goal: goals.LookAt, scene: Scene) -> Part:
     """Turn the eyes to something; an object is looked for."""
     if goal.place == AROUND:
         return Errand(name="look around", params=LookParams(around=True))
+    if goal.object is not None and many(goal.object):
+        return several(scene.objects(goal.object), "look at several things", _look_at)
     if goal.object is not None:
-        info = scene.object(goal.object)
-        params = SearchParams(object_id=info.id)  # it ends with the object in sight
-        return about(info, f"look at {info.full_name}", params)
+        return _look_at(scene.object(goal.object))
     if goal.person is not None:
         found = scene.person(goal.person)
         return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
@@ -33,10 +33,19 @@ def look_at(goal: goals.LookAt, scene: Scene) -> Part:
     return Errand(name=f"look at the {goal.place}", params=LookParams(place_id=place.id))
 
 
+def _look_at(info: ObjectInfo) -> Part:
+    params = SearchParams(object_id=info.id)  # it ends with the object in sight
+    return about(info, f"look at {info.full_name}", params)
+
+
 def find(goal: goals.Find, scene: Scene) -> Part:
     """Look for an object, or go and see a person."""
-    if goal.object is not None:
-        return search(scene.object(goal.object), goal.object, scene)
+    query = goal.object
+    if query is not None and many(query):
+        found = scene.objects(query)
+        return several(found, "find several things", lambda info: search(info, query, scene))
+    if query is not None:
+        return search(scene.object(query), query, scene)
     if goal.person is None:
         raise cannot("invalid_goal", "find what?", suggestion="name an object")
     found = scene.person(goal.person)
@@ -46,20 +55,18 @@ def find(goal: goals.Find, scene: Scene) -> Part:
 
 def count(goal: goals.Count, scene: Scene) -> Part:
     """Look wherever it was said, then say how many there are."""
-    if goal.object is None:
-        raise cannot("unsupported", "this robot cannot count people yet")
-    ids = frozenset(info.id for info in scene.fitting(goal.object))
     query = goal.object
-    places = surfaces(scene.places(query.at)) if query.at else ()
-    looks = tuple(_visit(place) for place in places)
-    noun = query.name or query.category or "object"
-    tell = Errand(name="say how many", params=answers.count(ids, places, noun=noun))
-    return Series(name=f"count the {noun}s", parts=(*looks, tell))
-
-
-def _visit(place: Place) -> Series:
-    parts = (
-        Errand(name=f"go to the {place.name}", params=NavigateParams(place_id=place.id)),
-        Errand(name=f"look at the {place.name}", params=LookParams(place_id=place.id)),
-    )
-    return Series(name=f"inspect the {place.name}", parts=parts)
+    if query is None:
+        raise cannot("unsupported", "this robot cannot count people yet")
+    noun = scene.knowledge.noun(query.name or query.category or "object")
+    name = f"count the {noun.many}"
+    if query.relation is not None:
+        looks, number_of = counted(query, scene)
+        tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
+    else:
+        ids = frozenset(info.id for info in scene.fitting(query))
+        places = places_at(query.at, scene) if query.at else []
+        looks = tuple(visit(place) for place in places)
+        where = where_words(query) if query.at else ""
+        tell = answers.count(ids, places, noun=noun, where=f" {where}" if where else "")
+    return Series(name=name, parts=(*looks, Errand(name="say how many", params=tell)))

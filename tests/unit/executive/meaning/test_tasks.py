@@ -55,8 +55,10 @@ def test_sentences_become_steps(text, expected):
 
 def test_several_things_are_fetched_one_after_the_other():
     assert steps("bring all cups to the table") == [
+        "find the red cup",
         "pick up the red cup",
         "put the red cup on the table",
+        "find the blue cup",
         "pick up the blue cup",
         "put the blue cup on the table",
     ]
