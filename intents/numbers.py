@@ -5,7 +5,7 @@ import msgspec
 _IRREGULAR = {
     "knife": "knives", "shelf": "shelves", "loaf": "loaves", "leaf": "leaves", "half": "halves",
     "person": "people", "man": "men", "woman": "women", "child": "children", "mouse": "mice",
-    "foot": "feet", "tooth": "teeth", "potato": "potatoes", "tomato": "tomatoes",
+    "foot": "feet", "tooth": "teeth", "potato": "potatoes", "tomato": "tomatoes", "quiz": "quizzes",
     "scissors": "scissors", "pliers": "pliers", "glasses": "glasses", "fish": "fish",
     "scarf": "scarves", "wolf": "wolves", "life": "lives", "wife": "wives", "hero": "heroes",
 }  # fmt: skip

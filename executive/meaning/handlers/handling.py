@@ -181,10 +181,11 @@ def _put_beside(
     info: ObjectInfo, query: goals.ObjectQuery, relation: goals.Relation, scene: Scene
 ) -> Part:
     """Put an object next to another one, which is found first."""
-    marks = [scene.object(end) for end in (relation.of, relation.other) if end is not None]
+    ends = [end for end in (relation.of, relation.other) if end is not None]
+    marks = [scene.object(end) for end in ends]
     if info in marks:
         raise cannot("invalid_goal", f"{info.full_name} cannot be put beside itself")
-    finds = tuple(search(mark, goals.ObjectQuery(), scene) for mark in marks)
+    finds = tuple(search(mark, end, scene) for mark, end in zip(marks, ends, strict=True))
     how = HOW_WORDS[relation.how]
     name = f"put {info.full_name} {how} {' and '.join(mark.full_name for mark in marks)}"
     put = about(info, name, beside(info, relation.how, marks, scene.knowledge), carries=True)

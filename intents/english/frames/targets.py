@@ -53,7 +53,27 @@ def destination(slots: Slots) -> Target | None:
     inside = slots.scope.device or slots.scope.place
     if place is None and inside and slots.clause.particles() & {"inside", "in"}:
         return Target(in_=inside)
+    if place is not None and bare is not None:
+        place = _after_description(bare.phrases[-1], place, slots.scope)
     return _spot(place, slots.scope) if place else None
+
+
+def _after_description(phrase: NounPhrase, place: Locative, scope: Scope) -> Locative:
+    """Put the cup behind the vase on the shelf: "behind the vase" tells which of several cups.
+
+    Of a thing that is told apart already, as "the red cup", it is where to put it.
+    """
+    last = place.other or place.of
+    surface = last.places[-1] if last.places else None
+    if surface is None or not surface.of.is_spot or place.how not in _BESIDE:
+        return place
+    name = phrase.name("object")
+    several = not name or bool(scope.index.variants(name))
+    if phrase.color or phrase.size or phrase.superlative or not several:
+        return place
+    last.places.pop()
+    phrase.places.append(place)
+    return surface
 
 
 def _spot(place: Locative, scope: Scope) -> Target:
