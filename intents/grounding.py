@@ -332,6 +332,7 @@ def queries(goals: Iterable[Goal]) -> list[ObjectQuery]:
         if not isinstance(goal, Pick | Bring | Place | Give | LookAt):
             continue
         query = goal.object
-        if query is not None and not query.held and query not in found:
+        moved = (replace(one, at=None) for one in found)  # what is moved is not there any more
+        if query is not None and not query.held and query not in (*found, *moved):
             found.append(query)
     return found

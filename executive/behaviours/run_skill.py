@@ -190,7 +190,8 @@ class RunSkill(Behaviour):
     def _finish(self) -> None:
         """The step is done: all that was asked for at first."""
         self._record("done")
-        self._stage.scope.did(self._asked)
+        for scope in (self._stage.scope, self._stage.own):  # its job's, and the executive's
+            scope.did(self._asked)
 
     def _show(self, report: SkillReport) -> None:
         """Tell people (and, where it is news, the journal) what the skill does."""

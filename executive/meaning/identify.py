@@ -84,7 +84,8 @@ class Scene:
         scene = Scene(
             self.knowledge, held=tuple(self.held), entities=tuple(self._entities), view=self._view
         )
-        scene._settled = {**self._settled, _bare(query): ids}
+        gone = replace(query, at=None)  # as it is spoken of once it was taken from there
+        scene._settled = {**self._settled, _bare(query): ids, _bare(gone): ids}
         scene.spoken_of = ids[0]
         return scene
 

@@ -16,8 +16,8 @@ import msgspec
 from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
+from executive.meaning.handlers.settling import settle
 from executive.meaning.identify import Scene, Unsettled, cannot
-from executive.meaning.settling import settle
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
 from robot.messages import ObjectInfo

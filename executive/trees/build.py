@@ -36,6 +36,8 @@ ANY = "any"
 """In `OnFail`: any code that has no handler of its own."""
 
 Done = frozenset[str]
+_IS = "?is="
+"""In `Done`: between the path of a settling and what it found out."""
 
 
 def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset()) -> Behaviour:  # noqa: PLR0912 - one line a kind
@@ -114,9 +116,9 @@ def _settle(part: p.Settle, stage: Stage, path: str, done: Done) -> Behaviour:
     def then(ids: tuple[str, ...]) -> Behaviour:
         return once(build(part.then(ids), stage, path=p.below(path, "then"), done=done))
 
-    for entry in done:
-        if entry.startswith(f"{path}?is="):  # as it was settled in an earlier run
-            return then(tuple(entry.removeprefix(f"{path}?is=").split(",")))
+    known = meanings(done).get(path)
+    if known is not None:  # as it was settled in an earlier run
+        return then(known)
     first = Settling(part, looks, then=then, stage=stage, path=path)
     return InOrder(part.name, memory=True, children=[first])
 
@@ -216,8 +218,14 @@ def finished(events: Iterable[Mapping[str, object]]) -> Done:
         elif event.get("event") == "again" and path:
             found.add(f"{path}?again")
         elif event.get("event") == "settled" and path:
-            found.add(f"{path}?is={event.get('means')}")
+            found.add(f"{path}{_IS}{event.get('means')}")
     return frozenset(found)
+
+
+def meanings(done: Done) -> dict[str, tuple[str, ...]]:
+    """What descriptions were settled to mean: ids by the path of the settling."""
+    found = (entry.split(_IS, 1) for entry in done if _IS in entry)
+    return {path: tuple(ids.split(",")) for path, ids in found}
 
 
 def before(part: p.Part, path: str) -> Done | None:

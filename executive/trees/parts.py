@@ -237,11 +237,19 @@ def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
             return
 
 
-def walk(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
-    """A part and all parts inside it with their paths, in reading order."""
+def walk(
+    part: Part, path: str = "", *, means: Mapping[str, tuple[str, ...]] | None = None
+) -> Iterator[tuple[str, Part]]:
+    """A part and all parts inside it with their paths, in reading order.
+
+    What was settled already (`means`: the ids by the path) is what is done, others what is likely.
+    """
+    known = means or {}
     stack = [(path, part)]
     while stack:
         where, node = stack.pop()
+        if isinstance(node, Settle) and where in known:
+            node = msgspec.structs.replace(node, likely=node.then(known[where]))
         yield where, node
         stack += reversed(list(children(node, where)))
 

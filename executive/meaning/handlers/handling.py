@@ -7,9 +7,9 @@ from collections.abc import Callable
 from executive.behaviours.run_skill import Bound
 from executive.meaning import answers
 from executive.meaning.handlers.putting import beside, part_of_place
+from executive.meaning.handlers.settling import places_at
 from executive.meaning.handlers.steps import about, many, search, several, surfaces
 from executive.meaning.identify import Scene, cannot
-from executive.meaning.settling import places_at
 from executive.skills.give import GiveParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams

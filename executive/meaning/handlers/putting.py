@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import WORLD, Blackboard
 from executive.meaning import spots
+from executive.meaning.handlers.settling import pose_of
 from executive.meaning.knowledge import Knowledge
-from executive.meaning.settling import pose_of
 from executive.meaning.viewpoint import facing
 from executive.skills.navigate import FloorPose, NavigateParams
 from executive.skills.place import PlaceParams

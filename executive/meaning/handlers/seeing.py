@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
+from executive.meaning.handlers.settling import counted, places_at, where_words
 from executive.meaning.handlers.steps import about, many, search, several, visit
 from executive.meaning.identify import Scene, cannot
-from executive.meaning.settling import counted, places_at, where_words
 from executive.skills.look import LookParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series

@@ -23,17 +23,16 @@ def part_of(text: Text, start: int) -> tuple[Part | None, int] | None:
     noun = text.word(at)
     if noun in _PARTS and text.word(at + 1) in ("of", "part") and at > start:
         end = at + 2 + (text.word(at + 1) == "part" and text.word(at + 2) == "of")
-        part: Part | None = _PLAIN_PARTS.get(noun)
-        return _ENDS.get(which, part) if noun in _END_NOUNS else part, end
+        return (_ENDS.get(which) if noun in _END_NOUNS else _PLAIN_PARTS.get(noun)), end
     return None
 
 
-_WHICH: dict[str, Part | None] = {
+_ENDS: dict[str, Part] = {
     "left": "left_end", "right": "right_end", "far": "other_end", "farther": "other_end",
     "further": "other_end", "other": "other_end", "opposite": "other_end", "near": "near_end",
-    "nearer": "near_end", "very": None,
+    "nearer": "near_end",
 }  # fmt: skip
-_ENDS: dict[str, Part] = {which: part for which, part in _WHICH.items() if part is not None}
+_WHICH = frozenset({*_ENDS, "very"})
 _END_NOUNS = ("end", "side")
 _PLAIN_PARTS: dict[str, Part] = {
     "center": "middle", "centre": "middle", "middle": "middle", "edge": "edge",

@@ -116,6 +116,13 @@ def test_what_looking_settles_is_not_asked_back_blind(what: str, which: str) -> 
     assert goals(what.format(which), entities=UNSEEN + landmarks)
 
 
+@pytest.mark.parametrize("then", ["bring it to the office", "put it on the cabinet"])
+def test_it_is_what_was_taken_from_where_it_was_said_to_be(then: str) -> None:
+    took, moved = goals(f"take the jar on the bench and {then}", entities=UNSEEN)
+    assert took["object"] == {"name": "jar", "at": "bench"}
+    assert moved["object"] == {"name": "jar"}
+
+
 def test_what_looking_does_not_settle_is_asked() -> None:
     assert isinstance(parse("pick up the jar", SHED, context=Context(entities=UNSEEN)), Question)
 

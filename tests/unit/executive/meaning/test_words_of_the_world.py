@@ -230,6 +230,12 @@ def test_what_is_on_a_surface_is_what_was_seen_there(words, means):
     assert set(found) == means
 
 
+def test_it_is_what_was_settled():
+    (part,) = parts("take the mug on the counter and put it on the table", Settle)
+    fetched = {e.object_id for e in errands(part.then(("green",)))}
+    assert fetched == {"green"}
+
+
 def test_fewer_than_asked_for_are_not_enough():
     (part,) = parts("put both mugs on the counter on the table", Settle)
     assert isinstance(part.question(board(red=(0.3, 2.5))), Failure)

@@ -149,7 +149,7 @@ def _landmark(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
     found = scene.fitting(query)
     if found:
         looks = [_go_and_look(info, query, scene) for info in found]
-        return looks if len(looks) == 1 else [tolerant(look) for look in looks]
+        return [*looks] if len(looks) == 1 else [tolerant(look) for look in looks]
     places = scene.knowledge.places(query.name or "")
     if not places:
         scene.object(query)  # says that there is no such thing
@@ -158,7 +158,7 @@ def _landmark(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
     return [tolerant(visit(place)) for place in dict.fromkeys(around)]
 
 
-def _go_and_look(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
+def _go_and_look(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Series:
     def there(board: Blackboard) -> NavigateParams | Failure:
         place = surface_of(info.id, board, scene.knowledge)
         if place is None:
@@ -241,9 +241,11 @@ class _Question:
 
     def _landmark(self, board: Blackboard) -> tuple[SE3, Place] | None:
         relation = self._query.relation
-        of = relation.of if relation is not None else None
-        for info in self._knowledge.map.objects if of is not None else ():
-            fits = ground(replace(of, at=None), [self._knowledge.entity(info)])
+        if relation is None:
+            return None
+        of = replace(relation.of, at=None)
+        for info in self._knowledge.map.objects:
+            fits = ground(of, [self._knowledge.entity(info)])
             X_WO = pose_of(info.id, board)
             place = self._knowledge.surface_under(X_WO) if X_WO is not None else None
             if isinstance(fits, Grounded) and X_WO is not None and place is not None:
