@@ -24,6 +24,8 @@ ASIDE_RAD = math.radians(40.0)
 """How far off straight left is still to the left."""
 MIDDLE = 0.25
 """Between two things: so much of the way to either side of the middle."""
+ASIDE_M = (-0.08, -0.04, 0.0, 0.04, 0.08)
+"""Off the line from one to the other: a hand that does not fit in there may fit beside it."""
 END = 0.28
 """The end of a surface: so much of its length."""
 EDGE_M = 0.12
@@ -58,14 +60,16 @@ def beside(how: How, one: Body, radius_m: float, *, view: Viewpoint) -> tuple[Sp
 
 def between(one: Point, other: Point) -> tuple[Spot, ...]:
     """Points between two things, the middle first."""
-    shares = sorted((s * MIDDLE / 3 for s in range(-3, 4)), key=abs)
-    return tuple(
-        (
-            one[0] + (0.5 + share) * (other[0] - one[0]),
-            one[1] + (0.5 + share) * (other[1] - one[1]),
-        )
-        for share in shares
+    along = (other[0] - one[0], other[1] - one[1])
+    length_m = max(math.hypot(*along), 1e-6)
+    shares = [s * MIDDLE / 3 for s in range(-3, 4)]
+    found = sorted(
+        ((share * length_m, aside_m) for share in shares for aside_m in ASIDE_M),
+        key=lambda off: math.hypot(*off),
     )
+    x_m, y_m = (0.5 * (one[i] + other[i]) for i in (0, 1))
+    ux, uy = along[0] / length_m, along[1] / length_m
+    return tuple((x_m + a * ux - b * uy, y_m + a * uy + b * ux) for a, b in found)
 
 
 def part_of(place: Place, part: Part, *, away_from: Spot, view: Viewpoint) -> tuple[Spot, ...]:
