@@ -34,6 +34,8 @@ How = Literal[
     "near",
     "between",
 ]
+Part = Literal["middle", "edge", "other_end", "near_end", "left_end", "right_end"]
+"""A part of a surface or a room; "other_end" is the far one."""
 Side = Literal["left", "right", "forward", "backward"]
 BalanceMode = Literal["stand", "squat", "one_leg", "lean", "sit"]
 ReportTopic = Literal[
@@ -152,9 +154,13 @@ class _OfSomething(_Goal, frozen=True, kw_only=True):
 
 
 class GoTo(_Goal, frozen=True, kw_only=True):
-    """Walk somewhere: exactly one of the slots is set; place may be "operator"."""
+    """Walk somewhere: exactly one of place, pose and by is set; place may be "operator".
+
+    ``part`` is the part of the place.
+    """
 
     place: str | None = None
+    part: Part | None = None
     pose: Pose2 | None = None
     by: Displacement | None = None
 
@@ -170,11 +176,16 @@ class Pick(_Goal, frozen=True, kw_only=True):
 
 
 class Place(_Goal, frozen=True, kw_only=True):
-    """Put an object on or in a place; without either, down where it can be."""
+    """Put an object on or in a place; without either, down where it can be.
+
+    ``part`` is the part of the place; ``relation`` is where, relative to another object.
+    """
 
     object: ObjectQuery
     on: str | None = None
     in_: str | None = None
+    part: Part | None = None
+    relation: Relation | None = None
 
 
 class Bring(_Goal, frozen=True, kw_only=True):

@@ -142,11 +142,20 @@ def ground(
     if query.size and len(fitting) > 1:
         fitting = _sized(fitting, query.size)
     if query.count == "all" or (query.count and len(fitting) >= query.count):
-        chosen = fitting if query.count == "all" else fitting[: query.count]
+        chosen = fitting if query.count == "all" else _handiest(fitting, view)[: query.count]
         return Grounded(chosen[0].id, tuple(e.id for e in chosen))
     if len(fitting) == 1:
         return Grounded(fitting[0].id, (fitting[0].id,))
     return _ambiguous(query, fitting)
+
+
+def by_where(query: ObjectQuery) -> bool:
+    """Whether a description tells things apart by where they are."""
+    placed = query.at is not None or query.relation is not None
+    return placed or query.superlative in _BY_PLACE
+
+
+_BY_PLACE = frozenset({"leftmost", "rightmost", "nearest", "farthest", "highest", "lowest"})
 
 
 def _fits(entity: Entity, query: ObjectQuery) -> bool:
@@ -231,6 +240,16 @@ def _sized(entities: list[Entity], size: str) -> list[Entity]:
     return _most(entities, wanted[size], {}) if size in wanted else entities
 
 
+def _handiest(entities: list[Entity], view: Viewpoint | None) -> list[Entity]:
+    """Any will do: what is in the hand first, then what was seen, the nearest first."""
+
+    def key(entity: Entity) -> tuple[bool, bool, float]:
+        near_m = view.distance_m(entity.p_WO) if view and entity.p_WO else 0.0
+        return (not entity.held, entity.p_WO is None, near_m)
+
+    return sorted(entities, key=key)
+
+
 def _ambiguous(query: ObjectQuery, entities: Sequence[Entity]) -> Ambiguous:
     """Tell them apart by the first of colour, name, place and size that does."""
     labels = _labels(entities)
@@ -313,6 +332,7 @@ def queries(goals: Iterable[Goal]) -> list[ObjectQuery]:
         if not isinstance(goal, Pick | Bring | Place | Give | LookAt):
             continue
         query = goal.object
-        if query is not None and not query.held and query not in found:
+        moved = (replace(one, at=None) for one in found)  # what is moved is not there any more
+        if query is not None and not query.held and query not in (*found, *moved):
             found.append(query)
     return found

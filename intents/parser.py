@@ -20,7 +20,16 @@ from intents.english.words.names import index_of
 from intents.english.words.text import Text
 from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop
 from intents.grammar import read
-from intents.grounding import Ambiguous, Grounded, Unknown, ground, narrowed, queries
+from intents.grounding import (
+    Ambiguous,
+    Entity,
+    Grounded,
+    Unknown,
+    by_where,
+    ground,
+    narrowed,
+    queries,
+)
 from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
@@ -224,6 +233,8 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
             return Refusal(reason=f"{_sentence(found.reason)}.")
         if isinstance(found, Ambiguous) and _several(text, query):
             goals = tuple(substitute(goal, query, replace(query, count="all")) for goal in goals)
+        elif isinstance(found, Ambiguous) and by_where(query) and _unseen(found, by_id):
+            continue  # whoever goes and looks will know
         elif isinstance(found, Ambiguous):
             choices = tuple(
                 Choice(label=label, query=narrowed(query, by_id[i]))
@@ -234,6 +245,11 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
                 kind="choice",
             )  # fmt: skip
     return Goals(goals=goals)
+
+
+def _unseen(found: Ambiguous, by_id: dict[str, Entity]) -> bool:
+    """Whether it is not known of all that may be meant where they are."""
+    return not all(by_id[i].p_WO or by_id[i].held for i in found.candidates)
 
 
 def _several(text: str, query: ObjectQuery) -> bool:

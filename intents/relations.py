@@ -58,6 +58,11 @@ def rank(superlative: Superlative, p_WO: Point, view: Viewpoint) -> float | None
     return None
 
 
+def apart_m(one: Point, other: Point) -> float:
+    """Distance on the floor [m]."""
+    return hypot(one[0] - other[0], one[1] - other[1])
+
+
 def holds(how: How, one: Body, other: Body, view: Viewpoint | None) -> bool | None:
     """Whether one is `how` the other; None where that needs a viewpoint and there is none."""
     if how in _UPRIGHT:

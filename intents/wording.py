@@ -6,6 +6,7 @@ from math import degrees
 from intents import goals as g
 from intents.goals import OPERATOR, Goal, ObjectQuery, Person
 from intents.grounding import HOW_WORDS
+from intents.numbers import plural
 
 _PRONOUN = {"male": "a man", "female": "a woman", None: "a person"}
 _GESTURES = {
@@ -35,15 +36,24 @@ def thing(query: ObjectQuery) -> str:
         return "it"
     noun = query.name or query.category or "thing"
     if isinstance(query.count, int) and query.count > 1:
-        noun = noun if noun.endswith("s") else f"{noun}s"
+        noun = plural(noun)
     words = " ".join(w for w in (query.superlative, query.size, query.color, noun) if w)
     first = {"all": "every", None: "the", 1: "a"}.get(query.count, str(query.count))
     first = "an" if first == "a" and words[0] in "aeiou" else first
     where = f" at {the(query.at)}" if query.at else ""
     if query.relation:
-        ends = [q for q in (query.relation.of, query.relation.other) if q is not None]
-        where += f" {HOW_WORDS[query.relation.how]} {' and '.join(map(thing, ends))}"
+        where += f" {_beside(query.relation)}"
     return f"{first} {words}{where}"
+
+
+def _beside(relation: g.Relation) -> str:
+    ends = [q for q in (relation.of, relation.other) if q is not None]
+    return f"{HOW_WORDS[relation.how]} {' and '.join(map(thing, ends))}"
+
+
+def _part(part: g.Part | None) -> str:
+    """The other end of ..."""
+    return f"the {part.replace('_', ' ')} of " if part else ""
 
 
 def who(person: Person) -> str:
@@ -74,10 +84,12 @@ def _goal(goal: Goal) -> str:  # noqa: PLR0912 - one line a kind of goal
             return f"look for {_subject(goal.object, goal.person)}"
         case g.Pick():
             return "pick it up" if thing(goal.object) == "it" else f"pick up {thing(goal.object)}"
+        case g.Place(relation=g.Relation() as relation):
+            return f"put {thing(goal.object)} {_beside(relation)}"
         case g.Place(on=None, in_=None):
             return "put it down" if thing(goal.object) == "it" else f"put down {thing(goal.object)}"
         case g.Place(in_=None):
-            return f"put {thing(goal.object)} on {the(goal.on or '')}"
+            return f"put {thing(goal.object)} on {_part(goal.part)}{the(goal.on or '')}"
         case g.Place():
             return f"put {thing(goal.object)} into {the(goal.in_ or '')}"
         case g.Bring():
@@ -166,7 +178,7 @@ def _go(goal: g.GoTo) -> str:
         return f"walk to x {goal.pose.x_m:g} m, y {goal.pose.y_m:g} m"
     by = goal.by
     if by is None:
-        return f"go to {the(goal.place or '')}"
+        return f"go to {_part(goal.part)}{the(goal.place or '')}"
     parts: list[str] = []
     if by.turn_rad:
         parts.append(

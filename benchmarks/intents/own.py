@@ -9,7 +9,7 @@ import msgspec
 
 from intents.goals import from_builtins, to_builtins
 from intents.outcomes import Goals, Outcome
-from intents.vocabulary import Vocabulary
+from intents.vocabulary import Names, Vocabulary
 
 HERE = Path(__file__).resolve().parent
 DIGITS = 2
@@ -28,7 +28,7 @@ class Sentence(msgspec.Struct, frozen=True, kw_only=True):
 
 def vocabulary() -> Vocabulary:
     """The made-up home that the sentences speak of."""
-    return Vocabulary.from_json((HERE / "own.vocab.json").read_bytes())
+    return msgspec.json.decode((HERE / "own.vocab.json").read_bytes(), type=Names).vocabulary()
 
 
 def sentences(name: str = "own") -> list[Sentence]:

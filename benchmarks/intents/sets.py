@@ -8,9 +8,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from intents.outcomes import to_record
 from intents.parser import parse
-from intents.vocabulary import Vocabulary
+from intents.vocabulary import Names
 
 SCORER = "score.py"
 
@@ -43,7 +45,9 @@ def texts(folder: Path, name: str) -> list[str]:
 
 def score(folder: Path, name: str, work: Path) -> dict[str, Any]:
     """Parse a set and score it; the predictions stay in `work`."""
-    vocabulary = Vocabulary.from_json((folder / f"{name}.vocab.json").read_bytes())
+    vocabulary = msgspec.json.decode(
+        (folder / f"{name}.vocab.json").read_bytes(), type=Names
+    ).vocabulary()
     parse("warm up", vocabulary)
     predictions = work / f"{name}.predictions.jsonl"
     with predictions.open("w", encoding="utf-8") as out:

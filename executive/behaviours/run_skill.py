@@ -62,6 +62,7 @@ class RunSkill(Behaviour):
         self._wanted_limit_s = limit_s
         self._limit_s = limit_s or DEFAULT_LIMIT_S
         self._left: SkillParams | None = None
+        self._asked: SkillParams | None = None
         self._finished = False
         self._resumed = False
         self._skill: Skill | None = None
@@ -72,7 +73,7 @@ class RunSkill(Behaviour):
 
     def initialise(self) -> None:
         """Forget the last round."""
-        self._skill = self._left = None
+        self._skill = self._left = self._asked = None
         self._finished = self._resumed = False
         self._spent_s = 0.0
         self.progress = 0.0
@@ -112,7 +113,7 @@ class RunSkill(Behaviour):
     def _go_on(self) -> Status:
         now_s = self._stage.now_s
         if self._finished:
-            self._record("done")
+            self._finish()
             return Status.SUCCESS
         if self._skill is None and self._waits():
             return Status.RUNNING
@@ -121,6 +122,7 @@ class RunSkill(Behaviour):
             if isinstance(params, Failure):
                 return self._give_up(params)
             self._left = params
+            self._asked = self._asked or params
             self._skill = self._stage.make_skill(params, self._attempt)
             if self._wanted_limit_s is None and isinstance(self._skill, Lasting):
                 self._limit_s = self._skill.limit_s()
@@ -183,11 +185,17 @@ class RunSkill(Behaviour):
         if self._skill is not None:
             self._stage.release(self._skill)
         if report.status == "succeeded":
-            self._record("done")
+            self._finish()
             if not self._attempt:
                 self._stage.earn()
             return Status.SUCCESS
         return self._give_up(report.failure or failure("internal", "it failed without a reason"))
+
+    def _finish(self) -> None:
+        """The step is done: all that was asked for at first."""
+        self._record("done")
+        for scope in (self._stage.scope, self._stage.own):  # its job's, and the executive's
+            scope.did(self._asked)
 
     def _show(self, report: SkillReport) -> None:
         """Tell people (and, where it is news, the journal) what the skill does."""

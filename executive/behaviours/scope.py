@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from executive.skills.parameters import SkillParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from robot.failures import Failure
 
 
@@ -28,6 +31,7 @@ class Scope:
         spent: of the recoveries a job may have; a step done at the first try gives one back.
         worked_s: time in which the job had its turn.
         speed_m_s: the fastest it may walk.
+        put_down: where it put things, place by object, as far as they were not taken again.
         at_work: leaves whose skill acts.
     """
 
@@ -37,7 +41,18 @@ class Scope:
     spent: int = 0
     worked_s: float = 0.0
     speed_m_s: float = math.inf
+    put_down: dict[str, str] = field(default_factory=dict[str, str])
     at_work: list[Suspendable] = field(default_factory=list[Suspendable])
+
+    def did(self, params: SkillParams | None) -> None:
+        """Remember what a step that is done has changed in the world."""
+        match params:
+            case PlaceParams(object_id=object_id, place_id=str(place_id)):
+                self.put_down[object_id] = place_id
+            case PickParams(object_id=object_id):
+                self.put_down.pop(object_id, None)
+            case _:
+                pass
 
     def suspend(self) -> None:
         """Interrupt every leaf at work."""

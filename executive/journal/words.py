@@ -22,6 +22,7 @@ AS_IT_HAPPENS: Mapping[str, str] = {
     "request": "requested: {request}",
     "again": "{step}: tried again ({count})",
     "branch": "{name}: {took}",
+    "settled": "{step}: {means}",
     "held": "in the hands: {hands}",
     "warning": "warning: {text}",
     "slip": "the {side} hand is pulled at and grips harder",

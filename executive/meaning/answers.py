@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
@@ -13,6 +13,7 @@ from executive.skills.motions.support import stands_on
 from executive.skills.say import SayParams
 from intents import replies
 from intents.goals import ReportTopic
+from intents.numbers import Noun
 from robot.messages import Place, Track
 
 
@@ -27,14 +28,40 @@ def is_there(ids: frozenset[str], places: Iterable[Place]) -> Predicate:
     return lambda board: bool(_seen(board, ids, surfaces))
 
 
-def count(ids: frozenset[str], places: Iterable[Place], *, noun: str, where: str = "") -> Bound:
+def gone(knowledge: Knowledge) -> Callable[[Blackboard, Mapping[str, str]], list[str]]:
+    """Names the things that were put somewhere and do not stand there by what is believed.
+
+    What is not tracked may well stand where it was put.
+    """
+
+    def names(board: Blackboard, put_down: Mapping[str, str]) -> list[str]:
+        world = board.read(WORLD)
+        tracks = {track.id: track for track in world.tracks} if world is not None else {}
+        found: list[str] = []
+        for object_id, place_id in put_down.items():
+            info, place = knowledge.object(object_id), knowledge.place(place_id)
+            track = tracks.get(object_id)
+            if info is None or place is None or track is None or track.X_WO is None:
+                continue
+            if track.missing or track.held_by is not None or not stands_on(track.X_WO, place):
+                found.append(f"{info.full_name} on the {place.name}")
+        return found
+
+    return names
+
+
+def count(ids: frozenset[str], places: Iterable[Place], *, noun: Noun, where: str = "") -> Bound:
     """Says how many of the objects have been seen (on one of the places, if any)."""
     surfaces = tuple(places)
+    return say_count(lambda board: len(_seen(board, ids, surfaces)), noun=noun, where=where)
+
+
+def say_count(number_of: Callable[[Blackboard], int], *, noun: Noun, where: str = "") -> Bound:
+    """Says how many there are: "I see 2 boxes on the desk."."""
 
     def words(board: Blackboard) -> SayParams:
-        number = len(_seen(board, ids, surfaces))
-        plural = "" if number == 1 else "s"
-        return SayParams(text=f"I see {number} {noun}{plural}{where}.")
+        number = number_of(board)
+        return SayParams(text=f"I see {number} {noun.of(number)}{where}.")
 
     return words
 

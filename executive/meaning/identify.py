@@ -10,7 +10,18 @@ from msgspec.structs import replace
 
 from executive.meaning.knowledge import Knowledge
 from intents import goals
-from intents.grounding import Ambiguous, Entity, Unknown, describe, ground
+from intents.english.trouble import listing
+from intents.grounding import (
+    Ambiguous,
+    Entity,
+    Grounded,
+    Grounding,
+    Unknown,
+    by_where,
+    describe,
+    describe_entity,
+    ground,
+)
 from intents.relations import Viewpoint
 from robot.config import nearest
 from robot.failures import Failure, failure
@@ -26,6 +37,15 @@ class CannotMean(Exception):
         """Carry the failure."""
         self.failure = reason
         super().__init__(reason.cause)
+
+
+class Unsettled(CannotMean):
+    """Which things a description means has to be seen: where they are is part of it."""
+
+    def __init__(self, query: goals.ObjectQuery, reason: Failure) -> None:
+        """Carry the description; `reason` holds where nobody can go and look."""
+        super().__init__(reason)
+        self.query = query
 
 
 def cannot(code: str, cause: str, *, suggestion: str = "", **evidence: float | str) -> CannotMean:
@@ -55,8 +75,23 @@ class Scene:
         self.knowledge = knowledge
         self._entities = list(entities or knowledge.entities())
         self._view = view
+        self._settled: dict[goals.ObjectQuery, tuple[str, ...]] = {}
         self.held: list[str] = list(held)
         self.spoken_of: str | None = held[-1] if held else None
+
+    def knowing(self, query: goals.ObjectQuery, ids: tuple[str, ...]) -> Scene:
+        """The same scene, where it is settled which things a description means."""
+        scene = Scene(
+            self.knowledge, held=tuple(self.held), entities=tuple(self._entities), view=self._view
+        )
+        gone = replace(query, at=None)  # as it is spoken of once it was taken from there
+        scene._settled = {**self._settled, _bare(query): ids, _bare(gone): ids}
+        scene.spoken_of = ids[0]
+        return scene
+
+    def follow(self, other: Scene) -> None:
+        """Go on from what another one has come to."""
+        self.held, self.spoken_of = list(other.held), other.spoken_of
 
     # --- objects ---
 
@@ -64,6 +99,7 @@ class Scene:
         """The one object that is meant.
 
         Raises:
+            Unsettled: which one has to be seen.
             CannotMean: none fits, or several do.
         """
         found = self._referent(query) or self._all(query)[0]
@@ -74,6 +110,7 @@ class Scene:
         """Every object that is meant: of "all cups", of "two cups".
 
         Raises:
+            Unsettled: which ones has to be seen.
             CannotMean: none fits, or fewer than asked for.
         """
         found = self._all(replace(query, count=query.count or "all"))
@@ -85,7 +122,7 @@ class Scene:
     def fitting(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
         """Every object that a description may mean; there may be none."""
         try:
-            return self._all(replace(query, count="all"))
+            return self._all(replace(query, count="all", at=None, relation=None, superlative=None))
         except CannotMean:
             return []
 
@@ -125,12 +162,17 @@ class Scene:
         raise cannot("not_holding", "nothing is held, and nothing was spoken of before")
 
     def _all(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
-        """The objects that a description means, whatever place it says they are at."""
+        """The objects that a description means; where only one can be, wherever it is."""
         by_id = {info.id: info for info in self.knowledge.map.objects}
         if query.name in by_id:
             return [by_id[query.name]]
+        settled = self._settled.get(_bare(query))
+        if settled is not None:
+            return [by_id[object_id] for object_id in settled]
         entities = self._entities
         found = ground(replace(query, at=None, held=False), entities, view=self._view)
+        if by_where(query):
+            found = self._by_where(query, found)
         if isinstance(found, Unknown):
             said, names = describe(query), sorted({e.name for e in entities})
             hint = f"there is {', '.join(found.nearest)}" if found.nearest else nearest(said, names)
@@ -139,6 +181,27 @@ class Scene:
             text = f"{describe(query)!r} fits {len(found.candidates)} things"
             raise cannot("ambiguous", text, suggestion=found.question)
         return [by_id[object_id] for object_id in found.ids]
+
+    def _by_where(self, query: goals.ObjectQuery, found: Grounding) -> Grounding:
+        """Which of those that look as described stand where the description says.
+
+        Raises:
+            Unsettled: it is not known of all of them where they are.
+        """
+        looks = replace(query, at=None, relation=None, superlative=None, count="all", held=False)
+        alike = ground(looks, self._entities)
+        if not isinstance(alike, Grounded):
+            return found
+        if len(alike.ids) == 1 and query.count in (None, 1):
+            return alike
+        known = {entity.id: entity for entity in self._entities}
+        fitting = [known[object_id] for object_id in alike.ids]
+        if all(entity.p_WO or entity.held for entity in fitting):
+            there = ground(replace(query, held=False), self._entities, view=self._view)
+            return found if isinstance(there, Unknown) and query.at else there
+        text = f"{describe(query)!r} fits {len(fitting)} things as long as nobody looks"
+        question = f"Which one, {listing([f'the {describe_entity(e)}' for e in fitting])}?"
+        raise Unsettled(query, failure("ambiguous", text, suggestion=question))
 
     # --- places and people ---
 
@@ -169,3 +232,8 @@ class Scene:
         names = ", ".join(known.name for known in self.knowledge.map.people)
         hint = f"people in this world: {names}" if names else "nobody is in this world"
         raise cannot("unknown_place", f"the robot does not know where {who} is", suggestion=hint)
+
+
+def _bare(query: goals.ObjectQuery) -> goals.ObjectQuery:
+    """What a description says of a thing, without how many are meant."""
+    return replace(query, count=None, held=False)

@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from executive.skills.motions.support import stands_on
 from intents.grounding import Entity
+from intents.numbers import Noun, plural
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 from robot.messages import ObjectInfo, PersonInfo, Place, WorldMap
 from robot.se3 import SE3, Vector3
@@ -93,6 +94,10 @@ class Knowledge:
         """The name of the room that a point is in, empty if in none."""
         inside = (room.name for room in self.map.places if _is_room(room) and _over(p_W, room))
         return next(inside, "")
+
+    def noun(self, name: str) -> Noun:
+        """What is counted, with the plural that the world gives for it, or else English forms."""
+        return Noun(name, self.map.categories.get(name) or plural(name))
 
     def person(self, name: str | None) -> PersonInfo | None:
         """A person by name; None stands for the operator: who is called so, or the only one."""

@@ -16,8 +16,9 @@ import msgspec
 from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
-from executive.meaning.identify import Scene, cannot
-from executive.trees.parts import Branch, Errand, Part, Series, errands
+from executive.meaning.handlers.settling import settle
+from executive.meaning.identify import Scene, Unsettled, cannot
+from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
 from robot.messages import ObjectInfo
 
@@ -30,20 +31,47 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = tuple(part_of(goal, scene) for goal in asked)
+    parts = sequence(tuple(asked), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
-    task = Series(name="task", parts=parts)
+    puts = any(errand.carries for errand in errands(Series(name="task", parts=parts)))
+    kept = (Kept(name="everything stands as put", gone=answers.gone(scene.knowledge)),)
+    task = Series(name="task", parts=parts + (kept if puts else ()))
     count = sum(1 for _ in errands(task))
     if count > MAX_STEPS:
         raise cannot("invalid_goal", f"that would be {count} steps, at most {MAX_STEPS}")
     return task
 
 
+def sequence(asked: tuple[goals.Goal, ...], scene: Scene) -> tuple[Part, ...]:
+    """What it takes to do goals in their order.
+
+    From the first one on of which it has to be seen what it means, they are one part: what is
+    settled then holds for all that follow.
+
+    Raises:
+        CannotMean: if one of them has no meaning here, or no skill does it.
+    """
+    parts: list[Part] = []
+    for number, goal in enumerate(asked):
+        held, spoken_of = list(scene.held), scene.spoken_of
+        try:
+            parts.append(part_of(goal, scene))
+        except Unsettled as end:
+            scene.held, scene.spoken_of = held, spoken_of
+            return (*parts, _settled(end.query, asked[number:], scene))
+    return tuple(parts)
+
+
+def _settled(query: goals.ObjectQuery, rest: tuple[goals.Goal, ...], scene: Scene) -> Part:
+    return settle(query, scene, lambda inner: sequence(rest, inner))
+
+
 def part_of(goal: goals.Goal, scene: Scene) -> Part:
     """What it takes to do one goal.
 
     Raises:
+        Unsettled: if it has to be seen which things it is about.
         CannotMean: if it has no meaning here, or no skill does it.
     """
     handler = HANDLERS.get(type(goal))
@@ -63,20 +91,22 @@ def _repeat(goal: goals.Repeat, scene: Scene) -> Part:
     if not 1 <= goal.times <= MAX_TIMES:
         raise cannot("invalid_goal", f"repeat {goal.times} times: 1 to {MAX_TIMES} are possible")
     parts = tuple(
-        Series(name=f"round {n + 1}", parts=tuple(part_of(child, scene) for child in goal.goals))
-        for n in range(goal.times)
+        Series(name=f"round {n + 1}", parts=sequence(goal.goals, scene)) for n in range(goal.times)
     )
     return Series(name=f"{goal.times} times", parts=parts)
 
 
 def _for_each(goal: goals.ForEach, scene: Scene) -> Part:
-    found = scene.objects(goal.object)
-    rounds: list[Part] = []
-    for info in found:
+    def one(info: ObjectInfo) -> Part:
         scene.spoken_of = info.id
-        parts = tuple(part_of(_with_id(child, info), scene) for child in goal.goals)
-        rounds.append(Series(name=f"with {info.full_name}", parts=parts))
-    return Series(name="for each", parts=tuple(rounds))
+        in_turn = tuple(_with_id(child, info) for child in goal.goals)
+        return Series(name=f"with {info.full_name}", parts=sequence(in_turn, scene))
+
+    match goal.goals:
+        case (goals.Place(on=str(to)) | goals.Place(in_=str(to)) | goals.Bring(to=str(to)),):
+            return handling.put_several(goal.object, to, scene, one)
+        case _:
+            return steps.several(scene.objects(goal.object), "for each", one)
 
 
 def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:
@@ -91,12 +121,12 @@ def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:
 def _if(goal: goals.If, scene: Scene) -> Part:
     held, cases = list(scene.held), _cases(goal, scene)
     look = in_turn(look_of(goal.condition, scene))
-    branch: Part = Series(name="else", parts=tuple(part_of(child, scene) for child in goal.else_))
+    branch: Part = Series(name="else", parts=sequence(goal.else_, scene))
     common = list(scene.held)
     for n, case in reversed(list(enumerate(cases))):
         scene.held = list(held)
         question = question_of(case.condition, scene)
-        then = Series(name="then", parts=tuple(part_of(child, scene) for child in case.then))
+        then = Series(name="then", parts=sequence(case.then, scene))
         common = [object_id for object_id in common if object_id in scene.held]
         branch = Branch(
             name="if", question=question, then=then, otherwise=branch, look=None if n else look

@@ -18,7 +18,7 @@ from intents.grounding import Entity
 from intents.relations import Point, Viewpoint
 from intents.state import RobotState
 
-RELATIVE = frozenset({"superlative", "relation"})
+RELATIVE = frozenset({"superlative", "relation", "at"})
 """What in a description means things by where they are, or may."""
 
 

@@ -113,13 +113,13 @@ class _Forecaster:
             case p.Series():
                 return self._series(part, path, depth)
             case p.Branch():
-                self._row(path, depth, part.name, "branch")
-                spans = [self.part(c, w, depth + 1) for w, c in p.children(part, path)]
+                spans = self._rows_inside(part, path, depth)
                 look_s = spans.pop(0) if part.look is not None else 0.0
                 return look_s + max(spans)
             case p.Parallel():
-                self._row(path, depth, part.name, "parallel")
-                return max(self.part(c, w, depth + 1) for w, c in p.children(part, path))
+                return max(self._rows_inside(part, path, depth), default=0.0)
+            case p.Settle() | p.Each():
+                return sum(self._rows_inside(part, path, depth))
             case p.Loop():
                 return self._loop(part, path, depth)
             case p.Retry() | p.Timeout():
@@ -129,9 +129,16 @@ class _Forecaster:
             case p.Always():
                 span_s = self.part(part.part, path, depth)
                 return span_s + self.part(part.after, p.below(path, "always"), depth)
+            case p.Kept():
+                return 0.0
             case p.GiveUp() | p.Expect():
                 self._row(path, depth, part.name, "step", takes_s=0.0)
                 return 0.0
+
+    def _rows_inside(self, part: p.Part, path: str, depth: int) -> list[float]:
+        """Add a part's own row and those of what it holds; returns how long each takes [s]."""
+        self._row(path, depth, part.name, type(part).__name__.lower())
+        return [self.part(child, at, depth + 1) for at, child in p.children(part, path)]
 
     def _row(
         self,

@@ -145,7 +145,9 @@ class Slots:
         key = self._one_of(value, where, "on", "in_")
         thing = self._object(value.object, where, "object")
         place = self._place(getattr(value, key), where, key.rstrip("_"))
-        return goals.Place(object=thing, **{key: place})
+        if key == "on":
+            return goals.Place(object=thing, on=place)
+        return goals.Place(object=thing, in_=place)
 
     def _bring(self, value: s.BringSlots, where: Node) -> goals.Goal:
         thing = self._object(value.object, where, "object", value.at)

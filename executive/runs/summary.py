@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import msgspec
 
 from executive.engine import loop
@@ -10,7 +12,7 @@ from executive.journal.journal import FILE
 from executive.meaning.knowledge import Knowledge
 from executive.runs.session import Session
 from executive.skills.place import PlaceParams
-from executive.trees.parts import Part, errands
+from executive.trees.parts import Errand, Part, Settle, children
 from robot.exit_status import exit_status
 from robot.failures import Failure
 from robot.messages import LoopTiming, WorldState
@@ -84,7 +86,11 @@ def summary(session: Session, task: Part, *, since_s: float, wall_s: float) -> S
         recoveries=outcome.recoveries,
         clamped=body.clamped if body else 0,
         refused=body.refused if body else 0,
-        placed=_placed(task, session.setup.where.knowledge, runtime.link.world()),
+        placed=_placed(
+            [*_to_be_put(task), *session.executive.stage.own.put_down],
+            session.setup.where.knowledge,
+            runtime.link.world(),
+        ),
         late=late_periods(runtime),
         folder=str(folder) if folder and (folder / FILE).exists() else "",
     )
@@ -109,15 +115,26 @@ def _timing_words(timing: LoopTiming) -> str:
     return f"{late}, by p50 {spans_ms[0]:.2f}, p99 {spans_ms[1]:.2f}, p99.9 {spans_ms[2]:.2f} ms"
 
 
-def _placed(task: Part, knowledge: Knowledge, world: WorldState | None) -> tuple[Placed, ...]:
-    """Where the things that were to be put somewhere are believed to be."""
+def _to_be_put(part: Part) -> list[str]:
+    """Ids of what was to be put somewhere, as far as that was settled before."""
+    match part:
+        case Errand(params=PlaceParams(object_id=object_id)):
+            return [object_id]
+        case Settle():
+            return []
+        case _:
+            return [one for _, child in children(part) for one in _to_be_put(child)]
+
+
+def _placed(
+    ids: Iterable[str], knowledge: Knowledge, world: WorldState | None
+) -> tuple[Placed, ...]:
+    """Where the things that were put somewhere, or were to be, are believed to be."""
     found: list[Placed] = []
     tracks = {track.id: track for track in world.tracks} if world else {}
-    for errand in errands(task):
-        if not isinstance(errand.params, PlaceParams) or errand.params.object_id not in tracks:
-            continue
-        info = knowledge.object(errand.params.object_id)
-        X_WO = tracks[errand.params.object_id].X_WO
+    for object_id in ids:
+        info = knowledge.object(object_id)
+        X_WO = tracks[object_id].X_WO if object_id in tracks else None
         if info is None or X_WO is None:
             continue
         x, y, z = X_WO.p

@@ -51,15 +51,21 @@ PLACE_S = 14.0
 
 
 class PlaceParams(SkillParams, frozen=True, kw_only=True):
-    """Put what is held on a place of the map, or at an exact pose X_WO of its own."""
+    """Put what is held on a place of the map, or at an exact pose X_WO of its own.
+
+    Of the place only the `spots` will do, x and y in W [m]; none: all of it.
+    """
 
     object_id: str
     place_id: str | None = None
     X_WO: SE3 | None = None
+    spots: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         """Check that there is one target."""
         exactly_one(self, "place_id", "X_WO")
+        for spot in self.spots:
+            finite(*spot)
         if self.X_WO is not None:
             finite(*self.X_WO.p)
 
@@ -192,6 +198,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             around=surroundings(self.body),
             start=stance_of(self.body.X_WS),
             target=self.parameters.X_WO,
+            spots=self.parameters.spots,
             walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
             seed=self.body.context.seed + attempt,
         )

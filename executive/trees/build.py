@@ -14,6 +14,7 @@ from py_trees.decorators import FailureIsSuccess, OneShot
 
 from executive.behaviours.stage import Stage
 from executive.trees import parts as p
+from executive.trees.each import each
 from executive.trees.flow import (
     Again,
     AsItEnded,
@@ -27,15 +28,19 @@ from executive.trees.flow import (
 )
 from executive.trees.idioms import either, in_order, once
 from executive.trees.recovery import resilient
+from executive.trees.settling import Settling
+from executive.trees.standing import StandsAsPut
 from robot.failures import failure
 
 ANY = "any"
 """In `OnFail`: any code that has no handler of its own."""
 
 Done = frozenset[str]
+_IS = "?is="
+"""In `Done`: between the path of a settling and what it found out."""
 
 
-def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset()) -> Behaviour:
+def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset()) -> Behaviour:  # noqa: PLR0912 - one line a kind
     """The tree of a part.
 
     Args:
@@ -43,8 +48,9 @@ def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset(
         stage: shared by all leaves.
         path: of the part in its task.
         done: what was done before and becomes a finished leaf: steps by their path, whole parts by
-            their path with a `/`; how a branch was taken, as in `2?then`, and which attempts were
-            begun, as in `2*2?again`. Made by `finished` from a journal and by `before` from a path.
+            their path with a `/`; how a branch was taken, as in `2?then`, what a description was
+            settled to mean, as in `2?is=red_cup,blue_cup`, and which attempts were begun, as in
+            `2*2?again`. Made by `finished` from a journal and by `before` from a path.
     """
     if f"{path}/" in done or (path in done and isinstance(part, p.Leaf)):
         return Finished(part.name)
@@ -55,6 +61,10 @@ def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset(
             return in_order(part.name, _inside(part, stage, path, done))
         case p.Branch():
             return _branch(part, stage, path, done)
+        case p.Settle():
+            return _settle(part, stage, path, done)
+        case p.Each():
+            return each(part, _inside(part, stage, path, done), stage=stage, path=path)
         case p.Parallel():
             return _side_by_side(part, stage, path, done)
         case p.Loop():
@@ -71,6 +81,8 @@ def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset(
             return Fails(part.name, failure(part.code, part.cause), stage=stage, path=path)
         case p.Expect():
             return Compare(part.name, part.findings, stage=stage, path=path)
+        case p.Kept():
+            return StandsAsPut(part, stage=stage, path=path)
 
 
 def _inside(part: p.Part, stage: Stage, path: str, done: Done) -> list[Behaviour]:
@@ -95,6 +107,22 @@ def _remembered(part: p.Branch, stage: Stage, path: str, done: Done) -> p.Predic
         return yes
 
     return ask
+
+
+def _settle(part: p.Settle, stage: Stage, path: str, done: Done) -> Behaviour:
+    looks = [
+        once(build(look, stage, path=p.below(path, n + 1), done=done))
+        for n, look in enumerate(part.looks)
+    ]
+
+    def then(ids: tuple[str, ...]) -> Behaviour:
+        return once(build(part.then(ids), stage, path=p.below(path, "then"), done=done))
+
+    known = meanings(done).get(path)
+    if known is not None:  # as it was settled in an earlier run
+        return then(known)
+    first = Settling(part, looks, then=then, stage=stage, path=path)
+    return InOrder(part.name, memory=True, children=[first])
 
 
 def _side_by_side(part: p.Parallel, stage: Stage, path: str, done: Done) -> Behaviour:
@@ -177,7 +205,8 @@ def finished(events: Iterable[Mapping[str, object]]) -> Done:
     """What a journal's events say is done, in the form that `build` takes.
 
     Args:
-        events: lines of a journal as mappings; "done", "branch" and "again" are looked at.
+        events: lines of a journal as mappings; "done", "branch", "settled" and "again" are looked
+            at.
     """
     found: set[str] = set()
     for event in events:
@@ -190,7 +219,15 @@ def finished(events: Iterable[Mapping[str, object]]) -> Done:
             found.add(f"{path}?{event.get('took')}")
         elif event.get("event") == "again" and path:
             found.add(f"{path}?again")
+        elif event.get("event") == "settled" and path:
+            found.add(f"{path}{_IS}{event.get('means')}")
     return frozenset(found)
+
+
+def meanings(done: Done) -> dict[str, tuple[str, ...]]:
+    """What descriptions were settled to mean: ids by the path of the settling."""
+    found = (entry.split(_IS, 1) for entry in done if _IS in entry)
+    return {path: tuple(ids.split(",")) for path, ids in found}
 
 
 def before(part: p.Part, path: str) -> Done | None:

@@ -7,13 +7,14 @@ by a run that is taken up again::
     2.then.1    the first step of a branch     2#3.1      the first step of the third round
     2.look.1    the first look that it takes to decide a branch
     2.no_path.1 what is done on that failure   2.always.1 what is done after 2 in any case
+    2.1         the first look of a settling   2.then.1   the first step once it is settled
     2*2.1       the same in a second attempt   2+1        2 again, after its first recovery
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 import msgspec
@@ -22,6 +23,7 @@ from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
 from executive.blackboard import Blackboard
 from executive.skills.parameters import SkillParams
+from robot.failures import Failure
 
 Words = Callable[[Blackboard], str]
 """What is so, in words."""
@@ -58,6 +60,40 @@ class Branch(msgspec.Struct, frozen=True, kw_only=True):
     then: Part
     otherwise: Part
     look: Part | None = None
+
+
+class Settle(msgspec.Struct, frozen=True, kw_only=True):
+    """A part that depends on which things a description means, which is found out by looking.
+
+    The question is asked of what the world model believes: before the first look and after each,
+    or, where only all looks together can tell (`thorough`), after the last. It answers with the ids
+    of the things, or with why it is still open; what is still open after the last look fails so.
+
+    Attributes:
+        looks: where to go and look.
+        question: which things are meant.
+        then: what is done with those things.
+        likely: what that will probably be: it is checked and shown before anything moves.
+    """
+
+    name: str
+    looks: tuple[Part, ...]
+    question: Callable[[Blackboard], tuple[str, ...] | Failure]
+    then: Callable[[tuple[str, ...]], Part]
+    likely: Part
+    thorough: bool = False
+
+
+class Each(msgspec.Struct, frozen=True, kw_only=True):
+    """The same with several things: a part for each, done whatever became of those before it.
+
+    At the end the robot says which were done and which not. It fails as the first one did.
+    `things` names what each part is about.
+    """
+
+    name: str
+    parts: tuple[Part, ...]
+    things: tuple[str, ...]
 
 
 class Parallel(msgspec.Struct, frozen=True, kw_only=True):
@@ -143,12 +179,24 @@ class Expect(msgspec.Struct, frozen=True, kw_only=True):
     findings: tuple[Finding, ...]
 
 
+class Kept(msgspec.Struct, frozen=True, kw_only=True):
+    """What was put down in the task stands there by the end, as far as is believed, or it fails.
+
+    `gone` is given where each thing was put (place ids by object id) and names those that do not
+    stand there.
+    """
+
+    name: str
+    gone: Callable[[Blackboard, Mapping[str, str]], Sequence[str]]
+
+
 Part: TypeAlias = (
-    Errand | Series | Branch | Parallel | Loop | Retry | Timeout | OnFail | Always | GiveUp | Expect
-)
+    Errand | Series | Branch | Settle | Each | Parallel | Loop | Retry | Timeout | OnFail | Always
+    | GiveUp | Expect | Kept
+)  # fmt: skip
 """Any part."""
 
-Leaf: TypeAlias = Errand | GiveUp | Expect
+Leaf: TypeAlias = Errand | GiveUp | Expect | Kept
 Wrapper: TypeAlias = Retry | Timeout | OnFail | Always
 
 
@@ -175,13 +223,16 @@ def of_any_attempt(path: str) -> str:
 def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
     """The parts inside a part with their paths; of a loop the first round of each body."""
     match part:
-        case Series(parts=parts) | Parallel(parts=parts):
+        case Series(parts=parts) | Parallel(parts=parts) | Each(parts=parts):
             yield from ((below(path, n + 1), child) for n, child in enumerate(parts))
         case Branch():
             if part.look is not None:
                 yield below(path, "look"), part.look
             yield below(path, "then"), part.then
             yield below(path, "else"), part.otherwise
+        case Settle():
+            yield from ((below(path, n + 1), look) for n, look in enumerate(part.looks))
+            yield below(path, "then"), part.likely
         case Loop():
             yield from ((of_round(path, n + 1), body) for n, body in enumerate(part.bodies))
         case Retry() | Timeout():
@@ -193,15 +244,23 @@ def children(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
         case Always():
             yield path, part.part
             yield below(path, "always"), part.after
-        case Errand() | GiveUp() | Expect():
+        case Errand() | GiveUp() | Expect() | Kept():
             return
 
 
-def walk(part: Part, path: str = "") -> Iterator[tuple[str, Part]]:
-    """A part and all parts inside it with their paths, in reading order."""
+def walk(
+    part: Part, path: str = "", *, means: Mapping[str, tuple[str, ...]] | None = None
+) -> Iterator[tuple[str, Part]]:
+    """A part and all parts inside it with their paths, in reading order.
+
+    What was settled already (`means`: the ids by the path) is what is done, others what is likely.
+    """
+    known = means or {}
     stack = [(path, part)]
     while stack:
         where, node = stack.pop()
+        if isinstance(node, Settle) and where in known:
+            node = msgspec.structs.replace(node, likely=node.then(known[where]))
         yield where, node
         stack += reversed(list(children(node, where)))
 

@@ -69,7 +69,9 @@ RULES = Rules(
         time_clauses.until_told,
         time_clauses.arrived,
         time_clauses.in_a_while,
+        # "Patrol between a and b" goes to and fro, and asks how often.
         movements.to_and_fro,
+        movements.patrol,
         verb.tidied_by,
         questions.whether,
         without_verb.fist,

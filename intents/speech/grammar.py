@@ -8,13 +8,13 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable
 
+from intents.numbers import plural
 from intents.speech import jsgf
 from intents.speech.automaton import Automaton
 from intents.vocabulary import Thing, Vocabulary
 
 SPOKEN, REPLY, CRY = "spoken", "reply", "short_cry"
 """Rules to begin with: a command; what may be said while a question is open; a cry to stop."""
-_IRREGULAR = {"knife": "knives", "shelf": "shelves", "loaf": "loaves", "leaf": "leaves"}
 
 
 def grammar(vocabulary: Vocabulary, root: str = SPOKEN, *, wake_word: str = "") -> Automaton:
@@ -69,24 +69,6 @@ def _spoken(names: Iterable[str]) -> list[str]:
     bare = ("".join(c for c in name if not unicodedata.combining(c)) for name in lower)
     plain = (" ".join(re.findall(r"[a-z']+|\d", name)) for name in bare)
     return sorted({name for name in plain if name})
-
-
-def plural(name: str) -> str:
-    """Several of what has a name.
-
-    >>> plural("red cup"), plural("box"), plural("toy lorry"), plural("glass")
-    ('red cups', 'boxes', 'toy lorries', 'glasses')
-    """
-    *before, noun = name.split(" ")
-    if noun in _IRREGULAR:
-        noun = _IRREGULAR[noun]
-    elif noun.endswith(("s", "x", "z", "ch", "sh")):
-        noun += "es"
-    elif noun.endswith("y") and noun[-2:-1] not in tuple("aeiou"):
-        noun = f"{noun[:-1]}ies"
-    else:
-        noun += "s"
-    return " ".join([*before, noun])
 
 
 def _article(name: str) -> str:

@@ -101,7 +101,7 @@ class Floor:
     def ways_m(self, x_m: float, y_m: float, *, radius_m: float) -> Ways:
         """How far it is to walk from a point to everywhere that keeps `radius_m` clear."""
         step = slice(None, None, WAY_CELLS)
-        free = self._field[step, step] >= radius_m
+        free = self.field[step, step] >= radius_m
         height, width = free.shape
         cell_m = WAY_CELLS * CELL_M
         rows, columns = np.nonzero(free)

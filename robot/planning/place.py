@@ -50,15 +50,19 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         spots, cost = np.array([request.target.p]), np.zeros(1)
     else:
         half_m = body.description.handy.gripping.half_width_m
-        spots, cost = _free_spots(place, shape, objects, hand_half_m=half_m, seed=request.seed)
+        spots = _on_surface(place, shape, request.spots)
+        spots, cost = _free_spots(
+            place, shape, objects, spots=spots, hand_half_m=half_m, seed=request.seed
+        )
         labels = floor.regions(body.description.body_radius_m)
         walkable = (labels > 0) & (labels == floor.home(labels, *request.start[:2]))
         far = floor.distance_to_m(walkable, spots[:, :2])
         spots, cost = _spread(spots, cost + SHARE_PER_M * (far - np.min(far, initial=np.inf)))
         if not len(spots):
+            there = ", there where it is wanted," if request.spots else ""
             return failure(
                 "no_free_spot",
-                f"the {place.name} has no free spot {200 * _radius(shape):.0f} cm wide",
+                f"the {place.name} has no free spot{there} {200 * _radius(shape):.0f} cm wide",
                 width_m=2 * _radius(shape),
                 objects=float(len(objects)),
             )
@@ -117,24 +121,36 @@ def _radius(shape: Shape) -> float:
     return 0.5 * x if shape.kind == "cylinder" else 0.5 * math.hypot(x, y)
 
 
+def _on_surface(place: Place, shape: Shape, wanted: tuple[tuple[float, float], ...]) -> Array:
+    """Points of the surface far enough from its edges, shape (m, 2) in P: those wanted, or all."""
+    radius = _radius(shape)
+    half = [max(0.0, 0.5 * size - radius - EDGE_M) for size in place.size_m]
+    if min(place.size_m) < 2 * radius:
+        return np.zeros((0, 2))
+    if wanted:
+        X_PW = place.X_WP.inverse()
+        local = np.array([X_PW.apply((x, y, place.X_WP.p[2]))[:2] for x, y in wanted])
+        return local[np.all(np.abs(local) <= half, axis=1)]
+    axes = [np.linspace(-h, h, max(1, int(2 * h / SPOT_STEP_M) + 1)) if h else [0.0] for h in half]
+    x, y = (values.ravel() for values in np.meshgrid(*axes, indexing="ij"))
+    return np.stack([x, y], axis=1)
+
+
 def _free_spots(
     place: Place,
     shape: Shape,
     objects: tuple[ObjectPose, ...],
     *,
+    spots: Array,
     hand_half_m: float,
     seed: int,
 ) -> tuple[Array, Array]:
-    """Spots for the object's origin, shape (m, 3), and their costs (m,).
+    """Of points (n, 2) in P the free ones as spots for the object's origin, and their costs.
 
-    Spots away from other things and near the middle of the place are liked.
+    Spots away from other things and near the middle of the place are liked. Shapes (m, 3), (m,).
     """
     radius = _radius(shape)
-    half = [max(0.0, 0.5 * size - radius - EDGE_M) for size in place.size_m]
-    if min(place.size_m) < 2 * radius:
-        return np.zeros((0, 3)), np.zeros(0)
-    axes = [np.linspace(-h, h, max(1, int(2 * h / SPOT_STEP_M) + 1)) if h else [0.0] for h in half]
-    x, y = (values.ravel() for values in np.meshgrid(*axes, indexing="ij"))
+    x, y = spots[:, 0], spots[:, 1]
     z = 0.5 * shape.size_m[2] - shape.X_BodyShape.p[2]
     local = np.stack([x, y, np.full_like(x, z)], axis=1)
     spots = local @ place.X_WP.rotation().T + np.array(place.X_WP.p)

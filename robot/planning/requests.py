@@ -211,7 +211,8 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """How to put down what `side` holds on `place`.
 
-    `target` is the wanted X_WO; None: the planner chooses a free spot.
+    `target` is the wanted X_WO; None: the planner chooses a free spot, of the `spots` (x, y in W)
+    if there are any.
     """
 
     place: Place
@@ -220,6 +221,7 @@ class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     around: Surroundings
     start: Stance
     target: SE3 | None = None
+    spots: tuple[tuple[float, float], ...] = ()
     walk_cost_per_m: float = WALK_COST_PER_M
     seed: int = 0
 

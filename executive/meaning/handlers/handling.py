@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from executive.meaning.handlers.steps import about, search, surfaces
+from collections.abc import Callable
+
+from executive.behaviours.run_skill import Bound
+from executive.meaning import answers
+from executive.meaning.handlers.putting import beside, part_of_place
+from executive.meaning.handlers.settling import places_at
+from executive.meaning.handlers.steps import about, many, search, several, surfaces
 from executive.meaning.identify import Scene, cannot
 from executive.skills.give import GiveParams
+from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from executive.trees.parts import Part, Series
+from executive.skills.say import SayParams
+from executive.trees.parts import Branch, Errand, Part, Series
 from intents import goals
+from intents.grounding import HOW_WORDS
 from robot.messages import ObjectInfo, Place
 
 COMFORTABLE_HEIGHT_M = 0.8
@@ -18,11 +27,11 @@ COVERED_M = 1.0
 
 def pick(goal: goals.Pick, scene: Scene) -> Part:
     """Take one thing, or several one after the other."""
-    if goal.object.count not in (None, 1):
-        found = scene.objects(goal.object)
-        parts = tuple(_pick_one(info, goal.object, scene) for info in found)
-        return Series(name="pick up several things", parts=parts)
-    return _pick_one(scene.object(goal.object), goal.object, scene)
+    query = goal.object
+    if many(query):
+        found = scene.objects(query)
+        return several(found, "pick up several things", lambda info: _pick_one(info, query, scene))
+    return _pick_one(scene.object(query), query, scene)
 
 
 def _pick_one(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
@@ -35,23 +44,70 @@ def _pick_one(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
 
 
 def place(goal: goals.Place, scene: Scene) -> Part:
-    """Put one thing somewhere, after fetching it."""
-    info = scene.object(goal.object)
-    if goal.in_ is not None:
-        return _put(info, goal.object, goal.in_, scene, inside=True)
-    if goal.on is None:
-        raise cannot("invalid_goal", f"put {info.full_name} where?", suggestion="name a place")
-    return _put(info, goal.object, goal.on, scene)
+    """Put things somewhere, after fetching them."""
+    query = goal.object
+    target = goal.in_ or goal.on
+    inside = goal.in_ is not None
+
+    def one(info: ObjectInfo) -> Part:
+        if goal.relation is not None:
+            return _put_beside(info, query, goal.relation, scene)
+        if target is None:
+            raise cannot("invalid_goal", f"put {info.full_name} where?", suggestion="name a place")
+        return _put(info, query, target, scene, inside=inside, part=goal.part)
+
+    if not many(query):
+        return one(scene.object(query))
+    if target is None or goal.part is not None:
+        return several(scene.objects(query), "put several things", one)
+    return put_several(query, target, scene, one)
+
+
+def put_several(
+    query: goals.ObjectQuery, target: str, scene: Scene, one: Callable[[ObjectInfo], Part]
+) -> Part:
+    """Put several things on a place; what is there already stays as it is.
+
+    Raises:
+        Unsettled: which things are meant has to be seen.
+        CannotMean: there are no such things, or there is no such place.
+    """
+    found = scene.objects(query)
+    there = places_at(target, scene)
+
+    def unless_there(info: ObjectInfo) -> Part:
+        in_hand, work = info.id in scene.held, one(info)
+        if in_hand or not there:
+            return work
+        is_there = answers.is_there(frozenset({info.id}), there)
+        stays = Series(name=f"{info.full_name} is there", parts=())
+        asked = f"is {info.full_name} there already"
+        seen = Branch(name=asked, question=is_there, then=stays, otherwise=work)
+        fetch = Series(name=work.name, parts=(search(info, query, scene), seen))
+        return Branch(name=asked, question=is_there, then=stays, otherwise=fetch)
+
+    return several(found, f"bring several things to the {target}", unless_there)
 
 
 def give(goal: goals.Give, scene: Scene) -> Part:
-    """Hand something to a person, after fetching it."""
+    """Hand things to a person, after fetching them."""
     return _hand_over(goal.object, goal.to, scene)
 
 
 def _hand_over(query: goals.ObjectQuery, to: goals.Person, scene: Scene) -> Part:
+    """Give things to a person one after the other."""
+    if many(query):
+        found = scene.objects(query)
+        name = f"bring several things to {scene.person(to).name}"
+        return several(found, name, lambda info: _hand_one_over(info, query, to, scene))
+    return _hand_one_over(scene.object(query), query, to, scene)
+
+
+def _hand_one_over(
+    info: ObjectInfo, query: goals.ObjectQuery, to: goals.Person, scene: Scene
+) -> Part:
     """Give an object to a person, after fetching it unless it is in the hand by then."""
-    info, person = scene.object(query), scene.person(to)
+    person = scene.person(to)
     name, in_hand = info.full_name, info.id in scene.held
     fetch = None if in_hand else _pick_one(info, query, scene)
     scene.put_down(info.id)
@@ -66,11 +122,7 @@ def bring(goal: goals.Bring, scene: Scene) -> Part:
     """Bring things to a person or to a place."""
     if isinstance(goal.to, goals.Person):
         return _hand_over(goal.object, goal.to, scene)
-    if goal.object.count not in (None, 1):
-        found = scene.objects(goal.object)
-        parts = [_put(info, goal.object, goal.to, scene) for info in found]
-        return Series(name=f"bring several things to the {goal.to}", parts=tuple(parts))
-    return _put(scene.object(goal.object), goal.object, goal.to, scene)
+    return place(goals.Place(object=goal.object, on=goal.to), scene)
 
 
 def _put(
@@ -80,20 +132,65 @@ def _put(
     scene: Scene,
     *,
     inside: bool = False,
+    part: goals.Part | None = None,
 ) -> Part:
     """Put an object on (or in) a place, after fetching it unless it is in the hand by then."""
     if inside:
         _check_inside(target, scene)
+    if not places_at(target, scene, near=False):
+        return _carry_to(info, query, target, scene)
     place = _best_surface(info, target, scene)
     name = info.full_name
-    params = PlaceParams(object_id=info.id, place_id=place.id)
+    params: PlaceParams | Bound = PlaceParams(object_id=info.id, place_id=place.id)
+    if part is not None:
+        params = part_of_place(info, place, part)
     put = about(info, f"put {name} on the {place.name}", params, carries=True)
-    if info.id in scene.held:
+    return _fetched(info, query, scene, (put,), name=f"bring {name} to the {target}")
+
+
+def _fetched(
+    info: ObjectInfo,
+    query: goals.ObjectQuery,
+    scene: Scene,
+    then: tuple[Part, ...],
+    *,
+    name: str,
+    keeps: bool = False,
+) -> Part:
+    """Fetch an object unless it is in the hand by then, and do something with it."""
+    fetch = () if info.id in scene.held else (_pick_one(info, query, scene),)
+    if not keeps:
         scene.put_down(info.id)
-        return put
-    fetch = _pick_one(info, query, scene)
-    scene.put_down(info.id)
-    return Series(name=f"bring {name} to the {target}", parts=(fetch, put))
+    parts = (*fetch, *then)
+    return parts[0] if len(parts) == 1 else Series(name=name, parts=parts)
+
+
+def _carry_to(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Scene) -> Part:
+    """Be at a spot of the floor with a thing in the hand: there is nothing to put it on."""
+    name, spot = info.full_name, scene.places(target)[0]
+    go = about(
+        info, f"carry {name} to the {target}", NavigateParams(place_id=spot.id), carries=True
+    )
+    text = f"I am at the {target}, with {name} in my hand."
+    tell = Errand(name="say where it is", params=SayParams(text=text))
+    said = f"bring {name} to the {target}"
+    return _fetched(info, query, scene, (go, tell), name=said, keeps=True)
+
+
+def _put_beside(
+    info: ObjectInfo, query: goals.ObjectQuery, relation: goals.Relation, scene: Scene
+) -> Part:
+    """Put an object next to another one, which is found first."""
+    ends = [end for end in (relation.of, relation.other) if end is not None]
+    marks = [scene.object(end) for end in ends]
+    if info in marks:
+        raise cannot("invalid_goal", f"{info.full_name} cannot be put beside itself")
+    finds = tuple(search(mark, end, scene) for mark, end in zip(marks, ends, strict=True))
+    how = HOW_WORDS[relation.how]
+    name = f"put {info.full_name} {how} {' and '.join(mark.full_name for mark in marks)}"
+    put = about(info, name, beside(info, relation.how, marks, scene.knowledge), carries=True)
+    scene.spoken_of = info.id
+    return _fetched(info, query, scene, (*finds, put), name=name)
 
 
 def _check_inside(target: str, scene: Scene) -> None:
@@ -115,10 +212,7 @@ def _check_inside(target: str, scene: Scene) -> None:
 
 def _best_surface(info: ObjectInfo, target: str, scene: Scene) -> Place:
     """Of the surfaces of that name the one that is easiest to reach and high enough."""
-    boards = surfaces(scene.places(target))
-    if not boards:
-        text = f"nothing can be put down in the {target}"
-        raise cannot("invalid_goal", text, suggestion="name a table or a shelf")
+    boards = places_at(target, scene, near=False)
     height_m = info.shape.size_m[2]
     free = [place for place in boards if place.clearance_m > height_m + 0.03]
     if not free:

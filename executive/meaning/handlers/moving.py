@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from executive.meaning.handlers.putting import part_of_floor
 from executive.meaning.identify import Scene, cannot
 from executive.skills.balance import BalanceParams
 from executive.skills.follow import FollowParams
@@ -32,6 +33,9 @@ def go_to(goal: goals.GoTo, scene: Scene) -> Part:
     if person is not None and not scene.knowledge.places(goal.place):
         return go_to_person(goals.Person(name=goal.place), scene)
     place = scene.places(goal.place)[0]
+    if goal.part is not None and place.floor:
+        name = f"go to the {goal.part.replace('_', ' ')} of the {goal.place}"
+        return Errand(name=name, params=part_of_floor(place, goal.part))
     return Errand(name=f"go to the {goal.place}", params=NavigateParams(place_id=place.id))
 
 

@@ -6,14 +6,15 @@ import math
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
-from executive.meaning.handlers.steps import about, inspect, search, to_look_over
+from executive.meaning.handlers.settling import counted, where_words
+from executive.meaning.handlers.steps import about, inspect, many, search, several, to_look_over
 from executive.meaning.identify import Scene, cannot
 from executive.skills.look import SIDES, LookParams, Side
 from executive.skills.navigate import NavigateParams, Step
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series
 from intents import goals
-from robot.messages import Place
+from robot.messages import ObjectInfo
 
 AROUND, BEHIND = "around", "behind"
 _SIDES: dict[str, Side] = {side: side for side in SIDES}
@@ -23,10 +24,10 @@ def look_at(goal: goals.LookAt, scene: Scene) -> Part:
     """Turn the eyes to something; an object is looked for."""
     if goal.place == AROUND:
         return Errand(name="look around", params=LookParams(around=True))
+    if goal.object is not None and many(goal.object):
+        return several(scene.objects(goal.object), "look at several things", _look_at)
     if goal.object is not None:
-        info = scene.object(goal.object)
-        params = SearchParams(object_id=info.id)  # it ends with the object in sight
-        return about(info, f"look at {info.full_name}", params)
+        return _look_at(scene.object(goal.object))
     if goal.person is not None:
         found = scene.person(goal.person)
         return Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
@@ -49,10 +50,19 @@ def _aside(where: str) -> Part | None:
     return None if side is None else Errand(name=f"look {side}", params=LookParams(towards=side))
 
 
+def _look_at(info: ObjectInfo) -> Part:
+    params = SearchParams(object_id=info.id)  # it ends with the object in sight
+    return about(info, f"look at {info.full_name}", params)
+
+
 def find(goal: goals.Find, scene: Scene) -> Part:
     """Look for an object, or go and see a person."""
-    if goal.object is not None:
-        return search(scene.object(goal.object), goal.object, scene)
+    query = goal.object
+    if query is not None and many(query):
+        found = scene.objects(query)
+        return several(found, "find several things", lambda info: search(info, query, scene))
+    if query is not None:
+        return search(scene.object(query), query, scene)
     if goal.person is None:
         raise cannot("invalid_goal", "find what?", suggestion="name an object")
     found = scene.person(goal.person)
@@ -62,20 +72,18 @@ def find(goal: goals.Find, scene: Scene) -> Part:
 
 def count(goal: goals.Count, scene: Scene) -> Part:
     """Look wherever it was said, then say how many there are."""
-    if goal.object is None:
-        raise cannot("unsupported", "this robot cannot count people yet")
-    ids = frozenset(info.id for info in scene.fitting(goal.object))
     query = goal.object
-    places = to_look_over(scene.places(query.at), scene) if query.at else ()
-    noun = query.name or query.category or "object"
-    looks = inspect(f"look over the {query.at}" if query.at else "look around", query.at, scene)
-    where = _whereabouts(query.at, places)
-    tell = Errand(name="say how many", params=answers.count(ids, places, noun=noun, where=where))
-    return Series(name=f"count the {noun}s", parts=(*looks, tell))
-
-
-def _whereabouts(at: str | None, places: tuple[Place, ...]) -> str:
-    """Where that is, as people say it."""
-    if not at:
-        return ""
-    return f" in the {at}" if len({place.of for place in places}) > 1 else f" on the {at}"
+    if query is None:
+        raise cannot("unsupported", "this robot cannot count people yet")
+    noun = scene.knowledge.noun(query.name or query.category or "object")
+    name = f"count the {noun.many}"
+    if query.relation is not None:
+        looks, number_of = counted(query, scene)
+        tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
+    else:
+        ids = frozenset(info.id for info in scene.fitting(query))
+        places = to_look_over(scene.places(query.at), scene) if query.at else ()
+        looks = inspect(f"look over the {query.at}" if query.at else "look around", query.at, scene)
+        where = where_words(query) if query.at else ""
+        tell = answers.count(ids, places, noun=noun, where=f" {where}" if where else "")
+    return Series(name=name, parts=(*looks, Errand(name="say how many", params=tell)))

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
+from executive.behaviours.run_skill import Bound
 from executive.meaning.identify import Scene
 from executive.skills.inspect import InspectParams
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.parameters import SkillParams
 from executive.skills.search import SearchParams
-from executive.trees.parts import Errand
+from executive.trees.parts import Each, Errand, OnFail, Part, Series
 from intents import goals
 from robot.messages import ObjectInfo, Place
 
+PASSED_OVER = (
+    "no_path", "path_blocked", "goal_in_collision", "no_stance", "object_not_seen",
+    "place_not_seen", "timeout", "walk_stalled",
+)  # fmt: skip
+"""Failures of one look after which the next one may still find it."""
 
-def about(info: ObjectInfo, name: str, params: SkillParams, *, carries: bool = False) -> Errand:
+
+def about(
+    info: ObjectInfo, name: str, params: SkillParams | Bound, *, carries: bool = False
+) -> Errand:
     """A step that is about an object."""
     return Errand(
         name=name, params=params, object_id=info.id, object_name=info.full_name, carries=carries
@@ -59,6 +68,30 @@ def inspect(
     return (Errand(name=name, params=params, object_name=f"the {at}" if at else ""),)
 
 
+def several(found: list[ObjectInfo], name: str, one: Callable[[ObjectInfo], Part]) -> Each:
+    """The same with each of several things, whatever becomes of the others."""
+    things = tuple(info.full_name for info in found)
+    return Each(name=name, parts=tuple(one(info) for info in found), things=things)
+
+
+def many(query: goals.ObjectQuery) -> bool:
+    """Whether a description is of several things: "both cups", "all cups"."""
+    return query.count not in (None, 1) and not query.held
+
+
 def surfaces(places: tuple[Place, ...]) -> tuple[Place, ...]:
     """The places that things stand on; a room says nothing about where in it."""
     return tuple(place for place in places if not place.floor)
+
+
+def visit(place: Place) -> Errand:
+    """Go to a surface and look over it."""
+    params = InspectParams(place_ids=(place.id,))
+    return Errand(name=f"look over the {place.name}", params=params)
+
+
+def tolerant(part: Part) -> Part:
+    """A look that may come to nothing: the next one goes on."""
+    nothing = Series(name="go on", parts=())
+    handlers = tuple((code, nothing) for code in PASSED_OVER)
+    return OnFail(name=part.name, part=part, handlers=handlers)

@@ -19,7 +19,7 @@ from executive.skills.holding import Held
 from executive.skills.motions.support import stands_on
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from executive.trees.build import finished
+from executive.trees.build import finished, meanings
 from executive.trees.parts import Errand, Part, of_any_attempt, walk
 from robot.errors import ConfigError
 from robot.link import BodyLink
@@ -71,7 +71,8 @@ def look(
         return Agreement(done=done, held=(), again=())
     hands = _Hands(body, world, knowledge, robot)
     held = tuple(hands.held(_journalled(events)))
-    steps = [(path, part) for path, part in walk(task) if isinstance(part, Errand)]
+    parts = walk(task, means=meanings(done))
+    steps = [(path, part) for path, part in parts if isinstance(part, Errand)]
     newest = {of_any_attempt(path): path for path in sorted(done)}
     things = _Things(steps, frozenset(newest), {one.object_id for one in held}, world, knowledge)
     gone = things.gone()

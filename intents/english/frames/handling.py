@@ -7,10 +7,11 @@ from msgspec.structs import replace
 
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
+from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
 from intents.english.phrases.complements import Clause, Complement, connector_end
-from intents.english.phrases.phrase import SAID_HOW, Locative, NounPhrase
+from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood, Partly, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
@@ -72,6 +73,12 @@ def _put_down(goal: Goal) -> Goal:
 def bring(clause: Clause, scope: Scope) -> list[Goal]:
     """Bring me a drink from the cabinet; bring the cup to the desk."""
     slots = Slots(clause, scope)
+    beside = moved_beside(clause, slots) or to_part(slots)
+    if beside is not None:
+        objects = slots.objects() or ([scope.object] if scope.object else [])
+        need(objects, "What shall I bring?")
+        slots.done()
+        return [_each(o, lambda q: put_at(q, beside)) for o in objects]
     into = slots.peek("into")
     inside = into is not None and into.phrase.is_spot and not into.phrase.name("room")
     to = _receiver(slots)
@@ -82,7 +89,7 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     at = slots.loose_place()
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
         raise NotUnderstood("I can take things to a place, not move them a little")
-    if to is None and clause.verb.startswith(("move", "transport", "transfer")):
+    if to is None and clause.verb.startswith(MOVES):
         after = connector_end(clause.text, clause.end)
         if after is None or not verbs_at(clause.text.words, after):
             raise Unclear("Where shall I take it?")
@@ -90,8 +97,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     slots.direction("backward")
     slots.done()
     if inside and isinstance(to, str):  # to bring into a cabinet is to put in it, not on it
-        put = ("in", to)
-        return [_each(replace(o, at=o.at or at), lambda q: _place(q, put)) for o in objects]
+        put = Target(in_=to)
+        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, put)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
@@ -108,7 +115,7 @@ def _receiver(slots: Slots) -> Person | str | None:
         bare = [c for c in slots.rest if c.phrases and c.role == "" and c.phrase.noun != "here"]
         person = slots.take_person("", "for") if len(bare) > 1 else slots.take_person("for")
         here = slots.take_here()
-        return person or (ME if here else None)
+        return person or (ME if here else _there(slots))
     if is_person(goal.phrase, scope) or goal.phrase.noun in ("operator", "here"):
         slots.take_person("for")
         return to_person(goal.phrase, scope) if goal.phrase.noun != "here" else ME
@@ -122,6 +129,15 @@ def _unknown_receiver(goal: Complement, scope: Scope) -> str:
     if goal.phrase.determiner:
         return to_place(goal.phrase, scope)
     raise NotUnderstood(f"I know no person or place called “{goal.phrase.said}”")
+
+
+def _there(slots: Slots) -> str | None:
+    """Bring the cup *there*, to the place spoken of."""
+    there = next((c for c in slots.rest if c.phrases and c.phrase.noun == "there"), None)
+    if there is None or slots.scope.place is None:
+        return None
+    slots.rest.remove(there)
+    return slots.scope.place
 
 
 def _near_destination(slots: Slots) -> str | None:
@@ -183,24 +199,23 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         return bring(clause, scope)
     if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
-    beside = bare and bare.phrases[-1].places[-1:]
-    near = bool(beside and beside[0].how == "near" and beside[0].of.name("object"))
-    if bare and near and len(bare.phrases[-1].places) > 1:
-        bare.phrases[-1].places.pop()
-        raise Partly("I cannot put things next to one another", tuple(put(clause, scope)))
-    spot = _destination(slots)
+    spot = destination(slots)
+    if spot and spot.relation and bare and len(bare.phrases[-1].places) > 0:
+        surface = bare.phrases[-1].places[-1]  # on the shelf next to the vase: the vase says where
+        if surface.how in ("on", None) and surface.of.is_spot and not surface.of.name("room"):
+            bare.phrases[-1].places.pop()
     objects = slots.objects()
     if not objects and clause.sense == "drop":
         objects = [scope.object or ObjectQuery(held=True)]
     if not objects:
         raise Misfit("put what?")
     if spot is None and _throws(clause):
-        spot = ("in", _trash(scope))
+        spot = Target(in_=_trash(scope))
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and not down:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
-    return [_each(o, lambda q: _place(q, spot)) for o in objects]
+    return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
 
 def _each_there(clause: Clause, bare: Complement, scope: Scope) -> list[Goal]:
@@ -228,7 +243,7 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
     bare = slots.peek("")
     if bare is None or len(bare.phrases) > 1:
         raise Misfit("clear what?")
-    spot = _destination(slots)
+    spot = destination(slots)
     if bare.phrase.is_spot:
         slots.rest.remove(bare)
         objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
@@ -239,7 +254,7 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
     slots.done()
     if spot is None:
         raise Unclear("Where shall I put what is there?")
-    return [_each(o, lambda q: _place(q, spot)) for o in objects]
+    return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
 
 def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:
@@ -259,52 +274,6 @@ def _trash(scope: Scope) -> str:
     if not known:
         raise Unclear("Where shall I throw it?")
     return known[0].name
-
-
-def _place(query: ObjectQuery, spot: tuple[str, str] | None) -> Place:
-    if spot is None:
-        return Place(object=query)
-    how, where = spot
-    return Place(object=query, in_=where) if how == "in" else Place(object=query, on=where)
-
-
-def _destination(slots: Slots) -> tuple[str, str] | None:
-    """Whether on or in, and which place."""
-    goal = slots.take("to", "into") or slots.take_where()
-    if goal:
-        how = "in" if goal.role == "into" else "on"
-        return _spot(Locative("in" if how == "in" else "on", goal.phrase), slots.scope)
-    at = slots.take("at")
-    if at:
-        return _spot(Locative(at.how, at.phrase), slots.scope)
-    bares = [c for c in slots.rest if c.phrases and c.role == ""]
-    there = next((c for c in bares[1:] if c.phrase.noun == "there"), None)
-    if there and slots.scope.place:
-        slots.rest.remove(there)
-        return "on", slots.scope.place
-    bare = bares[0] if bares else None
-    place = detach_place(bare.phrases[-1]) if bare else None
-    source = slots.peek("from")
-    if place is None and source:
-        place = detach_place(source.phrase)
-    inside = slots.scope.device or slots.scope.place
-    if place is None and inside and slots.clause.particles() & {"inside", "in"}:
-        return "in", inside
-    return _spot(place, slots.scope) if place else None
-
-
-def _spot(place: Locative, scope: Scope) -> tuple[str, str]:
-    if is_person(place.of, scope):
-        raise Misfit("I can put things on or in places; to people I give them")
-    if place.how == "near" and (place.of.name("object") or place.of.noun == "one"):
-        raise NotUnderstood("I can put things on or in a place, not next to another object")
-    if place.how not in ("on", "in", None):
-        where = SAID_HOW.get(place.how, place.how)
-        raise NotUnderstood(f"I can put things on or in a place, not {where} something")
-    where = to_place(place.of, scope, objects=True)
-    if where == OPERATOR:
-        raise Unclear("Where shall I put it?")
-    return ("in" if place.how == "in" else "on"), where
 
 
 def _each(query: ObjectQuery, goal_of: Callable[[ObjectQuery], Goal]) -> Goal:

@@ -19,6 +19,7 @@ from intents.goals import (
     How,
     LookAt,
     ObjectQuery,
+    Part,
     Place,
     Wait,
 )
@@ -128,7 +129,12 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
         query = to_object(phrase, scope)
         if query != ObjectQuery(name=query.name, at=query.at):
             return Find(object=query)
-    return GoTo(place=to_place(phrase, scope, objects=True))
+    return GoTo(place=to_place(phrase, scope, objects=True), part=_part(phrase))
+
+
+def _part(phrase: NounPhrase) -> Part | None:
+    """The part of a room to walk to; at the edge of a table is at the table."""
+    return phrase.part if phrase.name("room") and phrase.part != "edge" else None
 
 
 def _implied(clause: Clause) -> str:

@@ -42,9 +42,12 @@ _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
 def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     """The noun phrase that begins at a word, as long as it goes."""
-    part = part_of(text, start)
-    if part:
-        return noun_phrase(text, part)
+    partly = part_of(text, start)
+    if partly:
+        whole = noun_phrase(text, partly[1])
+        if whole is not None:
+            whole.part = partly[0]
+        return whole
     phrase = bare_phrase(text, start)
     if phrase is None:
         return None

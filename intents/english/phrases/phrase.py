@@ -7,7 +7,7 @@ from intents.english.words import lexicon
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.words.names import Name
 from intents.english.words.text import Text
-from intents.goals import Clothing, How, Superlative
+from intents.goals import Clothing, How, Part, Superlative
 
 Noun = Literal[
     "name", "object", "person", "place", "one", "body", "pronoun", "operator", "here", "there",
@@ -48,6 +48,7 @@ class NounPhrase:
         side: "left" or "right", of the body or of several things.
         places: Where it is, in the order said.
         other: It is the one that was not spoken of.
+        part: Which part of it is meant: "the other end of the table".
         where: What was said, if the phrase is a place by what is there: "where the cup is".
     """
 
@@ -71,6 +72,7 @@ class NounPhrase:
     places: list[Locative] = field(default_factory=list[Locative])
     other: bool = False
     where: str = ""
+    part: Part | None = None
 
     @property
     def is_person(self) -> bool:

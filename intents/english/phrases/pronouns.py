@@ -6,6 +6,7 @@ from intents.english.words.lexicon import DETERMINERS
 from intents.english.words.measures import number
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
+from intents.goals import Part
 
 _PARTS = lexicon.words("top center centre middle front side end edge surface bottom inside corner "
                        "left right rest")  # fmt: skip
@@ -14,13 +15,28 @@ _PARTS = lexicon.words("top center centre middle front side end edge surface bot
 _OF_THEM = lexicon.DETERMINERS | {"of"}
 
 
-def part_of(text: Text, start: int) -> int | None:
-    """The top of the counter is the counter: where the whole begins."""
+def part_of(text: Text, start: int) -> tuple[Part | None, int] | None:
+    """The top of the counter is the counter: which part of it, and where the whole begins."""
     at = start + (text.word(start) in ("the", "its"))
-    at += text.word(at) in ("left", "right", "far", "very") and text.word(at + 1) in _PARTS
-    if text.word(at) in _PARTS and text.word(at + 1) == "of" and at > start:
-        return at + 2
+    which = text.word(at) if text.word(at) in _WHICH and text.word(at + 1) in _PARTS else ""
+    at += which != ""
+    noun = text.word(at)
+    if noun in _PARTS and text.word(at + 1) in ("of", "part") and at > start:
+        end = at + 2 + (text.word(at + 1) == "part" and text.word(at + 2) == "of")
+        return (_ENDS.get(which) if noun in _END_NOUNS else _PLAIN_PARTS.get(noun)), end
     return None
+
+
+_ENDS: dict[str, Part] = {
+    "left": "left_end", "right": "right_end", "far": "other_end", "farther": "other_end",
+    "further": "other_end", "other": "other_end", "opposite": "other_end", "near": "near_end",
+    "nearer": "near_end",
+}  # fmt: skip
+_WHICH = frozenset({*_ENDS, "very"})
+_END_NOUNS = ("end", "side")
+_PLAIN_PARTS: dict[str, Part] = {
+    "center": "middle", "centre": "middle", "middle": "middle", "edge": "edge",
+}  # fmt: skip
 
 
 def free_relative(text: Text, start: int) -> NounPhrase | None:

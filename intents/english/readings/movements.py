@@ -1,6 +1,6 @@
 """Movements in set phrases: "step aside", "patrol between table and shelf", "go to x = 1"."""
 
-from intents.english.phrases.complements import ends_clause
+from intents.english.phrases.complements import ends_clause, read_list
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence
@@ -15,6 +15,11 @@ _TO_AND_FRO = lexicon.phrases(
     "go back and forth between,walk back and forth between,move back and forth between,"
     "run back and forth between,go to and fro between,walk to and fro between"
 )
+_PATROL = lexicon.phrases(
+    "patrol,go on patrol,do your rounds,make your rounds,make the rounds,do the rounds,"
+    "go the rounds,make a round,do a round,do a tour,make a tour"
+)
+_THROUGH = lexicon.phrases("through,of,to,at,in,around,between,along,from")
 _ASIDE = lexicon.phrases(
     "step aside,move aside,go aside,stand aside,get out of the way,get out of my way,"
     "move out of the way,move out of my way,go out of the way,out of the way,out of my way,"
@@ -50,6 +55,29 @@ def to_and_fro(sentence: Sentence, at: int) -> Found | None:
     if often is None or often.kind != "times":
         raise Unclear("How many times shall I go to and fro?")
     return [Repeat(times=int(often.value), goals=there)], often.end
+
+
+def patrol(sentence: Sentence, at: int) -> Found | None:
+    """Patrol the kitchen, the hall and the bedroom twice; once, if it is not said how often."""
+    text = sentence.text
+    start = text.phrase_end(_PATROL, at)
+    if start is None:
+        return None
+    early = measure(text.words, start)  # patrol twice through the kitchen and the hall
+    times = early if early is not None and early.kind == "times" else None
+    start = times.end if times else start
+    if times is None and text.word(start) == "between":
+        return None  # to and fro, which asks how often
+    start = text.phrase_end(_THROUGH, start) or start
+    phrases, end = read_list(text, start)
+    if not phrases or not all(phrase.is_spot or phrase.name("room") for phrase in phrases):
+        return None
+    there = tuple(GoTo(place=to_place(phrase, sentence.scope)) for phrase in phrases)
+    late = measure(text.words, end)
+    if times is None and late is not None and late.kind == "times":
+        times, end = late, late.end
+    rounds = int(times.value) if times else 1
+    return ([Repeat(times=rounds, goals=there)] if rounds > 1 else list(there)), end
 
 
 def pose(sentence: Sentence, at: int) -> Found | None:

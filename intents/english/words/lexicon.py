@@ -136,9 +136,7 @@ CLOTHES = words(
 
 LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
     {
-        "on": "on,on or in,on and in,in or on,in and on,on or at,"
-        "in the middle of,in the center of,in the centre of,at the edge of,"
-        "at the center of,on the edge of,in the middle part of,on top of,upon,atop,atop of",
+        "on": "on,on or in,on and in,in or on,in and on,on or at,on top of,upon,atop,atop of",
         "in": "in,right in,out in,down in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,in at",
         "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"

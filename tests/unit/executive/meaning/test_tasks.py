@@ -121,7 +121,7 @@ def test_what_is_there_is_taken_whichever_it_turns_out_to_be():
     text = "if there is a cup on the table, bring it to the upper shelf, otherwise wave"
     outcome = request(text, WHERE)
     assert isinstance(outcome, Understood)
-    (branch,) = outcome.task.parts
+    branch, _ = outcome.task.parts
     taken = [errand.params.object_id for errand in errands(branch.then)]
     assert set(taken) == {"cup_red"}
     assert branch.look is not None
@@ -143,8 +143,10 @@ def test_counting_looks_over_all_of_the_place_first():
 
 def test_several_things_are_fetched_one_after_the_other():
     assert steps("bring all cups to the table") == [
+        "find the red cup",
         "pick up the red cup",
         "put the red cup on the table",
+        "find the blue cup",
         "pick up the blue cup",
         "put the blue cup on the table",
     ]

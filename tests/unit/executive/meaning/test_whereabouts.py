@@ -12,7 +12,7 @@ from executive.meaning import request
 from executive.meaning.knowledge import Knowledge
 from executive.runs.again import recording
 from executive.runs.session import Session
-from executive.trees.parts import errands
+from executive.trees.parts import Settle, errands, walk
 from intents.goals import from_builtins
 from intents.relations import Viewpoint
 from intents.state import RobotState
@@ -78,11 +78,11 @@ def test_what_is_leftmost_depends_on_where_it_stood():
     assert objects(meant(seen(BEHIND), superlative="leftmost")) == ["cup_blue"]
 
 
-def test_without_what_was_known_then_it_is_refused(tmp_path):
+def test_without_what_was_known_then_it_has_to_be_looked_for(tmp_path):
     event = submitted(meant(seen(FACING), superlative="leftmost"))
     del event.data["origin"]["whereabouts"]
-    with pytest.raises(ConfigError, match="fits 2 things"):
-        recording.restore(event, tmp_path, WHERE)
+    restored = recording.restore(event, tmp_path, WHERE)
+    assert any(isinstance(part, Settle) for _, part in walk(restored.task))
 
 
 def test_what_means_the_same_everywhere_keeps_nothing():

@@ -193,7 +193,6 @@ WRONG = [
     ("  - while: {holding: true}\n    do: [say: x]\n", "the key 'at_most' is missing"),
     ("  - for_each: X\n    in: [red cup]\n    do: [say: x]\n", "'X' is no name"),
     ("  - for_each: x\n    in: [red cupp]\n    do: [say: x]\n", "did you mean 'red cup'"),
-    ("  - place: {object: red cup, on: kitchen}\n", "nothing can be put down"),
     ("  - go_to: {pose: {x_m: 99, y_m: 0}}\n", "outside this world"),
     ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: x_m: '.inf' where a number should be"),
     ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "x_m: 1e300 where a number of less"),

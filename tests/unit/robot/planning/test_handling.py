@@ -70,6 +70,23 @@ def reaches(body: Body, plan: PickPlan | PlacePlan, X_WG: SE3, stance: Stance) -
     return float(solved.position_error_m[0])
 
 
+@pytest.mark.parametrize("y", [-0.3, 0.0, 0.3])
+def test_of_a_place_only_the_spots_that_were_asked_for(solver: Solver, y: float) -> None:
+    on = [TABLE.X_WP.apply((0.02 * n, y, 0.0)) for n in range(-4, 5)]
+    spots = tuple((float(p[0]), float(p[1])) for p in on)
+    plan = place(solver, TABLE, surroundings(), spots=spots)
+    assert isinstance(plan, PlacePlan), plan
+    assert min(math.dist(plan.X_WO.p[:2], spot) for spot in spots) < 1e-6
+
+
+def test_spots_that_are_all_off_the_place_are_none(solver: Solver) -> None:
+    off = TABLE.X_WP.apply((5.0, 0.0, 0.0))
+    plan = place(solver, TABLE, surroundings(), spots=((float(off[0]), float(off[1])),))
+    assert isinstance(plan, Failure)
+    assert plan.code == "no_free_spot"
+    assert "where it is wanted" in plan.cause
+
+
 @pytest.mark.parametrize("x", [-0.2, 0.0, 0.2])
 @pytest.mark.parametrize("y", [-0.5, 0.0, 0.5])
 def test_a_cup_anywhere_on_the_table(solver: Solver, x: float, y: float) -> None:

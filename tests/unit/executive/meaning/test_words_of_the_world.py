@@ -1,0 +1,352 @@
+"""Words whose meaning is in the world: how many, relative to what, on which part, which floor."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+import pytest
+
+from executive.blackboard import WORLD, Blackboard
+from executive.meaning.request import Refused, Setting, Understood, meant, request
+from executive.skills.give import GiveParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
+from executive.skills.say import SayParams
+from executive.skills.search import SearchParams
+from executive.trees.parts import Branch, Each, Errand, Kept, Part, Settle, errands, walk
+from intents import goals
+from intents.state import RobotState
+from robot import messages as m
+from robot.failures import Failure
+from robot.se3 import SE3
+from tests.fakes.worlds import JUNO, Mapped, MappedWorld
+
+COUNTER_M = 0.9
+"""Height of the surfaces."""
+
+
+def _map() -> m.WorldMap:
+    """A kitchen with a counter before its north wall, a table in the middle, a door to the hall."""
+
+    def surface(name: str, x_m: float, y_m: float, **more: object) -> m.Place:
+        return m.Place(
+            id=name, name=name, X_WP=SE3((x_m, y_m, COUNTER_M)), size_m=(2.0, 0.6), room="kitchen",
+            **more,  # type: ignore[arg-type]
+        )  # fmt: skip
+
+    def thing(object_id: str, name: str, category: str, color: str) -> m.ObjectInfo:
+        shape = m.Shape(kind="cylinder", size_m=(0.07, 0.07, 0.1))
+        return m.ObjectInfo(
+            id=object_id, name=name, category=category, color=color, shape=shape, mass_kg=0.2
+        )
+
+    def floor(name: str, x_m: float, room: str) -> m.Place:
+        return m.Place(
+            id=name, name=name, X_WP=SE3((x_m, 0, 0)), size_m=(6, 6), room=room, floor=True
+        )
+
+    return m.WorldMap(
+        stamp_s=0.0,
+        name="a kitchen and a hall",
+        obstacles=(),
+        places=(
+            surface("counter", 0.0, 2.5),
+            surface("table", 0.0, 0.0),
+            floor("kitchen", 0.0, "kitchen"),
+            floor("hall", 6.0, "hall"),
+            m.Place(id="door", name="front door", X_WP=SE3((8.0, 0, 0)), size_m=(0.6, 0.6),
+                    room="hall", floor=True),
+        ),
+        objects=(
+            thing("red", "mug", "mug", "red"),
+            thing("blue", "mug", "mug", "blue"),
+            thing("green", "mug", "mug", "green"),
+            thing("oil", "oil bottle", "bottle", ""),
+            thing("wine", "wine bottle", "bottle", ""),
+            thing("tea", "tea box", "box", ""),
+        ),
+        people=(m.PersonInfo(id="mia", name="mia", X_WO=SE3((2.0, -2.0, 0.0))),),
+        categories={"mug": "mugs", "bottle": "bottles", "box": "boxes"},
+        bounds_m=(-4, -4, 10, 4),
+    )  # fmt: skip
+
+
+class _Kitchen(MappedWorld):
+    def __init__(self) -> None:
+        super().__init__("kitchen")
+        self.map = _map()
+
+
+WHERE = Setting(reality=Mapped(), world=_Kitchen(), description=JUNO, robot_name="juno")
+
+
+def understood(text: str) -> Understood:
+    outcome = request(text, WHERE)
+    assert not isinstance(outcome, Refused), outcome
+    return outcome
+
+
+def parts(text: str, kind: type) -> list[Part]:
+    return [part for _, part in walk(understood(text).task) if isinstance(part, kind)]
+
+
+def board(*, at: tuple[float, float] = (0.0, 1.0), **things: tuple[float, float]) -> Blackboard:
+    """What is believed: the robot at a point, things at points of the surface they are over."""
+    blackboard = Blackboard()
+    tracks = tuple(
+        m.Track(id=name, X_WO=SE3((x_m, y_m, COUNTER_M + 0.05)), seen_s=1.0)
+        for name, (x_m, y_m) in things.items()
+    )
+    X_WB = SE3.from_xy_yaw(*at, 0.5 * math.pi)
+    state = m.WorldState(stamp_s=1.0, X_WN=SE3(), X_WB=X_WB, fix_age_s=0.0, tracks=tracks)
+    blackboard.claim("sense").set(WORLD, state)
+    return blackboard
+
+
+# --- how many -----------------------------------------------------------------------------------
+
+WORDS = {
+    "a mug": 1, "both bottles": 2, "the two bottles": 2, "two mugs": 2, "all mugs": 3,
+    "all the mugs": 3, "every mug": 3, "the three mugs": 3, "all of the bottles": 2,
+}  # fmt: skip
+SAID = {
+    "put {} on the table": PlaceParams,
+    "bring {} to the table": PlaceParams,
+    "take {} to the counter": PlaceParams,
+    "put {} next to the tea box": None,
+    "give {} to mia": GiveParams,
+    "bring {} to mia": GiveParams,
+    "find {}": SearchParams,
+    "look at {}": SearchParams,
+}
+
+
+@pytest.mark.parametrize(("words", "count"), WORDS.items())
+@pytest.mark.parametrize(("said", "takes"), SAID.items())
+def test_a_number_reaches_every_skill(words, count, said, takes):
+    task = understood(said.format(words)).task
+    if takes is None:
+        named = {e.object_id for e in errands(task) if e.name.startswith("put ")}
+    else:
+        named = {e.object_id for e in errands(task) if isinstance(e.params, takes)}
+    assert len(named) == count
+
+
+@pytest.mark.parametrize("words", ["both bottles", "two mugs"])
+def test_two_are_taken_into_two_hands(words):
+    taken = [e.params for e in errands(understood(f"pick up {words}").task)]
+    assert len({p.object_id for p in taken if isinstance(p, PickParams)}) == 2
+
+
+@pytest.mark.parametrize("to", ["put {} on the table", "bring {} to the counter"])
+def test_of_several_what_is_there_already_stays(to):
+    for part in parts(to.format("all mugs"), Each):
+        for one in part.parts:
+            assert isinstance(one, Branch)
+            (there,) = {
+                e.params.place_id for e in errands(one) if isinstance(e.params, PlaceParams)
+            }
+            y_m = 0.0 if there == "table" else 2.5
+            name = next(e.object_id for e in errands(one))
+            assert one.question(board(**{name: (0.2, y_m)}))
+            assert not one.question(board(**{name: (0.2, 2.5 - y_m)}))
+            assert not one.question(board())
+
+
+def test_of_several_the_ones_that_can_be_handled_are_enough_to_begin():
+    kitchen = _Kitchen()
+    heavy = msgspec.structs.replace(kitchen.map.objects[0], mass_kg=9.0)
+    kitchen.map = msgspec.structs.replace(kitchen.map, objects=(heavy, *kitchen.map.objects[1:]))
+    where = msgspec.structs.replace(WHERE, world=kitchen)
+    assert isinstance(request("put all mugs on the table", where), Understood)
+    assert isinstance(request("put the red mug on the table", where), Refused)
+
+
+def test_more_than_there_are_is_refused():
+    assert isinstance(request("put five mugs on the table", WHERE), Refused)
+
+
+# --- which --------------------------------------------------------------------------------------
+
+OIL = (0.0, 2.4)
+SEEN = {
+    "behind the oil bottle": (0.0, 2.62),
+    "in front of the oil bottle": (0.0, 2.24),
+    "left of the oil bottle": (-0.2, 2.4),
+    "right of the oil bottle": (0.2, 2.4),
+    "next to the oil bottle": (0.15, 2.45),
+    "between the oil bottle and the wine bottle": (0.4, 2.42),
+}
+
+
+@pytest.mark.parametrize(("said", "spot"), SEEN.items())
+@pytest.mark.parametrize("from_x_m", [-1.5, 0.0, 1.5])
+def test_a_relative_description_is_settled_by_looking(said, spot, from_x_m):
+    (part,) = parts(f"bring the mug {said} to the table", Settle)
+    seen = board(at=(from_x_m, 1.2), blue=spot, red=(-0.8, 0.1), oil=OIL, wine=(0.8, 2.4))
+    assert part.question(seen) == ("blue",)
+    fetched = [e.params for e in errands(part.then(("blue",)))]
+    assert [p.object_id for p in fetched if isinstance(p, PickParams | PlaceParams)] == ["blue"] * 2
+    assert any(e.object_id == "oil" for look in part.looks for e in errands(look))
+
+
+def test_nothing_that_stands_so_is_a_failure_with_what_was_seen():
+    (part,) = parts("take the mug behind the oil bottle", Settle)
+    found = part.question(board(oil=OIL, red=(0.0, 0.0)))
+    assert isinstance(found, Failure)
+    assert found.code == "object_not_seen"
+    assert "the red mug at the table" in found.cause
+
+
+def test_two_that_stand_so_are_asked_about_only_now():
+    (part,) = parts("take the mug next to the oil bottle", Settle)
+    found = part.question(board(oil=OIL, red=(0.2, 2.4), blue=(-0.2, 2.4)))
+    assert isinstance(found, Failure)
+    assert found.code == "ambiguous"
+    assert "red" in found.suggestion
+    assert "blue" in found.suggestion
+
+
+def test_the_one_next_to_it_is_the_nearer_one():
+    (part,) = parts("take the mug next to the oil bottle", Settle)
+    assert part.question(board(oil=OIL, red=(0.12, 2.4), blue=(-0.3, 2.4))) == ("red",)
+
+
+@pytest.mark.parametrize(
+    ("words", "means"),
+    [
+        ("the mug", {"red"}),
+        ("a mug", {"red"}),
+        ("all mugs", {"red"}),
+        ("everything", {"red", "tea"}),
+    ],
+)
+def test_what_is_on_a_surface_is_what_was_seen_there(words, means):
+    (part,) = parts(f"bring {words} on the counter to the table", Settle)
+    found = part.question(board(red=(0.3, 2.5), tea=(-0.3, 2.5), blue=(0.3, 0.0)))
+    assert isinstance(found, tuple)
+    assert set(found) == means
+
+
+def test_it_is_what_was_settled():
+    (part,) = parts("take the mug on the counter and put it on the table", Settle)
+    fetched = {e.object_id for e in errands(part.then(("green",)))}
+    assert fetched == {"green"}
+
+
+def test_fewer_than_asked_for_are_not_enough():
+    (part,) = parts("put both mugs on the counter on the table", Settle)
+    assert isinstance(part.question(board(red=(0.3, 2.5))), Failure)
+    assert len(part.question(board(red=(0.3, 2.5), blue=(0.1, 2.5)))) == 2
+
+
+def test_what_only_one_thing_can_be_needs_no_looking():
+    assert not parts("bring the red mug on the counter to the table", Settle)
+
+
+def test_what_is_known_of_all_is_not_looked_for_again():
+    settled = {"red": "counter", "blue": "table", "green": "table"}
+    entities = [
+        msgspec.structs.replace(entity, at=settled[entity.id], p_WO=(0.0, 0.0, 1.0))
+        if entity.id in settled else entity
+        for entity in WHERE.knowledge.entities()
+    ]  # fmt: skip
+    state = RobotState(entities=tuple(entities))
+    goal = goals.Pick(object=goals.ObjectQuery(name="mug", at="counter"))
+    outcome = meant("take the mug on the counter", (goal,), WHERE, state=state)
+    assert isinstance(outcome, Understood)
+    picked = [e.object_id for e in errands(outcome.task) if isinstance(e.params, PickParams)]
+    assert picked == ["red"]
+
+
+# --- where to put it ----------------------------------------------------------------------------
+
+
+def put(text: str, blackboard: Blackboard) -> PlaceParams:
+    """What the skill is asked for by the end of a sentence."""
+    *_, last = (e for e in errands(understood(text).task) if e.carries)
+    assert callable(last.params)
+    params = last.params(blackboard)
+    assert isinstance(params, PlaceParams), params
+    return params
+
+
+@pytest.mark.parametrize(("said", "spot"), SEEN.items())
+def test_beside_a_thing_is_where_it_would_be_called_so(said, spot):
+    seen = board(oil=OIL, wine=(0.8, 2.4))
+    params = put(f"put the red mug {said}", seen)
+    assert params.place_id == "counter"
+    (asked,) = parts(f"take the mug {said}", Settle)
+    for x_m, y_m in params.spots:
+        assert asked.question(board(oil=OIL, wine=(0.8, 2.4), red=(x_m, y_m))) == ("red",)
+        if "between" not in said:
+            assert 0.07 < math.dist((x_m, y_m), OIL) <= 0.3
+    assert len(params.spots) >= 5
+
+
+def test_the_landmark_is_found_before_a_thing_is_put_beside_it():
+    names = [e.name for e in errands(understood("put the red mug next to the oil bottle").task)]
+    assert names.index("find the oil bottle") < len(names) - 1
+    unseen = board()
+    *_, last = (e for e in errands(understood("put the red mug next to the oil bottle").task))
+    assert isinstance(last.params(unseen), Failure)
+
+
+@pytest.mark.parametrize(
+    ("part", "holds"),
+    [
+        ("in the middle of", lambda x, y: math.hypot(x, y) < 0.2),
+        ("at the other end of", lambda x, y: x > 0.4),  # the robot stands at the near one
+        ("at the edge of", lambda x, y: min(1.0 - abs(x), 0.3 - abs(y)) < 0.13),
+    ],
+)
+def test_a_part_of_a_surface_is_that_part(part, holds):
+    params = put(f"put the red mug {part} the table", board(at=(-1.0, -0.8)))
+    assert params.spots
+    assert all(holds(x_m, y_m) for x_m, y_m in params.spots)
+
+
+@pytest.mark.parametrize("said", ["bring the red mug to the front door", "take {} to the hall"])
+def test_a_spot_of_the_floor_is_a_place_to_be_with_a_thing(said):
+    outcome = understood(said.format("the red mug"))
+    *_, go, tell = errands(outcome.task)
+    assert isinstance(go.params, NavigateParams)
+    assert isinstance(tell.params, SayParams)
+    assert "red mug" in tell.params.text
+    assert outcome.holds == ("red",)
+
+
+def test_a_room_with_furniture_is_a_place_to_put_things():
+    *_, last = errands(understood("bring the red mug to the kitchen").task)
+    assert isinstance(last.params, PlaceParams)
+    assert last.params.place_id in ("counter", "table")
+
+
+# --- the end ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "checked"),
+    [("put the red mug on the table", True), ("go to the table", False), ("find all mugs", False)],
+)
+def test_what_is_put_down_is_compared_at_the_end(text, checked):
+    assert bool(parts(text, Kept)) is checked
+
+
+def test_what_fell_or_was_taken_away_is_named():
+    (part,) = parts("put the red mug on the table", Kept)
+    assert isinstance(part, Kept)
+    put_down = {"red": "table"}
+    assert part.gone(board(red=(0.2, 0.1)), put_down) == []
+    assert part.gone(board(red=(0.2, 2.5)), put_down) == ["the red mug on the table"]
+    assert part.gone(board(), put_down) == []
+
+
+def test_what_is_counted_is_said_in_the_worlds_own_plural():
+    *_, tell = errands(understood("how many boxes are there on the counter?").task)
+    assert isinstance(tell, Errand)
+    assert callable(tell.params)
+    assert tell.params(board()).text == "I see 0 boxes on the counter."
+    assert tell.params(board(tea=(0.0, 2.5))).text == "I see 1 box on the counter."
