@@ -37,6 +37,9 @@ HEADINGS = 8
 WALK_M_S, TURN_RAD_S = 0.2, 0.4
 SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 """As timed in a flat and an office: setting off and stepping in cost seconds on any way."""
+SWAY_M, NARROW_S_PER_M = 0.13, 120.0
+"""Who stands sways, and steps in some centimetres off: with less than that beside the arms they
+touched walls in one look of five. A place that lacks all of it is worth 16 s of another way."""
 SLACK = 0.9
 """A way may be as narrow as this part of the body's radius to both sides; base paths agree."""
 
@@ -47,7 +50,7 @@ class _View(msgspec.Struct, frozen=True):
     worth_per_s: float
     stance: Stance
     rows: Indices
-    length_m: float = 0.0
+    cell: int | None = None
 
 
 def plan_look(body: Body, request: LookRequest) -> LookPlan:
@@ -63,13 +66,16 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     )
     atlas = _atlas(standing, around.map.bounds_m, _eye_m(body))
     lengths_m = floor.ways_m(*start[:2], radius_m=SLACK * radius_m).lengths_m(atlas.cells)
-    stands = floor.clearances_m(atlas.cells) >= radius_m
+    clearances_m = floor.clearances_m(atlas.cells)
+    stands = clearances_m >= radius_m
+    narrow_m = np.maximum(0.0, radius_m + SWAY_M - clearances_m)
+    there_s = SET_OFF_S + lengths_m / WALK_M_S + LOOK_S + NARROW_S_PER_M * narrow_m
     shown = atlas.shown(points) & (stands & (not request.stay))
     near, reached = atlas.shown_at(points, start[:2]), np.isfinite(lengths_m)
     turns = floor.clearance_m(*start[:2]) >= radius_m
     views = [
         *_views_here(points, worth, near, start, turns=turns),
-        *_views_there(points, worth, shown & reached, atlas.cells, lengths_m),
+        *_views_there(points, worth, shown & reached, atlas.cells, there_s),
     ]
     beyond = shown.any(axis=1) & ~near & ~(shown & reached).any(axis=1)
     cut_off = tuple(np.flatnonzero(beyond).tolist())
@@ -80,7 +86,7 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
         stance=best.stance,
         gazes_W=_gazes(points, worth, best, eye_m=_eye_m(body)),
         sees=tuple(best.rows.tolist()),
-        length_m=best.length_m,
+        length_m=0.0 if best.cell is None else float(lengths_m[best.cell]),
         cut_off=cut_off,
     )
 
@@ -103,15 +109,17 @@ def _views_here(
 
 
 def _views_there(
-    points: Array, worth: Array, shown: Mask, cells: Array, lengths_m: Array
+    points: Array, worth: Array, shown: Mask, cells: Array, cost_s: Array
 ) -> list[_View]:
-    """The best view from somewhere else, if there is any; `shown` has a row a point."""
+    """The best view from somewhere else, if there is any.
+
+    `shown` has a row a point and a column a cell, `cost_s` is what a view from each cell takes.
+    """
     rows, columns = np.nonzero(shown)
     if not len(rows):
         return []
     off = points[rows, :2] - cells[columns]
     bearings = np.arctan2(off[:, 1], off[:, 0])
-    cost_s = SET_OFF_S + lengths_m / WALK_M_S + LOOK_S
     best = (0.0, 0, 0.0)
     for yaw in (2.0 * math.pi * k / HEADINGS for k in range(HEADINGS)):
         inside = np.abs(_wrapped(bearings - yaw)) < HEAD_RAD
@@ -124,7 +132,7 @@ def _views_there(
     mean = _mean_bearing(bearings[inside], worth[rows[inside]])
     seen = (columns == cell) & (np.abs(_wrapped(bearings - mean)) < HEAD_RAD)
     x_m, y_m = cells[cell].tolist()
-    return [_View(rate, (x_m, y_m, mean), rows[seen], float(lengths_m[cell]))]
+    return [_View(rate, (x_m, y_m, mean), rows[seen], cell)]
 
 
 def _gazes(points: Array, worth: Array, view: _View, *, eye_m: float) -> tuple[Vector3, ...]:
