@@ -37,12 +37,24 @@ class View(msgspec.Struct, frozen=True, kw_only=True):
     camera: str = ""
 
 
+ROOM_M = 9.0
+"""Up to this size a world is looked at from the side."""
+
+
 def overview(world: World) -> View:
-    """The whole world, from its south-east."""
+    """The whole world, from its south-east: the steeper, the larger, as walls hide what is behind.
+
+    Nobody looks at a bare floor from further than at a large room.
+    """
     x_min, y_min, x_max, y_max = world.bounds_m
-    size = min(max(x_max - x_min, y_max - y_min), 9.0)
+    furnished = any(room.walls for room in world.rooms) or world.furniture
+    size = max(x_max - x_min, y_max - y_min) if furnished else ROOM_M
+    steeper = min(1.0, max(0.0, size - ROOM_M) / 4.0)
     at = ((x_min + x_max) / 2, (y_min + y_max) / 2, 0.55)
-    return View(at=at, distance_m=1.12 * size, heading_deg=118.0, down_deg=30.0)
+    return View(
+        at=at, distance_m=(1.12 + 0.38 * steeper) * size, heading_deg=118.0 - 28.0 * steeper,
+        down_deg=30.0 + 45.0 * steeper,
+    )  # fmt: skip
 
 
 class Renderer(Closing):
