@@ -38,9 +38,14 @@ def _towards(name: str | None, scene: Scene) -> dict[str, str]:
     return {"object_id": scene.object(query).id}
 
 
-def say(goal: goals.Say, _scene: Scene) -> Part:
-    """Say a text."""
-    return Errand(name=f"say {goal.what!r}", params=SayParams(text=goal.what))
+def say(goal: goals.Say, scene: Scene) -> Part:
+    """Say a text; to somebody who is known by name it is said to their face."""
+    words = Errand(name=f"say {goal.what!r}", params=SayParams(text=goal.what))
+    if goal.to is None or goal.to.name is None:
+        return words
+    found = scene.person(goal.to)
+    look = Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
+    return Series(name=f"tell {found.name}", parts=(go_to_person(goal.to, scene), look, words))
 
 
 def greet(goal: goals.Greet, scene: Scene) -> Part:

@@ -55,6 +55,11 @@ def refusal(text: str) -> Refused:
         ("look down and then straight ahead", ["look down", "look ahead"]),
         ("look behind you", ["turn around", "look ahead"]),
         ("say hello to ann", ["look at Ann", "say hello"]),
+        (
+            "tell ann that dinner is ready",
+            ["go to Ann", "look at Ann", "say 'dinner is ready'"],
+        ),
+        ("say that dinner is ready", ["say 'dinner is ready'"]),
         ("what are you holding", ["report holding"]),
     ],
 )
