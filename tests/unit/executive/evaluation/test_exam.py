@@ -109,3 +109,13 @@ def test_marks_can_be_read_on_any_terminal(columns, monkeypatch, capsys):
     evaluation.show(found())
     words = capsys.readouterr().out
     assert all(word in words for word in ("fetch", "count", "timeout", "1/2", "33%"))
+
+
+@pytest.mark.parametrize("kind", Simulation().home_kinds())
+def test_an_exam_of_a_made_home_is_sound(tmp_path, kind):
+    made = Simulation().home(kind, seed=11, file="home.yaml")
+    (tmp_path / "home.yaml").write_text(made.world)
+    (tmp_path / "home.tasks.yaml").write_text(made.tasks)
+    cases = exam.load(tmp_path / "home.tasks.yaml", Settings(Simulation()))
+    assert len(cases) == 10
+    assert all(case.kind and case.person_s and case.truth for case in cases)
