@@ -4,7 +4,7 @@
 :mod:`intents.english.corrections`.
 """
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition
+from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
 from intents.english.clauses.openings import begins_clause, skip_openings
 from intents.english.clauses.wishes import asks_end
 from intents.english.reading import Found, Sentence, clause_by_itself
@@ -33,6 +33,8 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     comma = text.word(end) == COMMA and end < len(text)
     otherwise = text.phrase_end(lexicon.ELSE, end + comma)
     if otherwise and not unless:
+        if not any(getattr(goal, "object", None) for goal in last):
+            mention(holds, sentence.scope)  # go out if the cup is not there, otherwise fetch it
         other, end = sequence(sentence.inner(), otherwise)
         return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
     if end < len(text) and text.word(end) != FULL_STOP:

@@ -10,7 +10,7 @@ from intents.english.words.verbs import verbs_at
 _SEEN = lexicon.words(
     "a an any the my some anyone anybody someone somebody anything it them him her"
 )
-_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
+_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
 def skip_openings(text: Text, at: int) -> int:

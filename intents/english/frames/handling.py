@@ -58,7 +58,12 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
     )
     if not roles and clause.measure("length"):
         return motion.go(clause, scope)
-    if "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
+    there = (
+        clause.verb == "take"
+        and scope.place
+        and any(c.phrases and c.phrase.noun == "there" for c in clause.complements)
+    )
+    if there or "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
         return [_put_down(goal) for goal in bring(clause, scope)]
     return pick(clause, scope)
 
@@ -253,7 +258,10 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("clear what?")
     slots.done()
     if spot is None:
-        raise Unclear("Where shall I put what is there?")
+        after = connector_end(clause.text, clause.end)
+        if after is None or not verbs_at(clause.text.words, after):
+            raise Unclear("Where shall I put what is there?")
+        return [Pick(object=replace(query, count="all")) for query in objects]
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
 
