@@ -34,7 +34,9 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     otherwise = text.phrase_end(lexicon.ELSE, end + comma)
     if otherwise and not unless:
         if not any(getattr(goal, "object", None) for goal in last):
-            mention(holds, sentence.scope)  # go out if the cup is not there, otherwise fetch it
+            mention(
+                holds, sentence.scope, met=False
+            )  # go out if the cup is not there, otherwise fetch it
         other, end = sequence(sentence.inner(), otherwise)
         return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
     if end < len(text) and text.word(end) != FULL_STOP:

@@ -1,5 +1,7 @@
 """Conditions: "the cup is not there", "you see a person", "the door is open"."""
 
+from msgspec.structs import replace
+
 from intents.english.phrases.bare_phrases import bare_phrase
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import Locative, NounPhrase
@@ -51,11 +53,15 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     return holds, end + (text.word(end) in _YET)
 
 
-def mention(holds: Condition, scope: Scope) -> None:
-    """Remember what a condition speaks of."""
+def mention(holds: Condition, scope: Scope, *, met: bool = True) -> None:
+    """Remember what a condition speaks of, as it is where the condition is met or is not.
+
+    If the cup is not on the table, put *it* there: then it is wherever it is.
+    """
     if isinstance(holds, Present):
-        scope.mention(holds.object or holds.person)
-        scope.mention((holds.object or holds.person or Person()).at)
+        spoken_of = holds.object or holds.person or Person()
+        scope.mention(spoken_of if met != holds.negated else replace(spoken_of, at=None))
+        scope.mention(spoken_of.at)
     elif isinstance(holds, Holding) and holds.object.name:
         scope.mention(holds.object)
 
@@ -67,7 +73,8 @@ def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:
         return None
     for table, negated in ((_SO, False), (_NOT_SO, True)):
         end = text.phrase_end(table, at)
-        if end and text.word(end) in (COMMA, FULL_STOP, "then"):
+        ends = end and (text.word(end) in (COMMA, FULL_STOP, "then") or text.word(end - 1) == "so")
+        if end and ends:
             return Present(object=last.object, person=last.person, negated=negated), end
     return None
 

@@ -21,7 +21,9 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     soon = as_soon_as(text, at, holds)
     if soon:
         return [soon], end + (text.word(end) == COMMA)
-    mention(holds, sentence.scope)
+    unless = text.word(at) == "unless"
+    mention(holds, sentence.scope, met=not unless)
+    spoken_of = sentence.scope.object
     end += text.word(end) == COMMA
     end += text.word(end) == "then"
     then, end = sequence(sentence.inner(), end)
@@ -33,7 +35,9 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     otherwise = text.phrase_end(lexicon.ELSE, skipped)
     other: list[Goal] = []
     if otherwise:
+        if sentence.scope.object == spoken_of:
+            mention(holds, sentence.scope, met=unless)
         other, end = sequence(sentence.inner(), otherwise)
-    if text.word(at) == "unless":
+    if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end

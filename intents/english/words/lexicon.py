@@ -277,7 +277,7 @@ DIRECTIONS = words(
 _PREPOSITIONS = frozenset(
     p[0] for table in (LOCATIVES, GOALWARDS, SOURCEWARDS, OTHER_PREPOSITIONS) for p in table
 )
-ADVERBS = words("still already currently again")
+ADVERBS = words("still already currently again yet anymore")
 """Of time; they say nothing in a question."""
 FUNCTION_WORDS = (
     DETERMINERS | ALL | PRONOUNS | AUXILIARIES | WH | CONJUNCTIONS | DIRECTIONS | _PREPOSITIONS
