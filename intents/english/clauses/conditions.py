@@ -50,6 +50,9 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         NotUnderstood: It is nothing the robot can check.
     """
     holds, end = _asked(text, at, scope) or _condition(text, at, scope)
+    if text.word(end) == "there" and scope.place and isinstance(holds, Present) and holds.object:
+        holds = replace(holds, object=replace(holds.object, at=holds.object.at or scope.place))
+        end += 1
     return holds, end + (text.word(end) in _YET)
 
 

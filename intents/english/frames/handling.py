@@ -35,7 +35,9 @@ _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "tos
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
     """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
-    if _gathers(clause, slots):
+    together = _gathered(clause, slots)
+    if together:
+        together.count = together.count or "all"
         return put(clause, scope)
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
@@ -53,15 +55,16 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     return [*picks, Wait(duration_s=duration)] if duration else picks
 
 
-def _gathers(clause: Clause, slots: Slots) -> bool:
+def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
     """Gather the cups on the table: there they are to be, if nothing else is done with them."""
     bare = slots.peek("")
     if clause.verb != "gather" or bare is None or "put" in _then(clause):
-        return False
+        return None
     phrase = bare.phrases[-1]
     several = phrase.count or phrase.said != " ".join(map(singular, phrase.said.split()))
     where = phrase.places[-1:] or [Locative(c.how, c.phrase) for c in clause.with_role("at")]
-    return bool(several and where and where[0].how == "on" and where[0].of.is_spot)
+    there = bool(where) and where[0].how == "on" and where[0].of.is_spot
+    return phrase if several and there else None
 
 
 def take(clause: Clause, scope: Scope) -> list[Goal]:

@@ -113,6 +113,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
     at, relation = _where(phrase, scope)
     if phrase.noun == "pronoun":
         known = scope.object or ObjectQuery(held=True)
+        if phrase.said in ("them", "they") and known.count == 1:
+            known = replace(known, count="all")  # if there are any cups, take them to the sink
         return replace(known, at=at or known.at, relation=relation or known.relation)
     if phrase.noun in ("operator", "person", "body", "here", "there", "place") or phrase.is_person:
         raise Misfit(f"“{phrase.said}” is not an object")

@@ -1,10 +1,10 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from intents.english.clauses.openings import otherwise_end
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import Unclear
-from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.goals import Goal, If
 
@@ -32,7 +32,7 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     skipped = end
     while text.word(skipped) in (COMMA, FULL_STOP) and skipped < len(text):
         skipped += 1
-    otherwise = text.phrase_end(lexicon.ELSE, skipped)
+    otherwise = otherwise_end(text, skipped)
     other: list[Goal] = []
     if otherwise:
         if sentence.scope.object == spoken_of:
