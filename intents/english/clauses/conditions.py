@@ -89,7 +89,7 @@ def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         there = scope.object if scope.object and not scope.person_is_last else None
         person = None if there else scope.person
         return Present(object=there, person=person, negated=True), none
-    if word == "there" and text.word(at + 1) in ("is", "are"):
+    if word == "there" and text.word(at + 1) in ("is", "are", "be"):
         negated, at = _negation(text, at + 2)
         return _present(text, at, scope, negated)
     empty = text.phrase_end(_EMPTY_HANDED, at)

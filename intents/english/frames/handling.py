@@ -210,7 +210,9 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     where = bare.phrases[-1].places[-1:] if bare else []
     wishes = clause.verb.startswith(_WISHES) and not clause.with_role("for", "from")
     on = bool(where) and where[0].how in ("on", "in") and where[0].of.is_spot
-    definite = bare is not None and all(one.determiner == "the" for one in bare.phrases)
+    definite = bare is not None and all(
+        one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
+    )
     return wishes and on and definite and not where[0].of.name("room")
 
 
