@@ -228,10 +228,10 @@ class Scene:
         found = self.knowledge.person(person.name) if named else None
         if found is not None:
             return found
-        who = person.name or ("you" if person.who else "a person of that description")
+        who = "you are" if person.who else f"{person.name or 'a person of that description'} is"
         names = ", ".join(known.name for known in self.knowledge.map.people)
         hint = f"people in this world: {names}" if names else "nobody is in this world"
-        raise cannot("unknown_place", f"the robot does not know where {who} is", suggestion=hint)
+        raise cannot("unknown_place", f"the robot does not know where {who}", suggestion=hint)
 
 
 def _bare(query: goals.ObjectQuery) -> goals.ObjectQuery:

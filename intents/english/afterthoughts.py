@@ -4,16 +4,19 @@
 :mod:`intents.english.corrections`.
 """
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition
-from intents.english.clauses.openings import begins_clause, skip_openings
+from msgspec.structs import replace
+
+from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
 from intents.english.clauses.wishes import asks_end
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
+from intents.english.substitution import substitute
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
-from intents.goals import Answer, Find, Goal, If, Repeat
+from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
 
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -30,9 +33,15 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if soon and (end >= len(text) or text.word(end) == FULL_STOP):
         return [soon, *last], end
     unless = text.word(at) == "unless"
+    if not unless and lexicon.ONES.intersection(text.words[start:end]):
+        holds, last = _one_of_those(holds, last)
     comma = text.word(end) == COMMA and end < len(text)
-    otherwise = text.phrase_end(lexicon.ELSE, end + comma)
+    otherwise = otherwise_end(text, end + comma)
     if otherwise and not unless:
+        if not any(getattr(goal, "object", None) for goal in last):
+            mention(
+                holds, sentence.scope, met=False
+            )  # go out if the cup is not there, otherwise fetch it
         other, end = sequence(sentence.inner(), otherwise)
         return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
     if end < len(text) and text.word(end) != FULL_STOP:
@@ -40,6 +49,21 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if unless:
         return [If(condition=holds, else_=tuple(last))], end
     return [If(condition=holds, then=tuple(last))], end
+
+
+def _one_of_those(holds: Condition, last: list[Goal]) -> tuple[Condition, list[Goal]]:
+    """Put a cup on the shelf if there is *one* on the table: a cup, and it is that one then."""
+    one = holds.object if isinstance(holds, Present) and not holds.negated else None
+    spoken_of = [q for goal in last if isinstance(q := getattr(goal, "object", None), ObjectQuery)]
+    meant = next((q for q in spoken_of if one and _kind(q) == _kind(one)), None)
+    if one is None or meant is None:
+        return holds, last
+    that = replace(meant, at=one.at or meant.at, relation=one.relation or meant.relation)
+    return Present(object=that), [substitute(goal, meant, that) for goal in last]
+
+
+def _kind(query: ObjectQuery) -> tuple[str | None, str | None]:
+    return query.name, query.category
 
 
 def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -36,6 +36,9 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
         if _already_sought(before[-1], goal):
             before.pop()
     last = before[-1] if before else goal
+    if _is_answer(last, goal):
+        before.pop()
+        return goal
     if isinstance(last, Balance) and isinstance(goal, Wait) and first in _HOLDS:
         before.pop()
         return replace(last, duration_s=goal.duration_s)
@@ -128,6 +131,17 @@ def _found_there(last: Goal, goal: Goal) -> Goal | None:
 
 def _bare(query: ObjectQuery) -> ObjectQuery:
     return replace(query, at=None)
+
+
+def _is_answer(last: Goal, goal: Goal) -> bool:
+    """Check whether a cup is on the table. If so, ...: the condition looks there by itself.
+
+    To find it would fail where there is none.
+    """
+    if not isinstance(last, Find) or not isinstance(goal, If) or not last.object:
+        return False
+    asked = goal.condition
+    return isinstance(asked, Present) and asked.object == last.object and bool(last.object.at)
 
 
 def _told_there(before: Goal, goal: Goal) -> Goal:

@@ -2,13 +2,12 @@
 
 import re
 
-from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.openings import otherwise_end, skip_openings
 from intents.english.corrections import taken_back
 from intents.english.joining import as_wished, joined, or_else, same_object
 from intents.english.reading import Found, Sentence, clause
 from intents.english.substitution import substitute
 from intents.english.trouble import Misfit, NotUnderstood, Partly
-from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
@@ -34,7 +33,7 @@ def sequence(sentence: Sentence, at: int) -> Found:
         if back:
             goals[last:], at = back
             continue
-        if at >= len(text) or (sentence.depth and text.phrase_end(lexicon.ELSE, at)):
+        if at >= len(text) or (sentence.depth and otherwise_end(text, at)):
             return goals, at
         changed = _changed(here, at, goals[last:]) if goals else None
         if changed:
@@ -100,7 +99,7 @@ def _one_more(sentence: Sentence, at: int) -> Found:
 def _ends_inner(text: Text, at: int) -> bool:
     if text.word(at) == FULL_STOP:
         return True
-    return bool(text.phrase_end(lexicon.ELSE, at + (text.word(at) == COMMA)))
+    return bool(otherwise_end(text, at + (text.word(at) == COMMA)))
 
 
 def _once(goals: list[Goal]) -> bool:

@@ -1,13 +1,16 @@
 """Conditions: "the cup is not there", "you see a person", "the door is open"."""
 
+from msgspec.structs import replace
+
+from intents.english.phrases.bare_phrases import bare_phrase
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import NotUnderstood
-from intents.english.words.lexer import singular
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import LOCATIVES, phrases
 from intents.english.words.text import Text
-from intents.goals import Condition, Find, Holding, ObjectQuery, Present, State
+from intents.goals import Condition, Find, Holding, ObjectQuery, Person, Present, State
 
 IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
 """How a condition begins."""
@@ -18,9 +21,21 @@ _EMPTY_HANDED = phrases(
     "you carry nothing,you are carrying nothing,you are empty handed,both hands are empty"
 )
 _NONE = phrases("there is none,there are none,there is not one,there is not any,it is not there")
+_SO = phrases(
+    "so,it is,they are,there is,there are,there is one,there is any,it is there,they are there,"
+    "that is so,that is the case,that is true,you do,you can,he is,she is,yes"
+)
+_NOT_SO = phrases(
+    "not,it is not,they are not,there is not,there are not,there is none,there are none,"
+    "there is not one,there is not any,it is not there,they are not there,that is not the case,"
+    "you do not,you can not,he is not,she is not,no"
+)
+"""How a condition takes up the question before it."""
+_YET = ("yet", "already", "still", "anymore", "now")
 _IS = ("is", "are", "stands", "stand", "stays", "be")
 _NO = ("no", "not", "never", "nothing", "any")
 _THERE = ("there", "here", "present", "visible", "available", "around", "home", "left")
+_THEREON = phrases("on it,on them,in it,in them,there,on top,on top of it,inside,inside it")
 _GONE = ("missing", "gone", "absent", "away")
 _IN_HAND = phrases("in your hand,in your hands,in the hand,in your gripper,in hand,with you")
 _STATES = ("open", "closed", "on", "off", "empty", "full")
@@ -34,13 +49,47 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     Raises:
         NotUnderstood: It is nothing the robot can check.
     """
+    holds, end = _asked(text, at, scope) or _condition(text, at, scope)
+    if text.word(end) == "there" and scope.place and isinstance(holds, Present) and holds.object:
+        holds = replace(holds, object=replace(holds.object, at=holds.object.at or scope.place))
+        end += 1
+    return holds, end + (text.word(end) in _YET)
+
+
+def mention(holds: Condition, scope: Scope, *, met: bool = True) -> None:
+    """Remember what a condition speaks of, as it is where the condition is met or is not.
+
+    If the cup is not on the table, put *it* there: then it is wherever it is.
+    """
+    if isinstance(holds, Present):
+        spoken_of = holds.object or holds.person or Person()
+        scope.mention(spoken_of if met != holds.negated else replace(spoken_of, at=None))
+        scope.mention(spoken_of.at)
+    elif isinstance(holds, Holding) and holds.object.name:
+        scope.mention(holds.object)
+
+
+def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:
+    """Check whether the cup is there. If *so*; if *it is*; if *not*: what was asked before."""
+    last = scope.last
+    if not isinstance(last, Find):
+        return None
+    for table, negated in ((_SO, False), (_NOT_SO, True)):
+        end = text.phrase_end(table, at)
+        ends = end and (text.word(end) in (COMMA, FULL_STOP, "then") or text.word(end - 1) == "so")
+        if end and ends:
+            return Present(object=last.object, person=last.person, negated=negated), end
+    return None
+
+
+def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     word = text.word(at)
     none = text.phrase_end(_NONE, at)
     if none and (scope.object or scope.person):
         there = scope.object if scope.object and not scope.person_is_last else None
         person = None if there else scope.person
         return Present(object=there, person=person, negated=True), none
-    if word == "there" and text.word(at + 1) in ("is", "are"):
+    if word == "there" and text.word(at + 1) in ("is", "are", "be"):
         negated, at = _negation(text, at + 2)
         return _present(text, at, scope, negated)
     empty = text.phrase_end(_EMPTY_HANDED, at)
@@ -55,9 +104,25 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         return Present(person=to_person(phrase, scope), negated=True), phrase.end
     negated, at = _negation(text, at)
     phrase = noun_phrase(text, at)
+    has = _on_it(text, phrase, scope) if phrase else None
+    if has:
+        return has
     if phrase is None or text.word(phrase.end) not in _IS:
         raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
     return _of_thing(text, phrase, scope, negated)
+
+
+def _on_it(text: Text, spot: NounPhrase, scope: Scope) -> tuple[Condition, int] | None:
+    """The table *has no cup on it*."""
+    if text.word(spot.end) not in ("has", "have") or not spot.is_spot:
+        return None
+    negated, at = _negation(text, spot.end + 1)
+    phrase = bare_phrase(text, at)
+    end = text.phrase_end(_THEREON, phrase.end) if phrase else None
+    if phrase is None or end is None:
+        return None
+    phrase.places.append(Locative("on", spot))
+    return _is_present(phrase, scope, negated), end
 
 
 def as_soon_as(text: Text, at: int, holds: Condition) -> Find | None:
@@ -71,8 +136,8 @@ def as_soon_as(text: Text, at: int, holds: Condition) -> Find | None:
 
 def _negation(text: Text, at: int) -> tuple[bool, int]:
     negated = False
-    while text.word(at) in _NO:
-        negated = negated or text.word(at) != "any"
+    while text.word(at) in _NO or (text.word(at) in _YET and not text.name_at(at)):
+        negated = negated or (text.word(at) in _NO and text.word(at) != "any")
         at += 1
     return negated, at
 

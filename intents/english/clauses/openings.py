@@ -10,7 +10,13 @@ from intents.english.words.verbs import verbs_at
 _SEEN = lexicon.words(
     "a an any the my some anyone anybody someone somebody anything it them him her"
 )
-_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS
+_IF_NOT = lexicon.phrases(
+    "if no,if it is not,if they are not,if there is not,if there are not,if there is none,"
+    "if there are none,if there is not one,if there is not any,if it is not there,"
+    "if they are not there,if you do not,if you can not"
+)
+"""These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
+_OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
 def skip_openings(text: Text, at: int) -> int:
@@ -33,6 +39,14 @@ def skip_openings(text: Text, at: int) -> int:
     return at
 
 
+def otherwise_end(text: Text, at: int) -> int | None:
+    """Where "otherwise", "if not" or "if it is not," ends, if it begins at a word."""
+    asked = text.phrase_end(_IF_NOT, at)
+    if asked and text.word(asked) == COMMA:
+        return asked
+    return text.phrase_end(lexicon.ELSE, at)
+
+
 def _opening_end(text: Text, at: int) -> int | None:
     """Where "could you" or "and then" ends, if it is no part of what is asked for."""
     if text.words[at + 1 : at + 3] == ["you", "see"] and _is_seen(text, at + 3):
@@ -47,7 +61,7 @@ def _opening_end(text: Text, at: int) -> int | None:
     if open_ended and not connector_end(text, at) and not opens_verb:
         return None
     named = text.name_at(at)
-    if text.phrase_end(lexicon.ELSE, at) or (named and named.end >= end):
+    if otherwise_end(text, at) or (named and named.end >= end):
         return None
     return end
 

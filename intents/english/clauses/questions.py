@@ -161,7 +161,8 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
     start = skip_being(text, at + 1) if asked else at
     start += text.words[start : start + 2] == ["one", "of"]
     start += asked and text.word(start) == "of"
-    color = lexicon.COLORS.get(text.word(start)) if text.word(start - 1) in BE else None
+    colors = text.index.colors
+    color = colors.get(text.word(start)) if text.word(start - 1) in BE else None
     if color and start + 1 == len(text):
         phrase, end = NounPhrase(start, start, noun="object", said="object", color=color), start + 1
     elif asked and text.lookup(lexicon.LOCATIVES, start + (text.word(start) in _LYING)):
@@ -175,8 +176,8 @@ def _which(text: Text, at: int, scope: Scope, to: Person | None, told: bool) -> 
             return None
         phrase, end = found, read_on(text, found)
         end = _predicate_superlative(text, phrase, end)
-        if phrase.color is None and text.word(end) in lexicon.COLORS:
-            phrase.color, end = lexicon.COLORS[text.word(end)], end + 1
+        if phrase.color is None and text.word(end) in colors:
+            phrase.color, end = colors[text.word(end)], end + 1
     if is_person(phrase, scope):
         return [Tell(person=to_person(phrase, scope), property="name", to=to)], end
     if text.word(end - 1) == "there" and scope.place and not phrase.places:

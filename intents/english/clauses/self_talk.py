@@ -136,9 +136,17 @@ def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
         end += 1
     for stop in _ends(text, at, end):
         topic = _topic(" ".join(text.words[at:stop]))
-        if topic:
+        if topic and not (topic == "health" and _of_a_thing(text, at, stop)):
             return [Report(topic=topic)], stop
     return None
+
+
+def _of_a_thing(text: Text, at: int, end: int) -> bool:
+    """How many batteries are there? Of the robot's own it is "your battery"."""
+    named = ((n, text.name_at(n)) for n in range(at, end))
+    return any(
+        name and name.of("object", "category") and text.word(n - 1) != "your" for n, name in named
+    )
 
 
 def _ends(text: Text, at: int, end: int) -> Iterator[int]:

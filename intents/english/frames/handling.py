@@ -9,9 +9,10 @@ from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
 from intents.english.phrases.complements import Clause, Complement, connector_end
-from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.words.lexer import singular
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
@@ -27,12 +28,17 @@ from intents.goals import (
     Wait,
 )
 
+_WISHES = ("i need", "i want", "i would like", "we need", "we want", "we would like")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
     """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
+    together = _gathered(clause, slots)
+    if together:
+        together.count = together.count or "all"
+        return put(clause, scope)
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
     objects = slots.objects()
@@ -49,6 +55,18 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     return [*picks, Wait(duration_s=duration)] if duration else picks
 
 
+def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
+    """Gather the cups on the table: there they are to be, if nothing else is done with them."""
+    bare = slots.peek("")
+    if clause.verb != "gather" or bare is None or "put" in _then(clause):
+        return None
+    phrase = bare.phrases[-1]
+    several = phrase.count or phrase.said != " ".join(map(singular, phrase.said.split()))
+    where = phrase.places[-1:] or [Locative(c.how, c.phrase) for c in clause.with_role("at")]
+    there = bool(where) and where[0].how == "on" and where[0].of.is_spot
+    return phrase if several and there else None
+
+
 def take(clause: Clause, scope: Scope) -> list[Goal]:
     """Take or get: to bring if there is a receiver, to place if there is a destination."""
     roles = [c.role for c in clause.complements if c.phrases]
@@ -58,7 +76,12 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
     )
     if not roles and clause.measure("length"):
         return motion.go(clause, scope)
-    if "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
+    there = (
+        clause.verb == "take"
+        and scope.place
+        and any(c.phrases and c.phrase.noun == "there" for c in clause.complements)
+    )
+    if there or "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
         return [_put_down(goal) for goal in bring(clause, scope)]
     return pick(clause, scope)
 
@@ -89,10 +112,10 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     at = slots.loose_place()
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
         raise NotUnderstood("I can take things to a place, not move them a little")
-    if to is None and clause.verb.startswith(MOVES):
-        after = connector_end(clause.text, clause.end)
-        if after is None or not verbs_at(clause.text.words, after):
-            raise Unclear("Where shall I take it?")
+    then = _then(clause)
+    if to is None and clause.verb.startswith(MOVES) and not then:
+        raise Unclear("Where shall I take it?")
+    if to is None and (clause.verb.startswith(MOVES) or "put" in then):
         return [Pick(object=replace(o, at=o.at or at)) for o in objects]
     slots.direction("backward")
     slots.done()
@@ -102,6 +125,12 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
+
+
+def _then(clause: Clause) -> set[str]:
+    """The senses of the verb that goes on after "and": take the cup *and put it there*."""
+    after = connector_end(clause.text, clause.end)
+    return {sense for sense, _ in verbs_at(clause.text.words, after)} if after else set()
 
 
 def _receiver(slots: Slots) -> Person | str | None:
@@ -175,9 +204,23 @@ def _provided(slots: Slots) -> None:
         bare.role, thing.role = "to", ""
 
 
+def _is_to_stand(clause: Clause, slots: Slots) -> bool:
+    """I need the vase on the sideboard: there it is to be; "can I have" asks for it here."""
+    bare = slots.peek("")
+    where = bare.phrases[-1].places[-1:] if bare else []
+    wishes = clause.verb.startswith(_WISHES) and not clause.with_role("for", "from")
+    on = bool(where) and where[0].how in ("on", "in") and where[0].of.is_spot
+    definite = bare is not None and all(
+        one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
+    )
+    return wishes and on and definite and not where[0].of.name("room")
+
+
 def want(clause: Clause, scope: Scope) -> list[Goal]:
     """I want the leftmost object; can I have a drink."""
     slots = Slots(clause, scope)
+    if _is_to_stand(clause, slots):
+        return put(clause, scope)
     objects = slots.objects()
     need(objects, "What shall I bring?")
     slots.take_person("for")
@@ -253,7 +296,9 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("clear what?")
     slots.done()
     if spot is None:
-        raise Unclear("Where shall I put what is there?")
+        if not _then(clause):
+            raise Unclear("Where shall I put what is there?")
+        return [Pick(object=replace(query, count="all")) for query in objects]
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
 

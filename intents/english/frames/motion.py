@@ -45,20 +45,16 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     """Go to the kitchen; walk two metres forward; come here."""
     slots = Slots(clause, scope)
     target = slots.take("to", "into", "at", "through") or slots.take("")
-    carried = slots.take("with")
-    if carried and target and target.role in ("to", "into") and carried.phrase.name("object"):
-        query = to_object(carried.phrase, scope)
-        source = slots.source()
-        slots.done()
-        thing = replace(query, at=query.at or source)
-        return [Place(object=thing, on=to_place(target.phrase, scope))]
-    if carried:
-        slots.rest.append(carried)
+    taken = _carried(slots, target)
+    if taken:
+        return taken
     bare = target is not None and target.role == "" and not target.phrase.is_spot
     bare = bare and not (target and target.phrase.where)
     if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
         raise Misfit("that is to move something")
     source = slots.take("from")
+    if source and target and source.phrase.noun == "there":
+        source = None  # to the hall, and from there to the lab: it is there by then
     distance = slots.measure("length")
     direction = slots.direction(*_BY)
     slots.direction("around", "up", "down")
@@ -91,6 +87,22 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     for phrase in target.phrases:
         must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
+
+
+def _carried(slots: Slots, target: Complement | None) -> list[Goal]:
+    """Come to the door *with the cup*; come to the door *with it*."""
+    scope, carried = slots.scope, slots.peek("with")
+    if carried is None or target is None or target.role not in ("to", "into"):
+        return []
+    it = carried.phrase.noun == "pronoun" and scope.object and not is_person(carried.phrase, scope)
+    if not it and not carried.phrase.name("object"):
+        return []
+    slots.take("with")
+    query = to_object(carried.phrase, scope)
+    source = slots.source()
+    slots.done()
+    query = replace(query, at=query.at or source)
+    return [Place(object=query, on=to_place(target.phrase, scope))]
 
 
 def _must_be_to(target: Complement, clause: Clause) -> None:

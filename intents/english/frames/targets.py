@@ -42,6 +42,10 @@ def destination(slots: Slots) -> Target | None:
         return _spot(Locative(at.how, at.phrase, other), slots.scope)
     bares = [c for c in slots.rest if c.phrases and c.role == ""]
     there = next((c for c in bares[1:] if c.phrase.noun == "there"), None)
+    last = slots.scope.last
+    if there and isinstance(last, Place) and last.relation:
+        slots.rest.remove(there)
+        return Target(relation=last.relation)
     if there and slots.scope.place:
         slots.rest.remove(there)
         return Target(on=slots.scope.place)

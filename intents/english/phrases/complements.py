@@ -293,6 +293,8 @@ def read_list(text: Text, at: int) -> tuple[list[NounPhrase], int]:
     while True:
         following = _next_in_list(text, end, items[-1])
         if following is None:
+            if len(items) > 1 and text.word(at) == "both":
+                first.count = None  # both the cup and the plate: one of each
             return items, end
         items.append(following)
         end = following.end
@@ -302,6 +304,7 @@ def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
     """The noun phrase after "and" - not the beginning of another clause."""
     start = at + (text.word(at) == COMMA)
     start += text.word(start) in ("and", "or", "plus")
+    start += start > at and text.word(start) == "also"
     if start == at or ends_clause(text, start) or last.noun in ("here", "there", "operator"):
         return None
     named = text.name_at(start)

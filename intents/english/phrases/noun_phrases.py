@@ -12,7 +12,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, singular
-from intents.english.words.lexicon import COLORS, DETERMINERS, LOCATIVES
+from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
 from intents.english.words.text import Text
 from intents.goals import Superlative
 
@@ -37,6 +37,8 @@ _LYING_AROUND = lexicon.words(
 )
 
 
+_BOARDS = lexicon.words("board shelf level tier compartment rack row")
+"""What a piece of furniture has one above the other."""
 _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
 
@@ -72,6 +74,9 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     inner = noun_phrase(text, at + 1)
     if inner is None or inner.is_person:
         return None
+    board = _board_of(text, phrase, inner)
+    if board:
+        return board
     counted = phrase.noun in ("one", "object") or not phrase.said
     said = singular(phrase.said.split()[-1]) if phrase.said else ""
     if phrase.noun == "one" and not phrase.determiner:
@@ -87,6 +92,22 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if inner.name("room"):
         phrase.places.append(Locative("in", inner))
         return inner.end
+    return None
+
+
+def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
+    """The upper board *of the bookcase*, where the world has an "upper bookcase"."""
+    level, _, noun = phrase.said.rpartition(" ")
+    if noun not in _BOARDS or not inner.name("place"):
+        return None
+    for word in LEVELS.get(phrase.level or level, ()):
+        named = text.index.exact(f"{word} {inner.said}") or text.index.exact(f"{inner.said} {word}")
+        if named:
+            phrase.noun, phrase.names, phrase.exact = "name", named, True
+            phrase.level = phrase.side = ""
+            phrase.said = f"{word} {inner.said}"
+            phrase.places += inner.places
+            return inner.end
     return None
 
 
@@ -139,8 +160,9 @@ def _predicate(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most:
         phrase.superlative = most[0]
         return most[1] + (text.word(most[1]) in lexicon.ONES)
-    if text.word(at) in COLORS:
-        phrase.color = COLORS[text.word(at)]
+    color = text.index.colors.get(text.word(at))
+    if color:
+        phrase.color = color
         return at + 1
     return None
 

@@ -3,7 +3,7 @@
 from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import QUOTE
-from intents.english.words.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS
+from intents.english.words.lexicon import ALL, DETERMINERS, GENDERS, LEVELS
 from intents.english.words.names import Match
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
@@ -54,8 +54,9 @@ def _something(text: Text, phrase: NounPhrase, at: int) -> int:
         return at + 3
     if text.word(at) == "everything":
         phrase.count = "all"
-    if text.word(at) in SOMETHING and text.word(at + 1) in COLORS:
-        phrase.color = COLORS[text.word(at + 1)]
+    color = text.index.colors.get(text.word(at + 1))
+    if text.word(at) in SOMETHING and color:
+        phrase.color = color
         return at + 2
     return at + 1
 

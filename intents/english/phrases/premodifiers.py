@@ -2,7 +2,7 @@
 
 from intents.english.phrases.phrase import NounPhrase, is_content
 from intents.english.words import lexicon
-from intents.english.words.lexicon import ALL, COLORS, DETERMINERS, GENDERS, LEVELS, SIZES
+from intents.english.words.lexicon import ALL, DETERMINERS, GENDERS, LEVELS, SIZES
 from intents.english.words.measures import UNIT_WORDS, number
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
@@ -56,8 +56,9 @@ def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return at + 1
     if match and (match.end > at + 1 or not is_content(text, at + 1)):
         return None
-    if word in COLORS and not (match and verbs_at(text.words, at + 1)):
-        phrase.color = COLORS[word]
+    colors = text.index.colors
+    if word in colors and not (match and verbs_at(text.words, at + 1)):
+        phrase.color = colors[word]
         return at + 1
     if match:
         return None

@@ -7,7 +7,6 @@ from msgspec.structs import replace
 
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
-from intents.english.words.lexicon import COLORS
 from intents.english.words.names import NameIndex
 from intents.goals import (
     OPERATOR,
@@ -114,6 +113,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
     at, relation = _where(phrase, scope)
     if phrase.noun == "pronoun":
         known = scope.object or ObjectQuery(held=True)
+        if phrase.said in ("them", "they") and known.count == 1:
+            known = replace(known, count="all")  # if there are any cups, take them to the sink
         return replace(known, at=at or known.at, relation=relation or known.relation)
     if phrase.noun in ("operator", "person", "body", "here", "there", "place") or phrase.is_person:
         raise Misfit(f"“{phrase.said}” is not an object")
@@ -149,7 +150,7 @@ def _other(query: ObjectQuery, said: str, scope: Scope) -> ObjectQuery:
         choices = tuple(f"{mark} {query.name}" for mark in marks)
         which = f", {_the(list(choices))}" if choices else " do you mean"
         raise Unclear(f"Which {query.name or 'one'}{which}?", choices, f"other {said}")
-    colored = marks[0] in COLORS
+    colored = marks[0] in scope.index.colors
     known = last.color if colored else last.size
     first = known if known in marks else marks[0]
     second = marks[1] if first == marks[0] else marks[0]

@@ -1,13 +1,12 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition
-from intents.english.phrases.referents import Scope
+from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from intents.english.clauses.openings import otherwise_end
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import Unclear
-from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.goals import Condition, Goal, Holding, If, Person, Present
+from intents.goals import Goal, If
 
 
 def conditional(sentence: Sentence, at: int) -> Found | None:
@@ -22,7 +21,9 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     soon = as_soon_as(text, at, holds)
     if soon:
         return [soon], end + (text.word(end) == COMMA)
-    _mention(holds, sentence.scope)
+    unless = text.word(at) == "unless"
+    mention(holds, sentence.scope, met=not unless)
+    spoken_of = sentence.scope.object
     end += text.word(end) == COMMA
     end += text.word(end) == "then"
     then, end = sequence(sentence.inner(), end)
@@ -31,19 +32,12 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     skipped = end
     while text.word(skipped) in (COMMA, FULL_STOP) and skipped < len(text):
         skipped += 1
-    otherwise = text.phrase_end(lexicon.ELSE, skipped)
+    otherwise = otherwise_end(text, skipped)
     other: list[Goal] = []
     if otherwise:
+        if sentence.scope.object == spoken_of:
+            mention(holds, sentence.scope, met=unless)
         other, end = sequence(sentence.inner(), otherwise)
-    if text.word(at) == "unless":
+    if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
-
-
-def _mention(holds: Condition, scope: Scope) -> None:
-    """Remember what a condition speaks of."""
-    if isinstance(holds, Present):
-        scope.mention(holds.object or holds.person)
-        scope.mention((holds.object or holds.person or Person()).at)
-    elif isinstance(holds, Holding) and holds.object.name:
-        scope.mention(holds.object)

@@ -15,11 +15,8 @@ _TO_AND_FRO = lexicon.phrases(
     "go back and forth between,walk back and forth between,move back and forth between,"
     "run back and forth between,go to and fro between,walk to and fro between"
 )
-_PATROL = lexicon.phrases(
-    "patrol,go on patrol,do your rounds,make your rounds,make the rounds,do the rounds,"
-    "go the rounds,make a round,do a round,do a tour,make a tour"
-)
 _THROUGH = lexicon.phrases("through,of,to,at,in,around,between,along,from")
+_ROUNDS = ("round", "rounds", "tour", "tours", "lap", "laps", "patrol", "patrols")
 _ASIDE = lexicon.phrases(
     "step aside,move aside,go aside,stand aside,get out of the way,get out of my way,"
     "move out of the way,move out of my way,go out of the way,out of the way,out of my way,"
@@ -60,12 +57,16 @@ def to_and_fro(sentence: Sentence, at: int) -> Found | None:
 def patrol(sentence: Sentence, at: int) -> Found | None:
     """Patrol the kitchen, the hall and the bedroom twice; once, if it is not said how often."""
     text = sentence.text
-    start = text.phrase_end(_PATROL, at)
-    if start is None:
+    start = text.phrase_end(lexicon.PATROLS, at)
+    counted = number(text.words, at + 1) if text.word(at) in ("do", "make", "go") else None
+    if start is None and counted and text.word(counted.end) in _ROUNDS:
+        times, start = counted, counted.end + 1
+    elif start is not None:
+        early = measure(text.words, start)  # patrol twice through the kitchen and the hall
+        times = early if early is not None and early.kind == "times" else None
+        start = times.end if times else start
+    else:
         return None
-    early = measure(text.words, start)  # patrol twice through the kitchen and the hall
-    times = early if early is not None and early.kind == "times" else None
-    start = times.end if times else start
     if times is None and text.word(start) == "between":
         return None  # to and fro, which asks how often
     start = text.phrase_end(_THROUGH, start) or start

@@ -19,7 +19,10 @@ def question(sentence: Sentence, at: int) -> Found | None:
 
 
 def whether(sentence: Sentence, at: int) -> Found | None:
-    """Look whether the ball is behind the box."""
+    """Look whether the ball is behind the box; go and see how many there are."""
     start = sentence.text.phrase_end(_LOOKS, at)
-    asked = start is not None and sentence.text.word(start) in ("if", "whether")
-    return question(sentence, start) if start and asked else None
+    text = sentence.text
+    if start is None:
+        return None
+    counts = text.words[start : start + 2] == ["how", "many"]
+    return question(sentence, start) if counts or text.word(start) in ("if", "whether") else None

@@ -121,6 +121,7 @@ _IRREGULAR = {
     "knives": "knife", "shelves": "shelf", "loaves": "loaf", "leaves": "leaf", "halves": "half",
     "people": "person", "persons": "person", "men": "man", "women": "woman", "mice": "mouse",
     "children": "child", "feet": "foot", "cookies": "cookie", "teeth": "tooth", "lens": "lens",
+    "thermoses": "thermos", "buses": "bus", "lenses": "lens", "cactuses": "cactus",
     "veggies": "veggie", "ladies": "lady", "movies": "movie", "brownies": "brownie",
     "smoothies": "smoothie", "scarves": "scarf", "grey": "gray", "pies": "pie", "ties": "tie",
 }  # fmt: skip

@@ -259,6 +259,11 @@ LIGHT_VERBS = phrases(
 )
 """Verbs that say nothing but that an act is done: "do a squat", "give a wave"."""
 
+PATROLS = phrases(
+    "patrol,go on patrol,do your rounds,make your rounds,make the rounds,do the rounds,"
+    "go the rounds,make a round,do a round,do a tour,make a tour"
+)
+"""How a patrol begins."""
 AUXILIARIES = words(
     "is are was were be been am do does did has have had can could will would should shall may "
     "might must not"
@@ -272,7 +277,7 @@ DIRECTIONS = words(
 _PREPOSITIONS = frozenset(
     p[0] for table in (LOCATIVES, GOALWARDS, SOURCEWARDS, OTHER_PREPOSITIONS) for p in table
 )
-ADVERBS = words("still already currently again")
+ADVERBS = words("still already currently again yet anymore")
 """Of time; they say nothing in a question."""
 FUNCTION_WORDS = (
     DETERMINERS | ALL | PRONOUNS | AUXILIARIES | WH | CONJUNCTIONS | DIRECTIONS | _PREPOSITIONS

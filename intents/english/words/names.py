@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 from rapidfuzz import fuzz, process
 
 from intents.english.words.lexer import singular, tokenize
-from intents.english.words.lexicon import AKIN, SYNONYMS
+from intents.english.words.lexicon import AKIN, COLORS, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]
@@ -65,7 +65,8 @@ class NameIndex:
     """A vocabulary compiled for looking names up.
 
     Attributes:
-        words: Every word of every name, singular and as spelled.
+        words: Every word of every name, singular and as spelled, and every colour of a thing.
+        colors: Colour words and what they mean, with those that only this world has ("teal").
         furniture: Names of places that are walked up to and nothing else.
     """
 
@@ -74,7 +75,9 @@ class NameIndex:
         self._names: dict[str, tuple[Name, ...]] = {}
         self._parts: dict[str, tuple[Name, ...]] = {}
         self._longest = 1
-        self.words: frozenset[str] = frozenset()
+        told = {t.color: t.color for t in vocabulary.objects if t.color.isalpha()}
+        self.colors = told | COLORS
+        self.words: frozenset[str] = frozenset(told)
         self._variants = _variants(vocabulary)
         floors = [s.name for s in (*vocabulary.rooms, *vocabulary.places) if not s.furniture]
         self.furniture = frozenset(s.name for s in vocabulary.places).difference(floors)

@@ -6,12 +6,14 @@ from typing import TypeVar
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
+    ALL,
     DETERMINERS,
     FILLERS,
     FUNCTION_WORDS,
     Phrase,
     words,
 )
+from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.verbs import participle_base
@@ -55,7 +57,9 @@ class Text:
                 corrected.append(token)
             else:
                 self.corrections.append((token.raw, " ".join(meant)))
-                corrected += [Token(w, w) for w in meant]
+                # What is only passed on, as in "say ...", is said as it was written.
+                raws = [token.raw] if len(meant) == 1 else meant
+                corrected += [Token(w, raw) for w, raw in zip(meant, raws, strict=True)]
         corrected = [
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
@@ -63,6 +67,7 @@ class Text:
         self.tokens: list[Token] = _unfinished(_without_fillers(corrected, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
+        self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
 
     def __len__(self) -> int:
         return len(self.words)
@@ -77,7 +82,7 @@ class Text:
             known = 0 <= at < len(self.words)
             match = self.index.match(self.words, at) if known else None
             small = match and match.end == at + 1 and self.words[at] in FUNCTION_WORDS
-            small = small and self.word(at - 1) not in DETERMINERS
+            small = small and self.word(at - 1) not in self._before_nouns
             self._matches[at] = None if small else match
         return self._matches[at]
 
