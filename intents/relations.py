@@ -13,8 +13,10 @@ import msgspec
 from intents.goals import How, Superlative
 
 Point = tuple[float, float, float]
-NEAR_M = 0.35
+NEAR_M = 0.45
 """Free distance up to which two things are next to each other [m]."""
+LEVEL_M = 0.2
+"""Boards of a shelf are 0.25 m apart or more: what stands on the next one is not next to it."""
 ASIDE = 0.5
 """Least share of a distance that has to be sideways for "left", or along for "behind"."""
 TOUCH_M = 0.05
@@ -93,6 +95,10 @@ def _gap_m(upper: Body, lower: Body) -> float:
     return (upper.p_WO[2] - upper.size_m[2] / 2) - (lower.p_WO[2] + lower.size_m[2] / 2)
 
 
+def _foot_m(one: Body) -> float:
+    return one.p_WO[2] - one.size_m[2] / 2
+
+
 def _on(one: Body, other: Body) -> bool:
     return _overlap(one, other) and abs(_gap_m(one, other)) <= TOUCH_M
 
@@ -112,7 +118,9 @@ def _in(one: Body, other: Body) -> bool:
 
 def _near(one: Body, other: Body) -> bool:
     apart_m = hypot(one.p_WO[0] - other.p_WO[0], one.p_WO[1] - other.p_WO[1])
-    level = abs(one.p_WO[2] - other.p_WO[2]) <= NEAR_M + other.size_m[2] / 2
+    off_m = abs(one.p_WO[2] - other.p_WO[2])
+    foot_off_m = abs(_foot_m(one) - _foot_m(other))
+    level = off_m <= other.size_m[2] / 2 or min(off_m, foot_off_m) <= LEVEL_M
     return level and apart_m - one.radius_m - other.radius_m <= NEAR_M
 
 
