@@ -67,6 +67,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         cost: how little it is liked beside the others.
         quota: how many candidates of it a search looks at.
         base_height_m: of the base; None: as for walking.
+        last: whether it is tried only where none of the others leads there.
     """
 
     pitch_rad: q.Angle = 0.0
@@ -75,6 +76,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     cost: q.Cost
     quota: q.Quota
     base_height_m: q.Length | None = None
+    last: bool = False
 
 
 class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
