@@ -17,6 +17,7 @@ import numpy as np
 
 from robot.failures import Failure, failure
 from robot.messages import Side
+from robot.planning.depth import too_deep
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
@@ -61,7 +62,7 @@ def search(
         choice = _first_good(body, problem, candidates, tally, last=last)
         if choice is not None:
             return choice
-    return _explain(problem, floor, tried, total, tally)
+    return _explain(body, problem, floor, (tried, total), tally)
 
 
 def _first_good(
@@ -85,10 +86,11 @@ def _first_good(
 
 
 def _explain(
-    problem: HandlingProblem, floor: Floor, candidates: int, total: int, tally: Tally
+    body: Body, problem: HandlingProblem, floor: Floor, counts: tuple[int, int], tally: Tally
 ) -> Failure:
     """Which stage nothing passed."""
     x, y, z = (float(value) for value in problem.references[0])
+    candidates, total = counts
     if candidates == 0:
         name, distance = floor.nearest(x, y)
         return failure(
@@ -111,7 +113,8 @@ def _explain(
         )
     common = tally.touched.most_common(2) or [("itself", 0)]
     blockers = [name for name, _ in common]
-    return failure(
+    reaching = body.description.handy.reaching
+    return too_deep(problem, floor, reaching, blockers=blockers) or failure(
         "goal_in_collision",
         f"every way for the hand to {problem.what} found touches {' or '.join(blockers)}",
         blocked_by=", ".join(blockers),
