@@ -29,7 +29,8 @@ def too_deep(
     if support is None or not set(blockers) <= {support.id, END}:
         return None
     from_edge_m, height_m = _from_edge_m(support, floor, at), support.z_range_m()[1]
-    deep_m = float(np.interp(height_m, *np.array(reaching.deep_m).T))
+    heights, depths = zip(*reaching.deep_m, strict=True)
+    deep_m = float(np.interp(height_m, heights, depths))
     if not deep_m < from_edge_m < np.inf:
         return None
     return failure(
