@@ -67,6 +67,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         cost: how little it is liked beside the others.
         quota: how many candidates of it a search looks at.
         base_height_m: of the base; None: as for walking.
+        last: whether it is tried only where none of the others leads there.
     """
 
     pitch_rad: q.Angle = 0.0
@@ -75,6 +76,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     cost: q.Cost
     quota: q.Quota
     base_height_m: q.Length | None = None
+    last: bool = False
 
 
 class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -105,6 +107,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         arm_room_m: clearance of a standing place at which an arm can be raised freely.
         narrow_m, roomy_m: least clearance of a stance's middle, and that which costs nothing.
         carrying: of things in the hand.
+        deep_m: how far from the edge of a surface a hand picks up, by the surface's height, rising:
+            (height, depth); for the words of a refusal. Empty: not measured.
     """
 
     leans: q.Several[Lean]
@@ -120,6 +124,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     narrow_m: q.Margin
     roomy_m: q.Margin
     carrying: Carrying
+    deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
 
 
 class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -17,11 +17,12 @@ import numpy as np
 
 from robot.failures import Failure, failure
 from robot.messages import Side
+from robot.planning.depth import too_deep
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
 from robot.planning.robot_body import Body
-from robot.planning.stances import propose
+from robot.planning.stances import Candidates, propose
 from robot.planning.trials import passing
 
 BATCH = 160
@@ -41,23 +42,37 @@ def search(
     seed: int,
 ) -> Choice | Failure:
     """The best of the first good candidates, or why there is none."""
-    candidates, total = propose(
-        problem.options,
-        problem.references,
-        floor,
-        reaching=body.description.handy.reaching,
-        sides=sides,
-        start=start,
-        radius_m=body.description.body_radius_m + 0.02,
-        reference_cost=problem.reference_cost,
-        walk_cost_per_m=problem.walk_cost_per_m,
-        seed=seed,
-    )
-    tally = Tally()
+    tally, tried, total = Tally(), 0, 0
+    leans = body.description.handy.reaching.leans
+    for last in sorted({lean.last for lean in leans}):
+        candidates, proposed = propose(
+            problem.options,
+            problem.references,
+            floor,
+            reaching=body.description.handy.reaching,
+            sides=sides,
+            start=start,
+            radius_m=body.description.body_radius_m + 0.02,
+            reference_cost=problem.reference_cost,
+            walk_cost_per_m=problem.walk_cost_per_m,
+            seed=seed,
+            last=last,
+        )
+        tried, total = tried + len(candidates), total + proposed
+        choice = _first_good(body, problem, candidates, tally, last=last)
+        if choice is not None:
+            return choice
+    return _explain(body, problem, floor, (tried, total), tally)
+
+
+def _first_good(
+    body: Body, problem: HandlingProblem, candidates: Candidates, tally: Tally, *, last: bool
+) -> Choice | None:
+    """The best of the first batch with a good one, else the best of all."""
     for first in range(0, len(candidates), BATCH):
         rows = np.arange(first, min(first + BATCH, len(candidates)))
         patience = PATIENCE
-        for choice in passing(body, problem, candidates.take(rows), tally):
+        for choice in passing(body, problem, candidates.take(rows), tally, last=last):
             if choice is not None and choice.score > tally.score:
                 tally.best = choice
             best = tally.best
@@ -67,14 +82,15 @@ def search(
                     return best
         if tally.best is not None and tally.best.steadiness == 1.0:
             return tally.best
-    return tally.best or _explain(problem, floor, len(candidates), total, tally)
+    return tally.best
 
 
 def _explain(
-    problem: HandlingProblem, floor: Floor, candidates: int, total: int, tally: Tally
+    body: Body, problem: HandlingProblem, floor: Floor, counts: tuple[int, int], tally: Tally
 ) -> Failure:
     """Which stage nothing passed."""
     x, y, z = (float(value) for value in problem.references[0])
+    candidates, total = counts
     if candidates == 0:
         name, distance = floor.nearest(x, y)
         return failure(
@@ -97,7 +113,8 @@ def _explain(
         )
     common = tally.touched.most_common(2) or [("itself", 0)]
     blockers = [name for name, _ in common]
-    return failure(
+    reaching = body.description.handy.reaching
+    return too_deep(problem, floor, reaching, blockers=blockers) or failure(
         "goal_in_collision",
         f"every way for the hand to {problem.what} found touches {' or '.join(blockers)}",
         blocked_by=", ".join(blockers),

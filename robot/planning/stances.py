@@ -110,6 +110,7 @@ def propose(
     reference_cost: Array,
     walk_cost_per_m: float,
     seed: int,
+    last: bool = False,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
 
@@ -124,6 +125,7 @@ def propose(
         reference_cost: cost of each reference, shape (m,).
         walk_cost_per_m: cost of walking a metre to the stance.
         seed: of the spread.
+        last: in the postures that are tried last, instead of the others.
     """
     stances: list[Array] = []
     headings: list[Array] = []
@@ -132,6 +134,8 @@ def propose(
     for side, (i, lean), (j, option), (k, reference) in product(
         sides, enumerate(reaching.leans), enumerate(options), enumerate(references)
     ):
+        if lean.last != last:
+            continue
         _around(option, reference, side, lean, reaching, into=(stances, headings, costs))
         kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
     stance, heading, cost = (np.concatenate(part) for part in (stances, headings, costs))
@@ -144,7 +148,7 @@ def propose(
     standoffs = _Standoffs(floor, start, radius_m, reaching)
     kept: list[Indices] = []
     backs: list[Array] = []
-    left = np.array([lean.quota for lean in reaching.leans])
+    left = np.array([lean.quota if lean.last == last else 0 for lean in reaching.leans])
     share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
     left -= share.reshape(len(reaching.leans), -1).sum(axis=1)
     for first in range(0, total, CHUNK):

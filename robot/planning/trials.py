@@ -20,8 +20,11 @@ from robot.se3 import Array
 
 DEPTH = 8
 """How many candidates of a batch are looked at closely at a time."""
-SWINGS = (5, 4)
+SWINGS = (0, 5, 4)
 """How far the elbow is swung up where the arm touches something, and how much further then."""
+LAST_SWINGS = (9, 5)
+"""The same in postures that are tried last: there the whole arm comes over an edge from the side.
+At a counter of 0.9 m, a mug 0.35 m from the edge, 4 in 100 get there without, 1 in 3 with them."""
 OUTWARDS = 0.4
 """How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
@@ -32,7 +35,7 @@ LIFT_GAIN = 0.05
 
 
 def passing(
-    body: Body, problem: HandlingProblem, batch: Candidates, tally: Tally
+    body: Body, problem: HandlingProblem, batch: Candidates, tally: Tally, *, last: bool = False
 ) -> Iterator[Choice | None]:
     """Those of a batch that pass everything and are better than the best so far, likeliest first.
 
@@ -44,10 +47,9 @@ def passing(
         if len(some):
             ranked += _reachable(body, problem, side, some, tally)
     checker = Checker(body, problem)
-    blocked = yield from _tested(body, problem, checker, ranked, tally=tally)
-    for steps in SWINGS:
-        raised = _swung(body, blocked, steps)
-        blocked = yield from _tested(body, problem, checker, raised, tally=tally)
+    for steps in LAST_SWINGS if last else SWINGS:
+        raised = _swung(body, ranked, steps) if steps else ranked
+        ranked = yield from _tested(body, problem, checker, raised, tally=tally)
 
 
 def _tested(

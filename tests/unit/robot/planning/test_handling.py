@@ -49,6 +49,14 @@ def place(solver: Solver, on, around: Surroundings, **more) -> PlacePlan | Failu
     return answer
 
 
+def on_a_counter(height: float, deep: float) -> Surroundings:
+    """A cup so deep on a counter against a wall, solid to the floor."""
+    counter = block("counter", 1.65, -2.0, (0.90, 1.40, height))
+    wall = block("wall", 2.13, -2.0, (0.04, 1.40, 1.5))
+    cup = ObjectPose(id="cup", shape=CUP, X_WO=SE3((1.2 + deep, -2.0, height + 0.05)))
+    return Surroundings(map=room(counter, wall), objects=(cup,))
+
+
 def check_standing(body: Body, around: Surroundings, plan: PickPlan | PlacePlan) -> None:
     """The stance is free, the standoff has room, the step in between is straight ahead."""
     solids = solids_of(around)
@@ -148,6 +156,27 @@ def test_on_a_counter_as_high_as_the_elbow_the_elbow_swings_up(solver: Solver, d
     scene.set_clearance(0.0)
     scene.update()
     assert not scene.touches(scene.arm_geoms(plan.side))
+
+
+@pytest.mark.parametrize(("height", "deep"), [(0.74, 0.40), (0.90, 0.35), (1.05, 0.15)])
+def test_deep_on_a_counter_the_arm_comes_over_the_edge(
+    solver: Solver, height: float, deep: float
+) -> None:
+    plan = pick(solver, on_a_counter(height, deep))
+    assert isinstance(plan, PickPlan), plan
+    check_standing(solver.body, on_a_counter(height, deep), plan)
+
+
+@pytest.mark.parametrize(("height", "deep"), [(0.90, 0.45), (1.05, 0.35)])
+def test_what_stands_too_deep_is_refused_with_the_figures(
+    solver: Solver, height: float, deep: float
+) -> None:
+    refused = pick(solver, on_a_counter(height, deep))
+    assert isinstance(refused, Failure)
+    assert refused.code == "out_of_reach"
+    assert refused.evidence["from_edge_m"] == pytest.approx(deep)
+    assert refused.evidence["deep_m"] < deep
+    assert f"{100 * deep:.0f} cm from the edge, {height:.2f} m up" in refused.cause
 
 
 def test_carrying_is_near_the_body_and_upright(solver: Solver) -> None:
