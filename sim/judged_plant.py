@@ -18,7 +18,7 @@ class JudgedPlant(Plant):
     _witness: Witness | None = None
 
     def watch(self) -> None:
-        """Note from now on what it does: a step takes some 5 % longer."""
+        """Note from now on what it does: a fast run takes 7 % longer."""
         self._witness = Witness(self)
 
     def step(self, count: int = 1) -> None:

@@ -13,7 +13,7 @@ from robot.se3 import SE3
 from sim.plant import Plant
 
 PERIOD_S = 0.01
-"""Of looking at contacts: a toe that grazes a door frame touches it for some 30 ms."""
+"""Of looking at contacts, so that what is only grazed counts as well."""
 WAY_PERIOD_S = 0.1
 MOVING_M_S = 0.1
 """Slower is standing and swaying: somebody who comes near then is not run into."""

@@ -20,7 +20,7 @@ STRIDE = 2
 """Cells between nodes of the grid: a doorway of 0.8 m leaves 4 nodes beside each other."""
 TIGHT_COST = 12.0
 """What a metre costs more where things are as near as can be. To squeeze between chairs is worth
-a detour of some 2 m; a doorway of 0.8 m, where half of what is wanted is there, one of 0.3 m."""
+a detour of 2 to 4 m; through a doorway of 0.8 m, in its middle, one of 0.1 m."""
 CHEAP_ENOUGH = 1.02
 """A straight line may cost 2 % more than what it stands for: the grid is off by up to 4 %."""
 

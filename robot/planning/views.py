@@ -38,8 +38,8 @@ WALK_M_S, TURN_RAD_S = 0.2, 0.4
 SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 """As timed in a flat and an office: setting off and stepping in cost seconds on any way."""
 SWAY_M, NARROW_S_PER_M = 0.13, 120.0
-"""Who stands sways, and steps in some centimetres off: with less than that beside the arms they
-touched walls in one look of five. A place that lacks all of it is worth 16 s of another way."""
+"""Who stands sways, and steps in some centimetres off: with no more than the arms' own room they
+touched walls or furniture in 7 of 30 tasks. A place that lacks all of it costs 16 s."""
 SLACK = 0.9
 """A way may be as narrow as this part of the body's radius to both sides; base paths agree."""
 

@@ -30,7 +30,7 @@ CRUISE_CARRYING = 0.85
 CRUISE_NARROW = 0.6
 CLEARANCE_M = 0.16
 NARROW_M = 0.40
-"""Half of a doorway of 0.8 m, where the body sways by up to 5 cm and 9 are free beside the arms."""
+"""Half of a doorway of 0.8 m: 13 cm are free beside the arms there, and the body sways by 6."""
 HAND_OVER_M = 0.35
 HAND_OVER_ASIDE_M = 0.08
 HAND_OVER_RAD = 0.25
