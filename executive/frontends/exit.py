@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 USED_UP = (errno.EAGAIN, errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.ENOSPC, errno.EDQUOT)
 """What the machine has no more of: processes, memory, open files, room on the disk."""
+NO_THREAD = "can't start new thread"
+"""CPython's words, for want of an error number."""
 
 
 def ended_by(error: BaseException, *, as_json: bool) -> int:
@@ -38,8 +40,8 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         lines = [f"{error.filename}: {error.strerror}"]
         cure = "see to it that the file is there and yours to use, then try again"
         return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
-    if isinstance(error, MemoryError) or getattr(error, "errno", None) in USED_UP:
-        lines = [str(getattr(error, "strerror", None) or "there is no memory left")]
+    if wanting := _used_up(error):
+        lines = [wanting]
         cure = "end other programs, or raise the limits of this one (ulimit -a), then try again"
         return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
     if wrong := namesakes.explained(error):
@@ -48,6 +50,17 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
     lines = "".join(traceback.format_exception(error)).splitlines()
     cure = "that is a mistake in this software: report the lines above, with the run folder"
     return last_words("Broken:", lines, cure, status=ExitStatus.BROKEN, as_json=as_json)
+
+
+def _used_up(error: BaseException) -> str:
+    """What the machine has no more of, "" if it is something else."""
+    if isinstance(error, MemoryError):
+        return "there is no memory left"
+    if isinstance(error, RuntimeError) and str(error) == NO_THREAD:
+        return "no further thread can be started"
+    if isinstance(error, OSError) and error.errno in USED_UP:
+        return error.strerror or str(error)
+    return ""
 
 
 def last_words(heading: str, lines: list[str], cure: str, *, status: int, as_json: bool) -> int:

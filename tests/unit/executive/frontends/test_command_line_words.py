@@ -39,7 +39,11 @@ def test_what_is_no_number_of_a_job_is_refused(text):
 
 @pytest.mark.parametrize(
     "error",
-    [*(OSError(code, os.strerror(code)) for code in (errno.EAGAIN, errno.EMFILE)), MemoryError()],
+    [
+        *(OSError(code, os.strerror(code)) for code in (errno.EAGAIN, errno.EMFILE)),
+        MemoryError(),
+        RuntimeError("can't start new thread"),
+    ],
 )
 def test_what_the_machine_has_no_more_of_is_no_mistake_of_this_software(error, capsys):
     assert ended_by(error, as_json=False) == 2
