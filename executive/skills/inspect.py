@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.motions.look_over import limit_s, look_over
 from executive.skills.motions.script import Script, give_up
 from executive.skills.motions.stow import stow_arms
-from executive.skills.motions.support import stands_on
+from executive.skills.motions.support import stands_on, surroundings
 from executive.skills.motions.survey import Prospect, Survey
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
-from robot.messages import Track
+from robot.messages import Place, Track
 
 RECENT_S = 120.0
 """What was seen that long ago is taken to be so still: the length of a short job."""
-HALF = 0.5
-"""A surface of which less was seen has not been looked at."""
+HIDDEN = 0.1
+"""Where more of a surface may hide a thing, nothing is said of what is not there."""
 THERE_M, THERE = 0.35, 8.0
 """It is looked first near to where such a thing is believed to be."""
 INSPECT_S = 4.0
@@ -68,7 +70,7 @@ class Inspect(ScriptedSkill[InspectParams]):
         if (yield from look_over(body, survey, self._is_known, stay=stay)) or stay:
             return
         for place in survey.places:
-            if survey.seen_share(place) < HALF:
+            if self._may_hide(survey, place):
                 raise give_up(
                     "place_not_seen",
                     f"could not look over the {place.name}; {survey.words()}",
@@ -84,6 +86,18 @@ class Inspect(ScriptedSkill[InspectParams]):
             if track.X_WO is not None:
                 survey.favour(track.X_WO.p, within_m=THERE_M, factor=THERE)
         return survey
+
+    def _may_hide(self, survey: Survey, place: Place) -> bool:
+        """Whether what was asked for may stand where the surface could not be seen."""
+        unseen = survey.unseen_W(place)
+        for thing in surroundings(self.body).objects:
+            if thing.id not in self.parameters.object_ids:  # where one stands stands nothing else
+                half_m = 0.5 * np.array(thing.shape.size_m[:2])
+                off_O = (unseen - np.array(thing.X_WO.p)) @ thing.X_WO.rotation()
+                unseen = unseen[(np.abs(off_O[:, :2]) > half_m).any(axis=1)]
+        believed = [track.X_WO.p for track in self._tracks() if track.X_WO is not None]
+        near = any((np.linalg.norm(unseen - np.array(p), axis=1) < THERE_M).any() for p in believed)
+        return near or len(unseen) > HIDDEN * len(place.samples())
 
     def _tracks(self) -> list[Track]:
         wanted = self.parameters.object_ids

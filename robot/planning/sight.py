@@ -17,8 +17,14 @@ ROUND = 0.85
 class Screens:
     """Solids that stand in the way of eyes, as boxes with axes of their own."""
 
-    def __init__(self, solids: tuple[Solid, ...]) -> None:
-        """Take them as they stand."""
+    def __init__(self, solids: tuple[Solid, ...], *, on_m: float | None = None) -> None:
+        """Take them as they stand.
+
+        Args:
+            solids: what hides.
+            on_m: what a point is in, or so near to, does not hide it: that is seen standing there.
+        """
+        self._on_m = on_m
         count = len(solids)
         self._centres = np.array([s.X_WG.p for s in solids]).reshape(count, 3)
         self._axes = np.array([s.X_WG.rotation() for s in solids]).reshape(count, 3, 3)
@@ -45,4 +51,6 @@ class Screens:
         enters = np.minimum(low, high).max(axis=2)
         leaves = np.maximum(low, high).min(axis=2)
         cut = (enters < leaves) & (leaves > 0.0) & (enters < 1.0)
+        if self._on_m is not None:
+            cut &= (np.abs(begin) > half + self._on_m).any(axis=2)
         return ~cut.any(axis=0)

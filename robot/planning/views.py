@@ -1,9 +1,10 @@
 """Where to look from next: of all places to stand, the one that shows most for the time it takes.
 
-A view is a stance and a few directions of the head. What it shows is reckoned with the prior map:
-a point of a surface is seen from near enough, not at a grazing angle, with nothing between. What it
-costs is the way to walk there, around walls and through doors. Where likely points are worth more,
-taking the best ratio first is what brings the expected time to a find down.
+A view is a stance and a few directions of the head. What it shows is reckoned with the prior map
+and the things seen so far: a point of a surface is seen from near enough, not at a grazing angle,
+with nothing between. What it costs is the way to walk there, around walls and through doors. Where
+likely points are worth more, taking the best ratio first is what brings the expected time to a find
+down.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ GRAZING_RAD, STEEP_RAD = 0.06, 1.05
 """Least and greatest angle at which eyes look down on a surface; below that the chest is."""
 ABOVE_M = 0.04
 """Half the height of a small thing: so much above the surface the line of sight ends."""
+STANDING_M = 0.05
+"""What is so near to a point stands on it; perception takes that for seen up to 0.07 m."""
 HEAD_RAD, CONE_RAD = 0.95, 0.42
 """How far the head is turned to a side, and what of a picture counts about its middle."""
 HEADINGS = 8
@@ -70,8 +73,14 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     stands = clearances_m >= radius_m
     narrow_m = np.maximum(0.0, radius_m + SWAY_M - clearances_m)
     there_s = SET_OFF_S + lengths_m / WALK_M_S + LOOK_S + NARROW_S_PER_M * narrow_m
+    things = Screens(
+        tuple(solid(thing.id, thing.X_WO, thing.shape) for thing in around.objects),
+        on_m=STANDING_M,
+    )
     shown = atlas.shown(points) & (stands & (not request.stay))
-    near, reached = atlas.shown_at(points, start[:2]), np.isfinite(lengths_m)
+    shown = _past(things, points, shown, atlas.eyes_W(atlas.cells))
+    near, reached = atlas.shown_at(points, start[:2])[:, None], np.isfinite(lengths_m)
+    near = _past(things, points, near, atlas.eyes_W(np.array([start[:2]])))[:, 0]
     turns = floor.clearance_m(*start[:2]) >= radius_m
     views = [
         *_views_here(points, worth, near, start, turns=turns),
@@ -89,6 +98,15 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
         length_m=0.0 if best.cell is None else float(lengths_m[best.cell]),
         cut_off=cut_off,
     )
+
+
+def _past(things: Screens, points: Array, shown: Mask, eyes_W: Array) -> Mask:
+    """Which of the lines of sight from points to eyes, shape (points, eyes), pass the things."""
+    passed = np.zeros_like(shown)
+    for point, row, left in zip(points, shown, passed, strict=True):
+        eyes = np.flatnonzero(row)
+        left[eyes] = things.in_sight(point + np.array([0.0, 0.0, ABOVE_M]), eyes_W[eyes])
+    return passed
 
 
 def _views_here(
@@ -177,6 +195,10 @@ class _Atlas:
         here = np.array([at])
         return np.array([self._sees(point, here)[0] for point in points], dtype=bool)
 
+    def eyes_W(self, cells: Array) -> Array:
+        """The eyes of one who stands on each of some places, shape (n, 3)."""
+        return np.column_stack([cells, np.full(len(cells), self._eye_m)])
+
     def _shown(self, point: tuple[float, ...]) -> Mask:
         if point not in self._known:
             self._known[point] = self._sees(np.array(point), self.cells)
@@ -189,8 +211,8 @@ class _Atlas:
         seen = (np.hypot(aside_m, above_m) < NEAR_M) & (slope < STEEP_RAD)
         seen &= (slope > GRAZING_RAD) | (above_m < 0.0)
         rows = np.flatnonzero(seen)
-        eyes = np.column_stack([cells[rows], np.full(len(rows), self._eye_m)])
-        seen[rows] = self._screens.in_sight(point + np.array([0.0, 0.0, ABOVE_M]), eyes)
+        above = point + np.array([0.0, 0.0, ABOVE_M])
+        seen[rows] = self._screens.in_sight(above, self.eyes_W(cells[rows]))
         return seen
 
 

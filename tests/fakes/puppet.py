@@ -45,6 +45,8 @@ class Puppet:
     stuck_legs: bool = False
     stuck_arm: bool = False
     blind: bool = False
+    hidden: tuple[float, ...] = ()
+    """The point of a surface that is never seen."""
     miss_m: float = 0.0
     unmapped: tuple[m.Obstacle, ...] = ()
     people: dict[str, SE3] = field(default_factory=dict)
@@ -333,6 +335,8 @@ class Puppet:
                 thing.known = True
         for place in self.world_map.places:
             for i, p_W in enumerate(() if place.floor else place.samples().tolist()):
+                if tuple(p_W) == self.hidden:
+                    continue
                 if math.dist(p_W, self._gaze) < 0.5 and math.dist(p_W, self.X_WS.p) < 3.6:
                     self._looked[place.id][i] = self.time_s
 

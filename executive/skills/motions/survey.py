@@ -145,6 +145,11 @@ class Survey:
         rows = self._rows[place.id]
         return float(np.count_nonzero(self._seen[rows])) / (rows.stop - rows.start)
 
+    def unseen_W(self, place: Place) -> NDArray[np.float64]:
+        """The points of a place that have not been seen [m], shape (n, 3)."""
+        rows = self._rows[place.id]
+        return self._points[rows][~self._seen[rows]]
+
     def is_cut_off(self, place: Place) -> bool:
         """Whether no way leads to where any of it could be seen from."""
         return bool(self._cut_off[self._rows[place.id]].any()) and not self.seen_share(place)

@@ -75,6 +75,18 @@ def test_a_place_that_cannot_be_seen_is_no_empty_place(stage):
     assert "no way leads to the counter" in report.failure.cause
 
 
+@pytest.mark.parametrize(("believed_there", "code"), [(False, ""), (True, "place_not_seen")])
+def test_a_thing_may_stand_where_a_little_stays_hidden_near_to_where_it_was(
+    stage, believed_there, code
+):
+    corner, *others = next(p for p in stage.puppet.map().places if p.id == "counter").samples()
+    stage.puppet.hidden, stage.puppet.blind = tuple(corner.tolist()), True
+    cup = stage.puppet.things["cup"]
+    cup.known, cup.X_WO = True, SE3(tuple(corner if believed_there else others[-1]))
+    report = stage.run(InspectParams(place_ids=("counter",), object_ids=("cup",)))
+    assert (report.failure.code if report.failure else "") == code
+
+
 def test_a_search_goes_on_where_another_skill_has_looked(stage):
     """What is known of the surfaces outlives the skill, the try and the job."""
     stage.puppet.blind = True

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from robot.messages import Obstacle, Place, WorldMap
-from robot.planning.requests import LookPlan, LookRequest, Surroundings
+from robot.messages import Obstacle, Place, Shape, WorldMap
+from robot.planning.requests import LookPlan, LookRequest, ObjectPose, Surroundings
 from robot.planning.sight import Screens
 from robot.planning.solids import solid
 from robot.planning.solve import Solver
@@ -60,6 +60,7 @@ def look(
     start: tuple[float, float, float],
     worth: dict[str, float] | None = None,
     stay: bool = False,
+    things: tuple[ObjectPose, ...] = (),
 ) -> tuple[LookPlan, list[str], list[str]]:
     """The plan, and which places it shows and which it calls cut off."""
     points = [(place.id, tuple(p)) for place in places for p in place.samples().tolist()]
@@ -68,7 +69,7 @@ def look(
             start=start,
             points_W=tuple(p for _, p in points),  # pyright: ignore[reportArgumentType]
             worth=tuple((worth or {}).get(name, 1.0) for name, _ in points),
-            around=Surroundings(map=world_map),
+            around=Surroundings(map=world_map, objects=things),
             stay=stay,
         )
     )
@@ -85,6 +86,25 @@ def test_a_wall_hides_what_is_behind_it_and_a_low_table_does_not() -> None:
     for thing, seen in ((thin, [False, True]), (low, [True, True])):
         screens = Screens(tuple(solid(thing.id, thing.X_WO, s) for s in thing.shapes))
         assert screens.in_sight(point, eyes).tolist() == seen
+
+
+def test_what_stands_behind_a_box_is_seen_from_another_side(solver: Solver) -> None:
+    body, place = table("table", 1.2, 0.0)
+    world_map = map_of(body, bounds_m=(-2.0, -2.0, 4.0, 2.0))
+    behind = Place(id="behind", name="behind", X_WP=SE3((1.38, 0.0, 0.75)), size_m=(0.1, 0.1))
+    box = ObjectPose(
+        id="box", X_WO=SE3((1.2, 0.0, 0.9)), shape=Shape(kind="box", size_m=(0.1, 0.3, 0.3))
+    )
+    before, _, _ = look(solver, world_map, behind, start=(0.0, 0.0, 0.0))
+    plan, sees, _ = look(solver, world_map, behind, start=(0.0, 0.0, 0.0), things=(box,))
+    assert before.stance == (0.0, 0.0, 0.0)
+    assert plan.stance is not None
+    assert sees == ["behind"]
+    eye = np.array([[*plan.stance[:2], 1.1]])
+    screens = Screens((solid("box", box.X_WO, box.shape),))
+    assert screens.in_sight(np.array([1.38, 0.0, 0.79]), eye).all()
+    _, sees, _ = look(solver, world_map, place, start=(0.0, 0.0, 0.0), things=(box,))
+    assert sees == ["table"]  # what is under the box is seen by seeing the box
 
 
 def test_racks_that_stand_back_to_back_are_seen_from_their_own_aisles(solver: Solver) -> None:
