@@ -13,7 +13,7 @@ from executive.skills.motions.fingers import closed_on_air, open_fingers, set_pa
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.standpoints import stances_around, walk_to_any
+from executive.skills.motions.standpoints import stances_around, stances_before, walk_to_any
 from executive.skills.motions.stow import HOME, stow_arms
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
@@ -120,10 +120,8 @@ class Give(ScriptedSkill[GiveParams]):
 def go_before(body: Body, person: PersonInfo) -> Script[None]:
     """Stand before a person, as near as a hand-over needs."""
     body.phase = f"walking to {person.name}"
-    p_W = body.X_WPerson(person.id).p
-    stances = stances_around(
-        p_W, body.X_WS, distance_m=body.description.handy.giving.before_person_m
-    )
+    before_m = body.description.handy.giving.before_person_m
+    stances = stances_before(body, person, distance_m=before_m)
     yield from walk_to_any(body, stances, name=person.name)
 
 

@@ -19,6 +19,7 @@ from executive.skills.motions.standpoints import (
     heading_to,
     stances_around,
     stances_at,
+    stances_before,
     walk_to_any,
 )
 from executive.skills.motions.stow import stow_arms
@@ -177,8 +178,7 @@ class Navigate(ScriptedSkill[NavigateParams]):
         body = self.body
         person = body.person(person_id)
         body.phase = f"walking to {person.name}"
-        distance_m = AT_PERSON_M + person.radius_m
-        stances = stances_around(body.X_WPerson(person_id).p, body.X_WS, distance_m=distance_m)
+        stances = stances_before(body, person, distance_m=AT_PERSON_M + person.radius_m)
         yield from walk_to_any(body, stances, name=person.name)
 
 

@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from robot.messages import Obstacle
+import msgspec
+
+from robot.messages import Obstacle, Shape
 from robot.se3 import SE3
 
 Point2 = tuple[float, float]
+
+EVERY_M = 0.04
+"""Of points on a line: half as far as the thinnest wall is thick."""
 
 
 def in_the_way(
@@ -19,6 +24,23 @@ def in_the_way(
         for obstacle in obstacles:
             if clearance_m(point, obstacle) < radius_m:
                 return obstacle
+    return None
+
+
+def between(
+    a_m: Point2, b_m: Point2, things: Iterable[Obstacle], *, height_m: float
+) -> Obstacle | None:
+    """What of some things stands between two points of the floor and reaches up to a height."""
+    count = 1 + math.ceil(math.dist(a_m, b_m) / EVERY_M)
+    line = [
+        (a_m[0] + i / count * (b_m[0] - a_m[0]), a_m[1] + i / count * (b_m[1] - a_m[1]))
+        for i in range(count + 1)
+    ]
+    for thing in things:
+        high = [s for s in thing.shapes if _top_m(thing.X_WO @ s.X_BodyShape, s) > height_m]
+        tall = msgspec.structs.replace(thing, shapes=tuple(high))
+        if any(clearance_m(point, tall) <= 0.0 for point in line):
+            return thing
     return None
 
 
@@ -36,3 +58,8 @@ def _outside_m(point: Point2, X_WA: SE3, size_m: tuple[float, float, float]) -> 
     c, s = math.cos(X_WA.yaw_rad), math.sin(X_WA.yaw_rad)
     x_m, y_m = abs(c * dx + s * dy), abs(c * dy - s * dx)
     return math.hypot(max(0.0, x_m - 0.5 * size_m[0]), max(0.0, y_m - 0.5 * size_m[1]))
+
+
+def _top_m(X_WA: SE3, shape: Shape) -> float:
+    """How high a shape reaches, standing upright."""
+    return X_WA.p[2] + 0.5 * shape.size_m[2]

@@ -6,16 +6,18 @@ import math
 from collections.abc import Sequence
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.obstructions import between, clearance_m
 from executive.skills.motions.planning import ask
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.walk import path_request, walk_to
-from robot.messages import Place
+from robot.messages import PersonInfo, Place
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3
 
 BEFORE_EDGE_M = 0.40
 AT_PERSON_M = 1.0
+HAND_M = 0.95
+"""Of hands that meet, and of the line of sight of one who sits: over tables, not through walls."""
 SPOT_GRID_M = 0.6
 DIRECTIONS = 8
 ROOM_M = 0.36
@@ -50,6 +52,18 @@ def stances_around(p_W: Sequence[float], X_WS: SE3, *, distance_m: float) -> lis
         y_m = p_W[1] + distance_m * math.sin(out_rad)
         stances.append((x_m, y_m, math.atan2(p_W[1] - y_m, p_W[0] - x_m)))
     return _nearest_first(stances, X_WS)
+
+
+def stances_before(body: Body, person: PersonInfo, *, distance_m: float) -> list[Stance]:
+    """Stances on a circle around a person, with nothing between them and the hands."""
+    p_W = body.X_WPerson(person.id).p
+    people = {other.id for other in body.map.people}
+    things = [thing for thing in body.map.obstacles if thing.id not in people]
+    return [
+        stance
+        for stance in stances_around(p_W, body.X_WS, distance_m=distance_m)
+        if between(stance[:2], (p_W[0], p_W[1]), things, height_m=HAND_M) is None
+    ]
 
 
 def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[Stance]:

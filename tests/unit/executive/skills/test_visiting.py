@@ -8,7 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.standpoints import BEFORE_EDGE_M, has_room, stances_around, stances_at
+from executive.skills.motions.standpoints import (
+    BEFORE_EDGE_M,
+    has_room,
+    stances_around,
+    stances_at,
+    stances_before,
+)
 from executive.skills.navigate import NavigateParams
 from robot.messages import Obstacle, Place, Shape
 from robot.se3 import SE3, wrap_angle
@@ -63,3 +69,17 @@ def test_a_narrow_side_is_left_for_a_roomy_one():
     stage = walled_in()
     assert stage.run(NavigateParams(place_id="table")).status == "succeeded"
     assert math.dist(stage.puppet.X_WS.p[:2], (1.3, 0.0)) > 0.5
+
+
+@pytest.mark.parametrize(("height_m", "through"), [(2.0, False), (0.7, True)])
+def test_nobody_is_served_through_a_wall_and_anybody_over_a_table(height_m, through):
+    stage = Stage()
+    shape = Shape(kind="box", size_m=(4.0, 0.1, height_m))
+    screen = Obstacle(
+        id="screen", name="screen", X_WO=SE3((0.0, 2.4, height_m / 2)), shapes=(shape,)
+    )
+    stage.puppet.world_map = msgspec.structs.replace(stage.puppet.world_map, obstacles=(screen,))
+    ann = stage.puppet.world_map.people[0]
+    stances = stances_before(Body(stage.context), ann, distance_m=1.0)
+    assert stances
+    assert any(y < 2.4 for _, y, _ in stances) == through
