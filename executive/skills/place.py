@@ -97,8 +97,8 @@ class PutDown(ScriptedSkill[PlaceParams]):
     ) -> Failure | None:
         """What is higher or lower than a hand gets.
 
-        The reach is that of a stretched arm from the shoulder, lower by as much as the legs let the
-        shoulder down.
+        Where that was not measured, the reach is that of a stretched arm from the shoulder, lower
+        by as much as the legs let the shoulder down.
         """
         place = world_map.place(wanted.place_id or "")
         if wanted.place_id is not None and place is None:
@@ -108,8 +108,10 @@ class PutDown(ScriptedSkill[PlaceParams]):
         if X is None:
             return None
         squat_m = robot.walking.base_height_m - robot.balance.lowest_base_m
-        lowest_m = robot.shoulder_height_m - robot.arm_reach_m - squat_m
-        highest_m = robot.shoulder_height_m + robot.arm_reach_m
+        lowest_m, highest_m = robot.handy.reaching.surfaces_m or (
+            robot.shoulder_height_m - robot.arm_reach_m - squat_m,
+            robot.shoulder_height_m + robot.arm_reach_m,
+        )
         if lowest_m <= X.p[2] <= highest_m:
             return None
         name = f"the {place.name}" if place else "that spot"

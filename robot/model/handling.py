@@ -109,6 +109,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         carrying: of things in the hand.
         deep_m: how far from the edge of a surface a hand picks up, by the surface's height, rising:
             (height, depth); for the words of a refusal. Empty: not measured.
+        surfaces_m: least and greatest height of a surface that something is put on. None: not
+            measured.
     """
 
     leans: q.Several[Lean]
@@ -125,6 +127,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     roomy_m: q.Margin
     carrying: Carrying
     deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
+    surfaces_m: tuple[q.Offset, q.Offset] | None = None
 
 
 class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

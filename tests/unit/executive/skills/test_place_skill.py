@@ -6,14 +6,14 @@ import pytest
 from msgspec.structs import replace
 
 from executive.skills.pick import PickParams
-from executive.skills.place import PlaceParams
+from executive.skills.place import PlaceParams, PutDown
 from robot.failures import failure
 from robot.messages import Grip, MoveHand
 from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import ArmRequest, PlaceRequest
 from robot.se3 import SE3
 from tests.fakes.puppet import Thing
-from tests.fakes.stage import TABLE_M, Stage
+from tests.fakes.stage import DESCRIPTION, TABLE_M, Stage
 
 ON_COUNTER = PlaceParams(object_id="cup", place_id="counter")
 
@@ -236,3 +236,16 @@ def test_what_stands_beside_it_is_no_matter(stage):
     assert report.status == "succeeded", report
     plans = [request for request in stage.planner.requests if isinstance(request, PlaceRequest)]
     assert len(plans) == 1
+
+
+@pytest.mark.parametrize(
+    ("height_m", "refused"), [(0.30, True), (0.45, False), (1.15, False), (1.3, True)]
+)
+def test_a_surface_beyond_what_was_measured_is_refused_with_the_figures(height_m, refused):
+    stage = Stage()
+    spot = PlaceParams(object_id="cup", X_WO=SE3((2.0, 0.0, height_m)))
+    found = PutDown.refusal(spot, stage.puppet.map(), DESCRIPTION)
+    assert (found is not None) == refused
+    if found is not None:
+        assert found.code == "out_of_reach"
+        assert "the hands reach 0.35 to 1.22 m" in found.cause
