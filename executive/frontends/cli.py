@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -282,6 +283,9 @@ def _checked(word: str) -> str:
 
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
+    # Python puts the current folder before its own library in what is started as a module or as
+    # text (the processes of a run, the workers of an evaluation): a file of a stranger would run.
+    os.environ["PYTHONSAFEPATH"] = "1"
     streams.steady()
     streams.sized()
     tell_of_mistakes()

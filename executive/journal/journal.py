@@ -33,6 +33,8 @@ MAX_LINE = 256_000
 """Bytes of a line; the longest are those of a tree and of a map, of 5 kB in a furnished flat."""
 MAX_BYTES = 50_000_000
 """Of a journal that is gone on with or repeated: a day and a night of work."""
+MOST_BYTES = 1_000_000_000
+"""Of a journal that is read at all, at some 200 s for the longest."""
 MOST_EVENTS, MOST_S = 2**53, 1e9
 """Numbers and times beyond are none."""
 STALLED_S = 0.5
@@ -178,10 +180,13 @@ def lines(path: Path) -> Iterator[bytes]:
         path: a run's folder, or the file itself.
 
     Raises:
-        ConfigError: if there is no journal.
+        ConfigError: if there is no journal, or it is larger than any run's.
     """
     file = path / FILE if path.is_dir() else path
     try:
+        if file.stat().st_size > MOST_BYTES:
+            text = f"{file} is larger than {MOST_BYTES / 1e6:g} MB"
+            raise ConfigError([Problem(text, suggestion="look at the journal of another run")])
         with open_ordinary(file) as source:
             while line := source.readline(MAX_LINE):
                 end = line
@@ -213,14 +218,20 @@ def read(path: Path, *, without: Container[str] = ()) -> list[Event]:
     return found if last is None or last in found[-1:] else [*found, last]
 
 
+def size_bytes(path: Path) -> int:
+    """Of the journal in a run's folder, or of the file itself; 0 where there is none."""
+    with suppress(OSError):
+        return (path / FILE if path.is_dir() else path).stat().st_size
+    return 0
+
+
 def check_size(path: Path) -> None:
     """Refuse a journal that is too large to be gone on with. Raises ConfigError."""
     file = path / FILE if path.is_dir() else path
-    with suppress(OSError):
-        if file.stat().st_size > MAX_BYTES:
-            text = f"{file} is larger than {MAX_BYTES / 1e6:g} MB"
-            cure = "it can be looked at with humanoid why, but neither repeated nor gone on with"
-            raise ConfigError([Problem(text, suggestion=cure)])
+    if size_bytes(path) > MAX_BYTES:
+        text = f"{file} is larger than {MAX_BYTES / 1e6:g} MB"
+        cure = "it can be looked at with humanoid why, but neither repeated nor gone on with"
+        raise ConfigError([Problem(text, suggestion=cure)])
 
 
 def is_written(folder: Path) -> bool:

@@ -19,6 +19,7 @@ from robot import quantities as q
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import open_ordinary, read_ordinary
+from robot.printable import printable_line
 
 T = TypeVar("T")
 
@@ -119,9 +120,9 @@ def look(folder: Path) -> Past:
     return Past(
         folder=str(folder),
         began=began.isoformat(timespec="seconds"),
-        text=header.text,
-        runtime=header.runtime,
-        world=header.world,
+        text=printable_line(header.text),
+        runtime=printable_line(header.runtime),
+        world=printable_line(header.world),
         seed=header.seed,
         ending=ending,
         code=code,
@@ -136,7 +137,12 @@ def _ending(code: str, state: str) -> Ending:
 
 
 def _read(folder: Path) -> Run:
-    """What the journal says; nothing where it cannot be read, which must not hide the others."""
+    """What the journal says; nothing where it cannot be read, which must not hide the others.
+
+    Nor where that would keep people waiting: `why` reads it.
+    """
+    if journal.size_bytes(folder) > journal.MAX_BYTES:
+        return Run()
     try:
         return reader.read(folder)
     except ConfigError:

@@ -8,6 +8,7 @@ import fcntl
 import os
 import re
 import stat
+from itertools import islice
 from pathlib import Path
 from typing import Annotated
 
@@ -61,7 +62,7 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
 def carry_missions_over(left_by: Path, folder: Path) -> None:
     """Keep the mission files of a run that is gone on with in another folder there, too."""
     with contextlib.suppress(OSError):  # then they are read where they come from
-        for path in sorted((left_by / MISSIONS).rglob("*")):
+        for path in sorted(islice((left_by / MISSIONS).rglob("*"), MOST_MISSIONS)):
             if path.is_file() and is_within(left_by, path):
                 data = read_ordinary(path, limit=MAX_BYTES)
                 copy = folder / path.relative_to(left_by)
@@ -70,6 +71,8 @@ def carry_missions_over(left_by: Path, folder: Path) -> None:
 
 
 MOST_AT_ONCE = 100
+MOST_MISSIONS = 1000
+"""Files that a run of a stranger has kept."""
 FULL = (errno.ENOSPC, errno.EDQUOT)
 PRIVATE = 0o700
 """Mode of a run's folder: it says what was said, by whom, and where people and things were."""

@@ -21,6 +21,10 @@ from intents.speech.audio import AudioError, Resampler, Samples, mono
 BLOCK_S = 0.5
 MAX_DURATION_S = 2 * 3600.0
 """A file of 4 GB that is all zeros takes no room on the disk, and a day to listen to."""
+MOST_CHUNKS = 1000
+"""Before the sound; editors write a dozen."""
+DESCRIPTION_BYTES = 64
+"""Of the longest kind, which has 40."""
 MAX_CHANNELS = 64
 _PCM, _FLOAT, _EXTENSIBLE = 0x0001, 0x0003, 0xFFFE
 _COMPRESSED = {0x0002: "ADPCM", 0x0006: "A-law", 0x0007: "mu-law", 0x0050: "MPEG", 0x0055: "MP3"}
@@ -112,7 +116,7 @@ def _form(file: BinaryIO, size: int, name: str) -> Form:
     if head[:4] not in (b"RIFF", b"RF64") or head[8:12] != b"WAVE":
         raise _no_wav(head, name)
     described: tuple[int, int, int, int] | None = None
-    while True:
+    for _ in range(MOST_CHUNKS):
         chunk = file.read(8)
         if len(chunk) < 8:
             lacks = "no sound in it" if described else "no description of its sound"
@@ -121,10 +125,14 @@ def _form(file: BinaryIO, size: int, name: str) -> Form:
         if kind == b"data" and described is not None:
             return _found(described, length, file.tell(), size, name)
         if kind == b"fmt ":
-            described = _described(file.read(length), name)
+            begin = file.tell()
+            described = _described(file.read(min(length, DESCRIPTION_BYTES)), name)
+            file.seek(begin + length)
         else:
             file.seek(length, 1)
         file.seek(length % 2, 1)
+    text = f"{name} has {MOST_CHUNKS} parts before its sound"
+    raise AudioError(text, "record it again, or convert it")
 
 
 def _no_wav(head: bytes, name: str) -> AudioError:

@@ -114,7 +114,7 @@ class Child:
         self._process.wait()
 
     def _spawn(self) -> subprocess.Popen[bytes]:
-        command = [sys.executable, "-m", self.row.module, str(self._file), str(os.getpid())]
+        command = [sys.executable, "-P", "-m", self.row.module, str(self._file), str(os.getpid())]
         if self._log is None:
             number = str(len(self._starts_s))  # by which a spare knows its turn
             with _held_back(signal.SIGINT, signal.SIGTSTP):

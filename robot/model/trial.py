@@ -61,7 +61,8 @@ class Size(msgspec.Struct, frozen=True, kw_only=True):
     geoms: Annotated[int, _up_to(2000)]
     sites: Annotated[int, _up_to(2000)]
     sensors: Annotated[int, _up_to(2000)]
-    memory_mb: Annotated[float, _up_to(300, "MB")]
+    memory_mb: Annotated[float, _up_to(120, "MB")]
+    texture_mb: Annotated[float, _up_to(16, "MB")]
     mass_kg: Annotated[float, Meta(ge=0.5, le=500, extra={"unit": "kg"})]
     joint_range_rad: Annotated[float, _up_to(1000, "rad")]
     iterations: _Iterations
@@ -163,6 +164,7 @@ def _measured(source: mjcf.Source) -> dict[str, float]:
         "sites": model.nsite,
         "sensors": model.nsensor,
         "memory_mb": (model.nbuffer + model.narena) / 1e6,
+        "texture_mb": model.ntexdata / 1e6,
         "mass_kg": float(model.body_mass.sum()),
         "joint_range_rad": float(ranges.max(initial=0.0)),
         "iterations": model.opt.iterations,

@@ -93,6 +93,10 @@ def _environment(home: Path) -> dict[str, str]:
     }
 
 
+PLACED_BYTES = 100_000_000
+"""A sparse file of any size is no file that speaks of what is outside."""
+
+
 class Examiner:
     """Runs cases, each in a folder of its own."""
 
@@ -181,7 +185,7 @@ def _lay_out(case: Case, work: Path, outside: Path) -> None:
 def _place(folder: Path, outside: Path) -> None:
     """Put the place of what is outside into the files that speak of it."""
     for path in folder.rglob("*"):
-        if path.is_file() and not path.is_symlink():
+        if path.is_file() and not path.is_symlink() and path.stat().st_size < PLACED_BYTES:
             content = path.read_bytes()
             if OUTSIDE.encode() in content:
                 path.write_bytes(content.replace(OUTSIDE.encode(), str(outside).encode()))

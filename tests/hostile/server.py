@@ -183,8 +183,8 @@ def _child(job: Job, ends: tuple[int, int, int]) -> None:
     try:
         _become(job, ends)
         if job.cold:
-            program = [sys.executable, "-m", "executive"]
-            os.execve(sys.executable, [*map(os.fsencode, program), *job.argv], os.environ)
+            program = Path(sys.executable).with_name("humanoid")
+            os.execve(program, [os.fsencode(program), *job.argv], os.environ)
         status = _main(job)
     except BaseException:
         os.write(2, traceback.format_exc().encode())

@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 
 from executive.frontends.dump.writer import parse_formats
+from executive.frontends.long_journals import tell_of_length
 from executive.frontends.output import say, write_data
 from executive.journal import journal, past_runs, reader
 from executive.journal.dumps.formats import FORMATS, Wish, render
@@ -82,6 +83,7 @@ def load(folder: Path) -> Run:
     Raises:
         ConfigError: if its journal cannot be read, or there is nothing in it.
     """
+    tell_of_length(folder)
     run = reader.read(folder)
     if not run.events:
         text = f"{folder / FILE} has no event"

@@ -11,6 +11,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from executive.frontends.long_journals import tell_of_length
 from executive.frontends.output import Screen, say, table_screen, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs
@@ -27,6 +28,7 @@ _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
 def why(run: str | None, *, as_json: bool) -> int:
     """Say why a run (by default the newest) ended as it did; returns the exit status."""
     folder = past_runs.find(run)
+    tell_of_length(folder)
     told = explain(folder, live=journal.is_written(folder))
     if as_json:
         record = {"folder": str(folder), **msgspec.to_builtins(told)}

@@ -148,6 +148,8 @@ SOUNDS: dict[str, str | bytes | Make] = {
     "said-4-GB": _wav(said=0xFFFFFFFF),
     "said-2-GB": _wav(said=0x80000000),
     "sparse-4-GB": sparse(4 << 30, _wav(said=0xFFFFFFF0)),
+    "sparse-format": sparse(4 << 30, b"RIFF\xff\xff\xff\xffWAVEfmt \0\0\0\x60"),
+    "sparse-chunks": sparse(4 << 30, b"RIFF\xff\xff\xff\xffWAVE"),
     "rate-zero": _wav(rate=0),
     "rate-one": _wav(rate=1),
     "rate-4-GHz": _wav(rate=0xFFFFFFFF),

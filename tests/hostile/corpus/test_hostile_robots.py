@@ -174,6 +174,8 @@ MODELS: dict[str, str | bytes | Make] = {
     "<worldbody/></mujoco>",
     "texture": '<mujoco><asset><texture name="t" type="2d" builtin="flat" width="100000" height="100000"/>'
     "</asset><worldbody/></mujoco>",
+    "texture-127-MB": '<mujoco><asset><texture name="t" type="2d" builtin="checker" width="6500" '
+    'height="6500"/></asset><worldbody/></mujoco>',
     "memory": '<mujoco><size memory="100G"/><worldbody/></mujoco>',
     "nuser": '<mujoco><size nuser_body="100000000"/><worldbody><body/></worldbody></mujoco>',
     "keyframes": '<mujoco><size nkey="2000000000"/><worldbody/></mujoco>',

@@ -124,6 +124,25 @@ def _flood(count: int, line: str, folder: Path) -> None:
         file.write("\n".join(lines[5:]) + "\n")
 
 
+def _sparse(folder: Path) -> None:
+    """The journal is endless, and lacks the summary that would tell what it was."""
+    (folder / "summary.json").unlink()
+    os.truncate(folder / "journal.jsonl", 200 << 30)
+
+
+def _forged(folder: Path) -> None:
+    """Every text has a line of its own that poses as the program's."""
+    lines = [json.loads(line) for line in _lines(folder)]
+    for event in lines:
+        for key, value in event.items():
+            if isinstance(value, str) and key not in {"event", "state", "id", "code", "step"}:
+                event[key] = value + "\nFORGED: curl evil"
+    _write(folder, [json.dumps(event) for event in lines])
+    (folder / "run.json").write_text(
+        (folder / "run.json").read_text().replace('"text":"', '"text":"x\\nFORGED: curl evil ')
+    )
+
+
 def _asked(fields: dict[str, Any], folder: Path) -> None:
     """Somebody asked for something else as well."""
     lines = _lines(folder)
@@ -403,6 +422,28 @@ CASES = [
             memory_mb=400,
         )
         for front in ("why", "text")
+    ),
+    *(
+        Case(
+            name=f"sparse-{front}",
+            argv=FRONTS[front],
+            run="short",
+            mutate=_sparse,
+            expect=Expect.ENDS if front == "history" else Expect.REFUSED,
+        )
+        for front in ("why", "history", "text", "replay")
+    ),
+    *(
+        Case(
+            name=f"forged-{front}",
+            argv=FRONTS[front],
+            run="short",
+            mutate=_forged,
+            expect=Expect.ENDS,
+            says=("FORGED",) if front == "why" else (),
+            never=("\nFORGED", "\n FORGED"),
+        )
+        for front in ("why", "history", "text")
     ),
     *(
         Case(

@@ -58,6 +58,9 @@ def test_json_means_the_same(text: str) -> None:
         ("cup\u202egnp", r"cup\u202egnp"),
         ("a\rb", r"a\x0db"),
         ("\ufffe", r"\ufffe"),
+        ("st\u200bop", r"st\u200bop"),
+        ("cup\u3164", r"cup\u3164"),
+        ("a\U000e0041", r"a\U000e0041"),
         ("grüße, 杯子 👋🏽\n\tnext", "grüße, 杯子 👋🏽\n\tnext"),
     ],
 )
