@@ -5,6 +5,7 @@ itself is not imported.
 """
 
 import re
+from bisect import bisect_left
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,26 +22,32 @@ _BRITISH = tuple(
     )
 )
 """How American spellings are made British, to be found in the list."""
-_MORE = frozenset("mom mommy pajamas aluminum donut donuts jewelry cozy plow".split())
+_MORE = {"mom", "mommy", "pajamas", "aluminum", "donut", "donuts", "jewelry", "cozy", "plow"}
 """American words that differ from the British ones in another way."""
 
 
 def is_english(word: str) -> bool:
     """Whether a lower-case word is one of English, in British or American spelling."""
-    listed = _listed()
-    if word in listed or word in _MORE:
-        return True
-    return any(british in listed for british in _respelled(word))
+    return word in _MORE or any(map(_is_listed, (word, *_respelled(word))))
 
 
 def _respelled(word: str) -> set[str]:
     return {american.sub(british, word) for american, british in _BRITISH} - {word}
 
 
+def _is_listed(word: str) -> bool:
+    words, sought = _listed(), word.encode()
+    at = bisect_left(words, sought)
+    return at < len(words) and words[at] == sought
+
+
 @cache
-def _listed() -> frozenset[str]:
-    """The list, read when the first word is looked up: 30 ms and 8 MB that no stop needs."""
+def _listed() -> list[bytes]:
+    """The list, sorted, read when the first word is looked up (40 ms).
+
+    4 MB as sorted bytes; as a set of strings it takes 10 MB, and 18 while it is made.
+    """
     spec = find_spec("symspellpy")
     assert spec is not None and spec.origin is not None, "symspellpy is a dependency"
-    lines = (Path(spec.origin).parent / _LIST).read_text(encoding="utf-8-sig").splitlines()
-    return frozenset(line.partition(" ")[0] for line in lines)
+    with (Path(spec.origin).parent / _LIST).open("rb") as lines:
+        return sorted(line.partition(b" ")[0] for line in lines)

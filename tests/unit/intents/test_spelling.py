@@ -18,7 +18,23 @@ HOME = Vocabulary.of(
 
 @pytest.mark.parametrize(
     "word",
-    "took raining channel peek nap lick wash paint book mail tale sable blank bench candle".split(),
+    [
+        "took",
+        "raining",
+        "channel",
+        "peek",
+        "nap",
+        "lick",
+        "wash",
+        "paint",
+        "book",
+        "mail",
+        "tale",
+        "sable",
+        "blank",
+        "bench",
+        "candle",
+    ],
 )
 def test_a_word_of_english_is_never_corrected(word: str) -> None:
     text = Text(f"{word} the cup", HOME)
@@ -27,7 +43,19 @@ def test_a_word_of_english_is_never_corrected(word: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "word", "colour color neighbor theatre theater organize kilometers catalog pyjamas mom".split()
+    "word",
+    [
+        "colour",
+        "color",
+        "neighbor",
+        "theatre",
+        "theater",
+        "organize",
+        "kilometers",
+        "catalog",
+        "pyjamas",
+        "mom",
+    ],
 )
 def test_both_spellings_are_english(word: str) -> None:
     assert is_english(word)
