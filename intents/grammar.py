@@ -6,14 +6,15 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 
 from typing import NamedTuple
 
+from intents.english.faithfulness import left_out
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Partly, Unclear
+from intents.english.trouble import NotUnderstood, Partly, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.text import Text
-from intents.goals import Bring, Give, Goal, GoTo, Greet, Pick, Place
+from intents.goals import Bring, Give, Goal, GoTo, Greet, Pause, Pick, Place, Stop
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -27,10 +28,12 @@ class Understood(NamedTuple):
 
     Attributes:
         clauses: Each clause as it was said, with what it was read as by itself.
+        remarks: What the speaker is told about words that were heard and change nothing.
     """
 
     goals: tuple[Goal, ...]
     clauses: tuple[tuple[str, tuple[Goal, ...]], ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
 def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood:
@@ -52,7 +55,24 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
         raise not_understood(text, end)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
-    return Understood(tuple(goals), tuple(sentence.notes.trace))
+    remarks = (*sentence.notes.remarks, *_unkept(sentence, goals))
+    return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
+    """What is remarked on words that no goal carries.
+
+    Raises:
+        Partly: One of them may change what is to be done.
+    """
+    if any(isinstance(goal, Stop | Pause) for goal in goals):
+        return []
+    dropped = left_out(sentence.text, goals, sentence.notes.passed)
+    grave = [one.said for one in dropped if not one.slight]
+    if grave and goals:
+        said = listing([f"“{word}”" for word in grave], "and")
+        raise Partly(f"I cannot take account of {said}", tuple(goals))
+    return [f"I pay no attention to “{one.said}”" for one in dropped]
 
 
 def _acts(goals: list[Goal]) -> bool:

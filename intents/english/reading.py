@@ -42,8 +42,10 @@ class Notes:
         wanted: The last clause was a wish ("I want the cup"), which the next may spell out.
         verb: The last verb, which the next clause may leave out.
         particles: "On", "off" or "out" of that verb.
-        one_hand: A thing is to be handled with one hand and not the other.
+        one_hand: It is said with which hands a thing is to be handled.
         trace: Each clause as it was said, with what it was read as by itself.
+        passed: From where to where words stand that ask for nothing, or were taken back.
+        remarks: What the speaker is told about words that were heard and change nothing.
     """
 
     wanted: bool = False
@@ -53,6 +55,8 @@ class Notes:
     trace: list[tuple[str, tuple[Goal, ...]]] = field(
         default_factory=list[tuple[str, tuple[Goal, ...]]]
     )
+    passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
+    remarks: list[str] = field(default_factory=list[str])
 
 
 class Rules(NamedTuple):

@@ -189,8 +189,7 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             phrase.noun, phrase.names, phrase.said = "name", inner.names, inner.said
             return inner.end
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
-        inner = noun_phrase(text, at + 1)
-        return inner.end if inner else None
+        return _equipped(text, phrase, at + 1)
     most = _most(text, phrase, at)
     if most:
         phrase.superlative, end = most
@@ -199,6 +198,15 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _equipped(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The book with *the blue cover* is a blue one."""
+    inner = noun_phrase(text, at)
+    if inner is None:
+        return None
+    phrase.color = phrase.color or inner.color
+    return inner.end
 
 
 def _lying_there(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -103,7 +103,7 @@ _NO_NOUN = (
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "twice thrice closed opened need "
                     "needs belong belongs only ends lands winds gets wants asked ordered requested "
-                    "requires fancies asks gone called alone moved brought lie know too went")
+                    "requires fancies asks gone called alone moved brought lie know too went using")
 )  # fmt: skip
 
 

@@ -8,14 +8,22 @@ Phrase = tuple[str, ...]
 T = TypeVar("T")
 
 
+LISTED: set[str] = set()
+"""Every word of every list that is made by the functions below: what the grammar knows."""
+
+
 def words(text: str) -> frozenset[str]:
     """The words of a text."""
-    return frozenset(text.split())
+    listed = frozenset(text.split())
+    LISTED.update(listed)
+    return listed
 
 
 def phrases(text: str) -> frozenset[Phrase]:
     """The phrases of a text, which stand between commas."""
-    return frozenset(tuple(phrase.split()) for phrase in text.split(","))
+    listed = frozenset(tuple(phrase.split()) for phrase in text.split(","))
+    LISTED.update(word for phrase in listed for word in phrase)
+    return listed
 
 
 def _meanings(table: dict[T, str]) -> dict[Phrase, T]:
