@@ -7,14 +7,16 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 from typing import NamedTuple
 
 from intents.english.faithfulness import left_out
+from intents.english.joining import carried
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
+from intents.english.readings.asides import somebody_else
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.text import Text
-from intents.goals import Bring, Give, Goal, GoTo, Greet, Pause, Pick, Place, Stop
+from intents.goals import Bring, Give, Goal, GoTo, Greet, Pause, Pick, Place, Stop, each
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -47,16 +49,36 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
     for at in range(1, len(text)):
         if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
             raise NotUnderstood("That is for you to do, as I hear it")
+    spoken_to = somebody_else(text)
+    if spoken_to:
+        raise NotUnderstood(f"I take that as said to {spoken_to}, not to me")
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
+    goals = carried(goals)
     if text.word(len(text) - 1) in _DANGLING and _acts(goals[-1:]):
         raise Unclear(f"“... {text.word(len(text) - 1)}” what?")
     if end < len(text):
         raise not_understood(text, end)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
-    remarks = (*sentence.notes.remarks, *_unkept(sentence, goals))
+    remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals))
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
+    """What is remarked on what is not to be done.
+
+    Raises:
+        Partly: It is asked for as well, or nobody can promise it: on the way to a place the robot
+            goes where it has to.
+    """
+    for said, names in sentence.notes.forbidden:
+        spots = [n.name for n in names if n.kind in ("place", "room")]
+        handled = {getattr(getattr(goal, "object", None), "name", None) for goal in each(goals)}
+        if goals and (spots or handled.intersection(n.name for n in names)):
+            raise Partly(f"I cannot promise “{said}”", tuple(goals))
+    heard = [f"“{said}”" for said, _ in sentence.notes.forbidden]
+    return [f"I touch only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []
 
 
 def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:

@@ -20,11 +20,14 @@ from intents.english.words.verbs import base_form, participle_base, verbs_at
 from intents.goals import (
     Answer,
     Balance,
+    Bring,
     Close,
     ForEach,
     Gesture,
+    Give,
     Goal,
     GoTo,
+    If,
     LookAt,
     Open,
     Repeat,
@@ -43,6 +46,8 @@ _WAYS = lexicon.words(
     "backward backwards rearwards sideways upside diagonally kneel kneeling crawl jump hop tiptoe"
 )
 """How something is to be done, for which no goal has a slot but a walk by some distance."""
+_POSES = lexicon.words("kneel kneeling")
+"""What is taken for a squat, and is none."""
 _ORDINALS = lexicon.words("second third fourth fifth")
 _BOARDS = lexicon.words("top upper bottom lower middle topmost uppermost")
 _CARRYING = (
@@ -52,7 +57,7 @@ _CARRYING = (
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 _OTHERS = lexicon.words(
     "x y wear whoever whatever whichever robot result total amount given being having "
-    "went gone ended floor apartment house ok today"
+    "went gone ended floor apartment house ok today fist"
 )
 """Words of constructions that the readings know and no list has."""
 _PEOPLE = lexicon.PERSON_NOUNS | frozenset(lexicon.GENDERS)
@@ -129,7 +134,8 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if match and word not in _OTHERS | _PEOPLE:
         known = told.name(*(n.name for n in match.names)) or told.speaks
         known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
-        return match.end, known
+        favour = text.word(at - 1) == "for" and bool(match.of("person"))
+        return match.end, known or (favour and not told.has(Bring, Give))
     most = text.lookup(lexicon.SUPERLATIVES, at)
     if most:
         return most[1], most[0] in told.values or text.word(at - 1) in _WEIGHING
@@ -141,7 +147,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if amount and (word in NUMBER_WORDS - {"one"} or word[0].isdigit()) and not told.speaks:
         return amount.end, amount.value == 1 or (told.has(Repeat) and amount.value < 1)
     verb = max((end for _, end in verbs_at(text.words, at)), default=at)
-    if verb > at + 1 and word not in _WAYS:
+    if verb > at + 1 and word not in _POSES:
         return verb, True
     if word in _CARRYING:
         return at + 1, told.speaks or _word_carried(text, at, told)
@@ -153,8 +159,8 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
 def _word_carried(text: Text, at: int, told: _Told) -> bool:
     """Whether a word of a closed class that carries something comes back."""
     word, after = text.word(at), text.word(at + 1)
-    meaning = lexicon.COLORS.get(word) or lexicon.SIZES.get(word) or lexicon.COMPARATIVES.get(word)
-    if meaning and meaning in told.values:
+    tables = (lexicon.COLORS, lexicon.SIZES, lexicon.COMPARATIVES)
+    if told.values.intersection(filter(None, (table.get(word) for table in tables))):
         return True
     if word in _QUANTIFIERS:
         return _quantity_carried(text, at, told)
@@ -186,6 +192,8 @@ def _quantity_carried(text: Text, at: int, told: _Told) -> bool:
         pair = word == "both" and (2 in told.numbers or len(told.goals) > 1)
         fixed = text.word(at + 1) in ("the", "right", "in", "of")
         return told.several() or pair or fixed or not _before_noun(text, at + 1)
+    if word == "none":
+        return told.has(If)
     return word == "most" and bool(told.words & _SUPERLATIVE_WORDS)
 
 

@@ -22,6 +22,7 @@ from intents.english import afterthoughts
 from intents.english.corrections import correction
 from intents.english.reading import Rules
 from intents.english.readings import (
+    asides,
     conditionals,
     ellipsis,
     ends,
@@ -98,6 +99,11 @@ RULES = Rules(
         without_verb.telegram,
         ellipsis.gapped,
         remarks.told_of,
+        # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
+        # the table") is read above.
+        asides.warned,
+        asides.forbidden,
+        asides.told,
         # Asks back, so nothing may come after it that could still be read.
         without_verb.only_named,
     ),

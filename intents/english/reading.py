@@ -16,6 +16,7 @@ from typing import NamedTuple
 from intents.english.phrases.complements import Complement, ends_clause
 from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError
+from intents.english.words.names import Name
 from intents.english.words.text import Text
 from intents.goals import Goal
 
@@ -45,7 +46,7 @@ class Notes:
         one_hand: It is said with which hands a thing is to be handled.
         trace: Each clause as it was said, with what it was read as by itself.
         passed: From where to where words stand that ask for nothing, or were taken back.
-        remarks: What the speaker is told about words that were heard and change nothing.
+        forbidden: What is not to be done, as it was said, with the names in it.
     """
 
     wanted: bool = False
@@ -56,7 +57,9 @@ class Notes:
         default_factory=list[tuple[str, tuple[Goal, ...]]]
     )
     passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
-    remarks: list[str] = field(default_factory=list[str])
+    forbidden: list[tuple[str, tuple[Name, ...]]] = field(
+        default_factory=list[tuple[str, tuple[Name, ...]]]
+    )
 
 
 class Rules(NamedTuple):

@@ -57,6 +57,10 @@ def _opening_end(text: Text, at: int) -> int | None:
         return None
     opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
+    if text.word(at) == "mind" and not verbs_at(text.words, end):
+        return None  # mind the step
+    if text.words[at:end] == ["no"] and text.name_at(end) and not verbs_at(text.words, end):
+        return None  # no milk for Emil
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
     if open_ended and not connector_end(text, at) and not opens_verb:
         return None

@@ -278,6 +278,8 @@ AUXILIARIES = words(
 )
 WH = words("what where who how which when why whose whom whether if unless")
 CONJUNCTIONS = words("and or then but so because else otherwise than as while until")
+OTHER_WORDS = words("to for at on in with of by from and or me the a an one is are")
+"""A noun follows these."""
 DIRECTIONS = words(
     "left right forward forwards backward backwards back ahead straight around up down away "
     "clockwise counterclockwise anticlockwise here there off together again sideways out"

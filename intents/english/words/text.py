@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
+from intents.english.words.courtesy import courtesy_end
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -126,6 +127,7 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     at = 0
     while at < len(tokens):
         end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
+        end = max(end or 0, courtesy_end(words, at, kept=[t.text for t in kept]) or 0) or None
         if end is None or index.match(words, at):
             kept.append(tokens[at])
             at += 1
