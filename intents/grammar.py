@@ -6,7 +6,7 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 
 from typing import NamedTuple
 
-from intents.english.faithfulness import left_out
+from intents.english.faithfulness import left_out, strings
 from intents.english.joining import carried
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
@@ -16,7 +16,22 @@ from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.text import Text
-from intents.goals import Bring, Give, Goal, GoTo, Greet, Pause, Pick, Place, Stop, each
+from intents.goals import (
+    Answer,
+    Bring,
+    Give,
+    Goal,
+    GoTo,
+    Greet,
+    If,
+    Pause,
+    Pick,
+    Place,
+    Say,
+    Stop,
+    Tell,
+    each,
+)
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -72,13 +87,16 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
         Partly: It is asked for as well, or nobody can promise it: on the way to a place the robot
             goes where it has to.
     """
-    for said, names in sentence.notes.forbidden:
-        spots = [n.name for n in names if n.kind in ("place", "room")]
-        handled = {getattr(getattr(goal, "object", None), "name", None) for goal in each(goals)}
-        if goals and (spots or handled.intersection(n.name for n in names)):
+    if sentence.notes.forbidden and not goals:
+        raise NotUnderstood("All right, I shall not")
+    known = " ".join(strings(goals))
+    for said, names, away in sentence.notes.forbidden:
+        spots = away and any(n.kind in ("place", "room") for n in names)
+        asked = any(n.name.lower() in known for n in names if n.kind != "person")
+        if spots or (asked and not away):
             raise Partly(f"I cannot promise “{said}”", tuple(goals))
-    heard = [f"“{said}”" for said, _ in sentence.notes.forbidden]
-    return [f"I touch only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []
+    heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
+    return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []
 
 
 def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
@@ -89,12 +107,25 @@ def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
     """
     if any(isinstance(goal, Stop | Pause) for goal in goals):
         return []
+    _must_choose(sentence.text, goals)
     dropped = left_out(sentence.text, goals, sentence.notes.passed)
     grave = [one.said for one in dropped if not one.slight]
     if grave and goals:
         said = listing([f"“{word}”" for word in grave], "and")
         raise Partly(f"I cannot take account of {said}", tuple(goals))
     return [f"I pay no attention to “{one.said}”" for one in dropped]
+
+
+def _must_choose(text: Text, goals: list[Goal]) -> None:
+    """Refuse to do both where one or the other was asked for: "an apple or a banana".
+
+    Raises:
+        Unclear: That is so.
+    """
+    either = "or" in text.words[1:] and len(goals) > 1
+    decided = any(isinstance(goal, If | Say | Answer | Tell) for goal in each(goals))
+    if either and not decided:
+        raise Unclear("The one or the other: which shall it be?")
 
 
 def _acts(goals: list[Goal]) -> bool:

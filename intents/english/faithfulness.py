@@ -247,6 +247,11 @@ def _describes(text: Text, at: int, told: _Told) -> bool:
     return False
 
 
+def strings(goals: Iterable[Goal]) -> list[str]:
+    """Every word that goals say, in lower case."""
+    return [value.lower() for value in _strings(to_builtins(goals))]
+
+
 def _strings(value: object) -> Iterator[str]:
     if isinstance(value, str):
         yield value

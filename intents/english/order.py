@@ -18,7 +18,7 @@ otherwise the other way round. A new reading is a function in :mod:`intents.engl
 row here.
 """
 
-from intents.english import afterthoughts
+from intents.english import afterthoughts, exclusions
 from intents.english.corrections import correction
 from intents.english.reading import Rules
 from intents.english.readings import (
@@ -75,6 +75,7 @@ RULES = Rules(
         movements.patrol,
         verb.tidied_by,
         questions.whether,
+        questions.seen,
         without_verb.fist,
         without_verb.head,
         without_verb.lights,
@@ -110,6 +111,8 @@ RULES = Rules(
     afterthoughts=(
         # Anything can be taken back, what is a condition or "after ..." as well.
         correction,
+        afterthoughts.left_undone,
+        exclusions.excluded,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.so_often,

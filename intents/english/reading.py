@@ -35,6 +35,17 @@ class SaidVerb(NamedTuple):
     senses: tuple[str, ...]
 
 
+class Forbidden(NamedTuple):
+    """What is not to be done, as it was said, with the names in it.
+
+    ``away`` says that it is a place or a thing to keep away from.
+    """
+
+    said: str
+    names: tuple[Name, ...]
+    away: bool
+
+
 @dataclass(slots=True)
 class Notes:
     """What the clauses of a sentence leave for those that follow.
@@ -46,7 +57,7 @@ class Notes:
         one_hand: It is said with which hands a thing is to be handled.
         trace: Each clause as it was said, with what it was read as by itself.
         passed: From where to where words stand that ask for nothing, or were taken back.
-        forbidden: What is not to be done, as it was said, with the names in it.
+        forbidden: What is not to be done.
     """
 
     wanted: bool = False
@@ -57,9 +68,7 @@ class Notes:
         default_factory=list[tuple[str, tuple[Goal, ...]]]
     )
     passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
-    forbidden: list[tuple[str, tuple[Name, ...]]] = field(
-        default_factory=list[tuple[str, tuple[Name, ...]]]
-    )
+    forbidden: list[Forbidden] = field(default_factory=list["Forbidden"])
 
 
 class Rules(NamedTuple):

@@ -93,7 +93,7 @@ def _changed(sentence: Sentence, at: int, last: list[Goal], *, since: int) -> Fo
     for thought in sentence.rules.afterthoughts:
         changed = thought(sentence, at, last)
         if changed:
-            if thought is correction:
+            if thought is correction or not changed[0]:
                 sentence.notes.passed.append((since, at))
             return changed
     return None

@@ -89,7 +89,7 @@ def _is_subject(text: Text, at: int) -> bool:
     word = text.word(at)
     if not word.isalpha() or verbs_at(text.words, at) or word in lexicon.FUNCTION_WORDS:
         return False
-    return is_english(word) or word[:1] != word or True
+    return not word.endswith(("ed", "ing")) and (word,) not in lexicon.CONNECTORS
 
 
 def _owns(text: Text, at: int) -> bool:

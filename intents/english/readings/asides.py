@@ -7,7 +7,8 @@ none is acted on. A prohibition is noted, and looked at again when the goals are
 
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
-from intents.english.reading import Found, Sentence
+from intents.english.phrases.phrase import is_content
+from intents.english.reading import Forbidden, Found, Sentence
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.names import Name
@@ -22,7 +23,8 @@ _WARNS = lexicon.phrases(
     "attention,be nice,be good,be patient,be quiet,gently does it"
 )
 _FORBIDS = lexicon.phrases(
-    "do not,never,avoid,no,not,without,but not,and not,only not,do not you,do not ever"
+    "forget,forget about,ignore,skip,do not,never,avoid,no,not,without,but not,and not,only not,"
+    "do not you,do not ever"
 )
 _KEEPS_AWAY = lexicon.phrases(
     "keep away from,stay away from,keep off,stay off,keep out of,stay out of,stay clear of,"
@@ -56,17 +58,20 @@ def warned(sentence: Sentence, at: int) -> Found | None:
 def forbidden(sentence: Sentence, at: int) -> Found | None:
     """Don't touch my phone; keep away from the stove; no juice for Leo."""
     text = sentence.text
+    if sentence.depth:
+        return None  # what is not to be done if ... is no aside
     away = text.phrase_end(_KEEPS_AWAY, at)
     start = away or text.phrase_end(_FORBIDS, at)
     if start is None or start >= len(text):
         return None
     end = _clause_end(text, start, links=away is not None and text.word(at) != "do")
     said = text.words[at:end]
-    if end == start or (text.word(at) == "no" and _names(text, start, end) == ()):
+    if end == start or (text.word(at) == "no" and not is_content(text, start)):
         return None
     _mention(sentence, start, end)
     if not _SAFE.intersection(said):
-        sentence.notes.forbidden.append((text.raw(at, end), _names(text, start, end)))
+        names = _names(text, start, end)
+        sentence.notes.forbidden.append(Forbidden(text.raw(at, end), names, away is not None))
     return [], end
 
 

@@ -66,14 +66,14 @@ _TAILS = lexicon.phrases(
 """What may be said behind a request and adds nothing to it."""
 _SMALL = lexicon.phrases("exactly,at least,at most,up to,no more than,not more than,precisely")
 _HEDGES = lexicon.words(
-    "i was am were just wondering wonder wondered whether if you might may could would can "
-    "possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully very "
-    "please do think there is any chance that of me trouble bother ask it us we bothering "
+    "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
+    "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
+    "very please do think there is any chance that of me trouble bother ask it us we bothering "
     "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do"
 )
 _HEDGED = lexicon.words(
-    "wondering wonder wondered trouble bother chance mind possibly terribly awfully appreciate "
-    "grateful perhaps happen hoping hope possible might maybe"
+    "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
+    "appreciate grateful perhaps happen hoping hope possible might maybe"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
@@ -151,7 +151,7 @@ def _prelude(words: list[str], at: int) -> int | None:
 
 def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
     """..., would you?; ..., and make it snappy; ..., okay?"""
-    if not kept or _asks(kept):
+    if not kept or kept[-1] in lexicon.WH or _asks(kept):
         return None
     for end in range(min(len(words), at + 6), at, -1):
         if tuple(words[at:end]) in _TAILS and _closes(words, end):
@@ -205,7 +205,13 @@ def _small_word(words: list[str], at: int) -> int | None:
     """*Exactly* three; the *bloody* cup; so *like* can you."""
     if words[at] in _CURSES:
         return at + 1
+    if words[at] in ("very", "really", "quite", "extra", "super", "ever") and (
+        tuple(words[at + 1 : at + 2]) in lexicon.FILLERS
+    ):
+        return at + 2
     after = words[at + 1 : at + 3]
+    if words[at] == "like" and words[at - 2 : at] in (["could", "you"], ["can", "you"]):
+        return at + 1
     if words[at] == "like" and after and after[0] in ("can", "could", "would") and "you" in after:
         return at + 1
     if words[at] == "know" and words[at - 2 : at] in (["can", "you"], ["could", "you"]):

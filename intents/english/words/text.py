@@ -30,6 +30,12 @@ _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
 _WISHING = words("would it i")
+_ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
+"""What "with you" belongs to; else it is only taken along."""
+_PREDICATES = words(
+    "there here still not gone empty full open closed in on at under behind near next missing away"
+)
+"""What follows "the bottle's" where that is no owner."""
 _ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -144,6 +150,16 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    words = [t.text for t in tokens]
+    if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
+        tokens.insert(0, Token("i", ""))  # need a screwdriver here
+    for at in range(len(words) - 2, 0, -1):
+        if words[at : at + 2] == ["with", "you"] and words[at - 1] not in _ACCOMPANY:
+            tokens[at : at + 2] = [Token("along", f"{tokens[at].raw} {tokens[at + 1].raw}")]
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 1):
+        if words[at] == "'s" and words[at + 1] in _PREDICATES:
+            tokens[at] = Token("is", tokens[at].raw)
     words = [t.text for t in tokens]
     for at in range(len(words) - 1, 1, -1):
         wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING
