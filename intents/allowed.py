@@ -127,7 +127,8 @@ def _fault_of_object(query: ObjectQuery, names: Names) -> str:
             return _unknown(said, known)
     if any(not _is_word(word) for word in (query.color, query.size) if word is not None):
         return "colour and size are one word each"
-    return _fault_in(query.relation, names) if query.relation else ""
+    inner = (query.relation, query.except_)
+    return next((fault for one in inner if one and (fault := _fault_in(one, names))), "")
 
 
 def _fault_of_person(person: Person, names: Names) -> str:

@@ -51,7 +51,7 @@ def _snake_case(name: str) -> str:
 
 
 class _Slots(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unknown_fields=True,
-             kw_only=True, rename={"in_": "in", "else_": "else"}):  # fmt: skip
+             kw_only=True, rename={"in_": "in", "else_": "else", "except_": "except"}):  # fmt: skip
     """A record of slots, each of which may be left unsaid."""
 
 
@@ -72,6 +72,7 @@ class ObjectQuery(_Slots, frozen=True, kw_only=True):
         at: Place or room where it is.
         relation: Where it is relative to another object.
         held: It is what the robot holds, or what was spoken of last ("it").
+        except_: What is not meant, of what fits ("all cups but the red one").
     """
 
     name: str | None = None
@@ -83,6 +84,7 @@ class ObjectQuery(_Slots, frozen=True, kw_only=True):
     at: str | None = None
     relation: "Relation | None" = None
     held: bool = False
+    except_: "ObjectQuery | None" = None
 
 
 class Relation(_Slots, frozen=True, kw_only=True):

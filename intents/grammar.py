@@ -6,14 +6,32 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 
 from typing import NamedTuple
 
+from intents.english.faithfulness import left_out, strings
+from intents.english.joining import carried
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
+from intents.english.readings.asides import somebody_else
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Partly, Unclear
+from intents.english.trouble import NotUnderstood, Partly, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.text import Text
-from intents.goals import Bring, Give, Goal, GoTo, Greet, Pick, Place
+from intents.goals import (
+    Answer,
+    Bring,
+    Give,
+    Goal,
+    GoTo,
+    Greet,
+    If,
+    Pause,
+    Pick,
+    Place,
+    Say,
+    Stop,
+    Tell,
+    each,
+)
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -27,10 +45,12 @@ class Understood(NamedTuple):
 
     Attributes:
         clauses: Each clause as it was said, with what it was read as by itself.
+        remarks: What the speaker is told about words that were heard and change nothing.
     """
 
     goals: tuple[Goal, ...]
     clauses: tuple[tuple[str, tuple[Goal, ...]], ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
 def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood:
@@ -44,15 +64,68 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
     for at in range(1, len(text)):
         if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
             raise NotUnderstood("That is for you to do, as I hear it")
+    spoken_to = somebody_else(text)
+    if spoken_to:
+        raise NotUnderstood(f"I take that as said to {spoken_to}, not to me")
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
+    goals = carried(goals)
     if text.word(len(text) - 1) in _DANGLING and _acts(goals[-1:]):
         raise Unclear(f"“... {text.word(len(text) - 1)}” what?")
     if end < len(text):
         raise not_understood(text, end)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
-    return Understood(tuple(goals), tuple(sentence.notes.trace))
+    remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals))
+    return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
+    """What is remarked on what is not to be done.
+
+    Raises:
+        Partly: It is asked for as well, or nobody can promise it: on the way to a place the robot
+            goes where it has to.
+    """
+    if sentence.notes.forbidden and not goals:
+        raise NotUnderstood("All right, I shall not")
+    known = " ".join(strings(goals))
+    for said, names, away in sentence.notes.forbidden:
+        spots = away and any(n.kind in ("place", "room") for n in names)
+        asked = any(n.name.lower() in known for n in names if n.kind != "person")
+        if spots or (asked and not away):
+            raise Partly(f"I cannot promise “{said}”", tuple(goals))
+    heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
+    return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []
+
+
+def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
+    """What is remarked on words that no goal carries.
+
+    Raises:
+        Partly: One of them may change what is to be done.
+    """
+    if any(isinstance(goal, Stop | Pause) for goal in goals):
+        return []
+    _must_choose(sentence.text, goals)
+    dropped = left_out(sentence.text, goals, sentence.notes.passed)
+    grave = [one.said for one in dropped if not one.slight]
+    if grave and goals:
+        said = listing([f"“{word}”" for word in grave], "and")
+        raise Partly(f"I cannot take account of {said}", tuple(goals))
+    return [f"I pay no attention to “{one.said}”" for one in dropped]
+
+
+def _must_choose(text: Text, goals: list[Goal]) -> None:
+    """Refuse to do both where one or the other was asked for: "an apple or a banana".
+
+    Raises:
+        Unclear: That is so.
+    """
+    either = "or" in text.words[1:] and len(goals) > 1
+    decided = any(isinstance(goal, If | Say | Answer | Tell) for goal in each(goals))
+    if either and not decided:
+        raise Unclear("The one or the other: which shall it be?")
 
 
 def _acts(goals: list[Goal]) -> bool:

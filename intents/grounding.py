@@ -168,6 +168,7 @@ def _fits(entity: Entity, query: ObjectQuery) -> bool:
         and (query.color is None or entity.color == query.color)
         and near
         and (not query.held or entity.held or query.name is not None)
+        and not (query.except_ and _fits(entity, query.except_))
     )
 
 

@@ -181,7 +181,7 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)
-    return _settled(_remarked(checked, words), context, scope)
+    return _settled(_remarked(checked, words, understood.remarks), context, scope)
 
 
 def _partly(text: str, partly: Partly) -> Question:
@@ -211,12 +211,13 @@ def _settled(outcome: Outcome, context: Context, scope: Scope) -> tuple[Outcome,
     return outcome, after
 
 
-def _remarked(outcome: Outcome, words: Text) -> Outcome:
-    """Say which words were corrected."""
-    if not words.corrections or not isinstance(outcome, Goals):
+def _remarked(outcome: Outcome, words: Text, remarks: tuple[str, ...]) -> Outcome:
+    """Say which words were corrected, and which were heard and change nothing."""
+    if not isinstance(outcome, Goals):
         return outcome
     taken = ", ".join(f"“{said}” for “{meant}”" for said, meant in words.corrections)
-    return replace(outcome, reason=f"I took {taken}.")
+    told = ((f"I took {taken}",) if taken else ()) + remarks
+    return replace(outcome, reason=". ".join(told) + ".") if told else outcome
 
 
 def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:

@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from math import degrees
 
+from msgspec.structs import replace
+
 from intents import goals as g
 from intents.goals import OPERATOR, Goal, ObjectQuery, Person
 from intents.grounding import HOW_WORDS
@@ -43,6 +45,8 @@ def thing(query: ObjectQuery) -> str:
     where = f" at {the(query.at)}" if query.at else ""
     if query.relation:
         where += f" {_beside(query.relation)}"
+    if query.except_:
+        where += f" except {thing(query.except_)}"
     return f"{first} {words}{where}"
 
 
@@ -143,10 +147,7 @@ _WAYS = ("left", "right", "up", "down", "ahead", "behind", "around")
 
 
 def _each(query: ObjectQuery) -> ObjectQuery:
-    return ObjectQuery(
-        name=query.name, category=query.category, color=query.color, size=query.size,
-        superlative=query.superlative, count="all", at=query.at, relation=query.relation,
-    )  # fmt: skip
+    return replace(query, count="all", held=False)
 
 
 def _subject(query: ObjectQuery | None, person: Person | None) -> str:

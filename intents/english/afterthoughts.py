@@ -18,6 +18,17 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
 
+_RETRACTS = lexicon.phrases("leave it,leave that,leave them,leave it be,leave it alone,let it be")
+
+
+def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Pick up the cup, no, *leave it*: what was asked last is not to be done."""
+    text = sentence.text
+    end = text.phrase_end(_RETRACTS, at)
+    closed = end is not None and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
+    apart = text.word(at - 1) in (COMMA, FULL_STOP, "no")
+    return ([], end) if end and closed and apart and last else None
+
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Bring the mug *if the cup is not there*."""

@@ -16,8 +16,11 @@ _MARKERS = phrases(
     "no wait,wait no,no,i mean,i meant,or rather,rather,scratch that,correction,make that,sorry,"
     "oh sorry,not that,no sorry,wait,oh no,oops,my mistake,i mean to say,sorry i meant,"
     "sorry i mean,no i mean,no i meant,no not that,not that one,not this one,"
-    "no not that one,no not this one,wrong one,no make that,or better,better"
+    "no not that one,no not this one,wrong one,no make that,or better,better,on second thought,"
+    "on second thoughts,strike that,change that,not there"
 )
+_BEHIND = phrases("i mean,i meant,rather,instead,i mean to say,sorry,that is")
+"""What stands behind a correction rather than before it."""
 _OPENINGS = ("sorry", "oh", "wait")
 """Markers that open a new sentence as often as they take back the one before."""
 
@@ -53,7 +56,7 @@ def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
 def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """No wait, the blue one; I mean go to the kitchen."""
     text, scope = sentence.text, sentence.scope
-    end = _marker_end(text, at) or _told_apart(text, at, scope.object)
+    end = _marker_end(text, at) or _told_apart(text, at, scope.object) or _meant(text, at)
     if end is None:
         return None
     if verbs_at(text.words, end):
@@ -71,7 +74,7 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if old is None:
         raise Misfit("I do not know what to correct")
     scope.mention(new)
-    return [substitute(g, old, new) for g in last], phrase.end
+    return [substitute(g, old, new) for g in last], _past_marker(text, phrase.end)
 
 
 def _spot_after_preposition(text: Text, at: int) -> NounPhrase | None:
@@ -80,6 +83,21 @@ def _spot_after_preposition(text: Text, at: int) -> NounPhrase | None:
     start = located[1] if located else text.phrase_end(GOALWARDS, at)
     phrase = noun_phrase(text, start) if start else None
     return phrase if phrase and phrase.is_spot else None
+
+
+def _meant(text: Text, at: int) -> int | None:
+    """Put it on the table, *on the counter I mean*: the marker stands behind."""
+    if verbs_at(text.words, at) or text.word(at - 1) not in (COMMA, FULL_STOP):
+        return None
+    phrase = noun_phrase(text, at) or _spot_after_preposition(text, at)
+    return at if phrase and _past_marker(text, phrase.end) > phrase.end else None
+
+
+def _past_marker(text: Text, at: int) -> int:
+    """Past "I mean" at the end of a correction."""
+    start = at + (text.word(at) == COMMA)
+    end = text.phrase_end(_BEHIND, start)
+    return end if end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)) else at
 
 
 def _told_apart(text: Text, at: int, old: ObjectQuery | None) -> int | None:

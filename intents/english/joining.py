@@ -25,6 +25,8 @@ from intents.goals import (
     Wait,
 )
 
+_HANDS = 2
+
 
 def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
     """The goal in the light of the one before, which is taken off the list if it is part of it.
@@ -49,6 +51,28 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
                 before.pop()
             return made
     return goal
+
+
+def carried(goals: list[Goal]) -> list[Goal]:
+    """Take the pen, the cup and the box, and put them on the desk: each is fetched in its turn.
+
+    More than two cannot be held at once, and need not be.
+    """
+    picks = [goal for goal in goals if isinstance(goal, Pick)]
+    if (
+        sum(goal.object.count if isinstance(goal.object.count, int) else 1 for goal in picks)
+        <= _HANDS
+    ):
+        return goals
+    kept = list(goals)
+    for pick in picks:
+        later = [g for g in kept[kept.index(pick) :] if isinstance(g, Place | Bring | Give)]
+        fate = next((g for g in later if _bare(g.object) == _bare(pick.object)), None)
+        if fate is not None:
+            thing = replace(fate.object, at=fate.object.at or pick.object.at)
+            kept[kept.index(fate)] = replace(fate, object=thing)
+            kept.remove(pick)
+    return kept
 
 
 def same_object(wanted: Goal, found: list[Goal]) -> bool:

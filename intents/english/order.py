@@ -18,10 +18,11 @@ otherwise the other way round. A new reading is a function in :mod:`intents.engl
 row here.
 """
 
-from intents.english import afterthoughts
+from intents.english import afterthoughts, exclusions
 from intents.english.corrections import correction
 from intents.english.reading import Rules
 from intents.english.readings import (
+    asides,
     conditionals,
     ellipsis,
     ends,
@@ -74,6 +75,7 @@ RULES = Rules(
         movements.patrol,
         verb.tidied_by,
         questions.whether,
+        questions.seen,
         without_verb.fist,
         without_verb.head,
         without_verb.lights,
@@ -98,12 +100,19 @@ RULES = Rules(
         without_verb.telegram,
         ellipsis.gapped,
         remarks.told_of,
+        # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
+        # the table") is read above.
+        asides.warned,
+        asides.forbidden,
+        asides.told,
         # Asks back, so nothing may come after it that could still be read.
         without_verb.only_named,
     ),
     afterthoughts=(
         # Anything can be taken back, what is a condition or "after ..." as well.
         correction,
+        afterthoughts.left_undone,
+        exclusions.excluded,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.so_often,

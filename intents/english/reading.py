@@ -16,6 +16,7 @@ from typing import NamedTuple
 from intents.english.phrases.complements import Complement, ends_clause
 from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError
+from intents.english.words.names import Name
 from intents.english.words.text import Text
 from intents.goals import Goal
 
@@ -34,6 +35,17 @@ class SaidVerb(NamedTuple):
     senses: tuple[str, ...]
 
 
+class Forbidden(NamedTuple):
+    """What is not to be done, as it was said, with the names in it.
+
+    ``away`` says that it is a place or a thing to keep away from.
+    """
+
+    said: str
+    names: tuple[Name, ...]
+    away: bool
+
+
 @dataclass(slots=True)
 class Notes:
     """What the clauses of a sentence leave for those that follow.
@@ -42,8 +54,10 @@ class Notes:
         wanted: The last clause was a wish ("I want the cup"), which the next may spell out.
         verb: The last verb, which the next clause may leave out.
         particles: "On", "off" or "out" of that verb.
-        one_hand: A thing is to be handled with one hand and not the other.
+        one_hand: It is said with which hands a thing is to be handled.
         trace: Each clause as it was said, with what it was read as by itself.
+        passed: From where to where words stand that ask for nothing, or were taken back.
+        forbidden: What is not to be done.
     """
 
     wanted: bool = False
@@ -53,6 +67,8 @@ class Notes:
     trace: list[tuple[str, tuple[Goal, ...]]] = field(
         default_factory=list[tuple[str, tuple[Goal, ...]]]
     )
+    passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
+    forbidden: list[Forbidden] = field(default_factory=list["Forbidden"])
 
 
 class Rules(NamedTuple):

@@ -3,16 +3,21 @@
 import re
 
 from intents.english.clauses.openings import otherwise_end, skip_openings
-from intents.english.corrections import taken_back
+from intents.english.corrections import correction, taken_back
 from intents.english.joining import as_wished, joined, or_else, same_object
-from intents.english.reading import Found, Sentence, clause
+from intents.english.phrases.complements import connector_end
+from intents.english.reading import Found, Sentence, clause, not_understood
 from intents.english.substitution import substitute
 from intents.english.trouble import Misfit, NotUnderstood, Partly
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
+from intents.english.words.verbs import base_form
 from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
 
-_NAMED_HAND = re.compile(r"\b(with|using|use|in) (your|the) (left|right) (hand|arm|gripper)\b")
+_NAMED_HAND = re.compile(
+    r"\b(with|using|use|in) (of |your |the )*(left|right|both|two|one) (of )?(your |the )?"
+    r"(hand|arm|gripper)s?\b"
+)
 
 
 def sequence(sentence: Sentence, at: int) -> Found:
@@ -24,18 +29,20 @@ def sequence(sentence: Sentence, at: int) -> Found:
     text, notes = sentence.text, sentence.notes
     goals: list[Goal] = []
     here = sentence.after(goals)
-    last = 0
+    last, clause_at = 0, 0
     while True:
         if sentence.depth and goals and _ends_inner(text, at):
             return goals, at
         begun, at = at, skip_openings(text, at)
+        notes.passed.append((begun, at))
         back = taken_back(here, begun, goals[last:] if begun else list(sentence.history))
         if back:
+            notes.passed.append((clause_at, begun))
             goals[last:], at = back
             continue
         if at >= len(text) or (sentence.depth and otherwise_end(text, at)):
             return goals, at
-        changed = _changed(here, at, goals[last:]) if goals else None
+        changed = _changed(here, at, goals[last:], since=clause_at) if goals else None
         if changed:
             goals[last:], at = changed
             continue
@@ -45,6 +52,9 @@ def sequence(sentence: Sentence, at: int) -> Found:
         notes.one_hand |= _names_hand(text.raw(begun, end), found)
         if not sentence.depth:
             notes.trace.append((text.raw(at, end), tuple(found)))
+        if not found:
+            notes.passed.append((begun, end))
+        clause_at = begun
         last = _append(here, found, wish, text.words[begun : at + 1])
         at = max(end, at + 1)
 
@@ -75,10 +85,18 @@ def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: li
     return last
 
 
-def _changed(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """The goals of the clause before, as the first afterthought that is one changes them."""
-    changed = (thought(sentence, at, last) for thought in sentence.rules.afterthoughts)
-    return next(filter(None, changed), None)
+def _changed(sentence: Sentence, at: int, last: list[Goal], *, since: int) -> Found | None:
+    """The goals of the clause before, as the first afterthought that is one changes them.
+
+    What is corrected counts as not said, from word ``since`` on.
+    """
+    for thought in sentence.rules.afterthoughts:
+        changed = thought(sentence, at, last)
+        if changed:
+            if thought is correction or not changed[0]:
+                sentence.notes.passed.append((since, at))
+            return changed
+    return None
 
 
 def _one_more(sentence: Sentence, at: int) -> Found:
@@ -89,11 +107,20 @@ def _one_more(sentence: Sentence, at: int) -> Found:
     """
     known = tuple(sentence.before)
     try:
+        if known and _hangs_on(sentence.text, at):
+            raise not_understood(sentence.text, at)
         return clause(sentence, at)
     except (NotUnderstood, Misfit) as error:
         if not known or sentence.depth:
             raise
         raise Partly(str(error), known) from None
+
+
+def _hangs_on(text: Text, at: int) -> bool:
+    """Put it down *facing me*: with no link before it, a participle is no new clause."""
+    word, before = text.word(at), text.word(at - 1)
+    linked = before in (COMMA, FULL_STOP) or connector_end(text, at - 1)
+    return word.endswith("ing") and base_form(word) != word and not linked
 
 
 def _ends_inner(text: Text, at: int) -> bool:
@@ -108,6 +135,6 @@ def _once(goals: list[Goal]) -> bool:
 
 
 def _names_hand(said: str, goals: list[Goal]) -> bool:
-    """Whether a thing is to be handled with one hand and not the other."""
+    """Whether it is said with which hands a thing is to be handled."""
     handles = any(isinstance(goal, (Pick, Place, Bring, Give)) for goal in each(goals))
     return handles and _NAMED_HAND.search(said.lower()) is not None

@@ -2,6 +2,7 @@
 
 from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.complements import connector_end
+from intents.english.phrases.phrase import is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
@@ -57,6 +58,10 @@ def _opening_end(text: Text, at: int) -> int | None:
         return None
     opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
+    if text.word(at) == "mind" and not verbs_at(text.words, end):
+        return None  # mind the step
+    if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
+        return None  # no milk for Emil
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
     if open_ended and not connector_end(text, at) and not opens_verb:
         return None

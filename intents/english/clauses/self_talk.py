@@ -134,6 +134,8 @@ def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
     end = at
     while end < len(text) and text.word(end)[0].isalnum() and end <= at + _LONGEST:
         end += 1
+    if any(text.lookup(lexicon.SUPERLATIVES, n) for n in range(at + 1, end)):
+        return None  # the heaviest thing you can see
     for stop in _ends(text, at, end):
         topic = _topic(" ".join(text.words[at:stop]))
         if topic and not (topic == "health" and _of_a_thing(text, at, stop)):

@@ -6,7 +6,7 @@ from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import singular
 from intents.english.words.lexicon import words
-from intents.goals import Close, Goal, Open, Switch
+from intents.goals import Close, Goal, Open, Place, Switch
 
 _OPENABLE = words(
     "door drawer fridge refrigerator freezer cabinet cupboard window hand gripper box bottle jar "
@@ -36,6 +36,10 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
             continue
         name = phrase.name("object", "place", "room")
         head = singular(phrase.said.split()[-1]) if phrase.said else ""
+        last = scope.last
+        if phrase.said in ("door", "lid", "drawer") and isinstance(last, Place) and last.in_:
+            names.append(last.in_)  # put the milk in the fridge and shut the door
+            continue
         if name and phrase.exact:
             names.append(name)
         elif head in generic:

@@ -13,6 +13,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import singular
+from intents.english.words.lexicon import EVERYONE
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
@@ -21,6 +22,7 @@ from intents.goals import (
     ForEach,
     Give,
     Goal,
+    GoTo,
     ObjectQuery,
     Person,
     Pick,
@@ -29,6 +31,7 @@ from intents.goals import (
 )
 
 _WISHES = ("i need", "i want", "i would like", "we need", "we want", "we would like")
+_DISPOSE = ("get rid", "dispose", "discard", "trash", "recycle", "bin")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -41,13 +44,17 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
         return put(clause, scope)
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
-    objects = slots.objects()
+    moved = not _then(clause).isdisjoint(("put", "drop", "bring", "give"))
+    objects = slots.objects(handled=moved)
     if not objects and scope.object:
         objects = [scope.object]
     need(objects, "What shall I pick up?")
     at = slots.loose_place()
     duration = slots.measure("time") if clause.verb.startswith("hold") else None
     slots.done()
+    if "along" in clause.particles() and isinstance(scope.last, GoTo) and scope.last.place:
+        there = Target(on=scope.last.place)  # go to the lab and take the cup along
+        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, there)) for o in objects]
     if duration and isinstance(scope.last, Balance):
         return [Wait(duration_s=duration)]
     held = isinstance(scope.last, Pick) and objects == [scope.object]
@@ -58,12 +65,12 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
 def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
     """Gather the cups on the table: there they are to be, if nothing else is done with them."""
     bare = slots.peek("")
-    if clause.verb != "gather" or bare is None or "put" in _then(clause):
+    if clause.verb not in ("gather", "round up") or bare is None or "put" in _then(clause):
         return None
     phrase = bare.phrases[-1]
     several = phrase.count or phrase.said != " ".join(map(singular, phrase.said.split()))
     where = phrase.places[-1:] or [Locative(c.how, c.phrase) for c in clause.with_role("at")]
-    there = bool(where) and where[0].how == "on" and where[0].of.is_spot
+    there = bool(where) and where[0].how in ("on", None) and where[0].of.is_spot
     return phrase if several and there else None
 
 
@@ -98,16 +105,19 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     slots = Slots(clause, scope)
     beside = moved_beside(clause, slots) or to_part(slots)
     if beside is not None:
-        objects = slots.objects() or ([scope.object] if scope.object else [])
+        objects = slots.objects(handled=True) or ([scope.object] if scope.object else [])
         need(objects, "What shall I bring?")
         slots.done()
         return [_each(o, lambda q: put_at(q, beside)) for o in objects]
     into = slots.peek("into")
     inside = into is not None and into.phrase.is_spot and not into.phrase.name("room")
+    everyone = [c for c in slots.rest if c.phrases and c.phrase.said in EVERYONE]
+    if everyone and clause.verb != "offer":
+        raise Unclear("I bring things to one person at a time. To whom shall I bring it?")
     to = _receiver(slots)
     if to is None:
         to = _near_destination(slots)
-    objects = slots.objects() or ([scope.object] if scope.object and to else [])
+    objects = slots.objects(handled=True) or ([scope.object] if scope.object and to else [])
     need(objects, "What shall I bring?")
     at = slots.loose_place()
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
@@ -188,7 +198,7 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     bare = slots.peek("")
     known = scope.object is not None and scope.object.at is not None and scope.last is None
     held = bare is None or (bare.phrase.noun == "pronoun" and not known)
-    objects = slots.objects() or [scope.object or ObjectQuery(held=True)]
+    objects = slots.objects(handled=True) or [scope.object or ObjectQuery(held=True)]
     at = slots.loose_place()
     slots.done()
     if held:
@@ -221,7 +231,7 @@ def want(clause: Clause, scope: Scope) -> list[Goal]:
     slots = Slots(clause, scope)
     if _is_to_stand(clause, slots):
         return put(clause, scope)
-    objects = slots.objects()
+    objects = slots.objects(handled=True)
     need(objects, "What shall I bring?")
     slots.take_person("for")
     slots.done()
@@ -242,12 +252,12 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         return bring(clause, scope)
     if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
-    spot = destination(slots)
+    spot = None if _disposes(clause) and not clause.with_role("to", "into") else destination(slots)
     if spot and spot.relation and bare and len(bare.phrases[-1].places) > 0:
         surface = bare.phrases[-1].places[-1]  # on the shelf next to the vase: the vase says where
         if surface.how in ("on", None) and surface.of.is_spot and not surface.of.name("room"):
             bare.phrases[-1].places.pop()
-    objects = slots.objects()
+    objects = slots.objects(handled=True)
     if not objects and clause.sense == "drop":
         objects = [scope.object or ObjectQuery(held=True)]
     if not objects:
@@ -255,6 +265,8 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     if spot is None and _throws(clause):
         spot = Target(in_=_trash(scope))
     down = clause.sense == "drop" or "down" in clause.particles()
+    if spot is None and clause.verb == "leave":
+        raise NotUnderstood("All right, I leave it as it is")
     if spot is None and not down:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
@@ -291,7 +303,7 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
         slots.rest.remove(bare)
         objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
     else:
-        objects = slots.objects()
+        objects = slots.objects(handled=True)
     if any(query.at is None for query in objects):
         raise Misfit("clear what?")
     slots.done()
@@ -312,6 +324,13 @@ def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:
 
 def _throws(clause: Clause) -> bool:
     return clause.verb.split()[0].startswith(_THROW) or "rid" in clause.verb
+
+
+def _disposes(clause: Clause) -> bool:
+    """Get rid of the cups *on the table*: that is where they are."""
+    bare = clause.with_role("")
+    places = bare[0].phrase.places if bare else []
+    return clause.verb.startswith(_DISPOSE) and not any(place.how == "in" for place in places)
 
 
 def _trash(scope: Scope) -> str:

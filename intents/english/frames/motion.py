@@ -69,7 +69,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit(f"“{second.phrase.said}” is one place too many")
     if target is None and (distance is not None or direction or clause.vague()):
         slots.done()
-        return [_step(direction or _implied(clause), distance, vague=clause.vague())]
+        vague = clause.vague() and clause.verb != "step"
+        return [_step(direction or _implied(clause), distance, vague=vague)]
     if target is None and (
         clause.verb.startswith(("come", "return", "get back")) or clause.verb.endswith(" back")
     ):
@@ -173,7 +174,7 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("that is to put something down")
     if exit_to:
         return [GoTo(place=to_place(exit_to.phrase, scope))]
-    if target and target.phrase.name("object"):
+    if target and (target.phrase.name("object") or is_person(target.phrase, scope)):
         raise Misfit("that is to put something down")
     if target and "exit" not in clause.verb and target.phrase.places:
         raise Misfit("that is to put something down")
@@ -186,7 +187,7 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
 def turn(clause: Clause, scope: Scope) -> list[Goal]:
     """Turn left; turn ninety degrees to the right; turn around; face the table."""
     slots = Slots(clause, scope)
-    if clause.particles() & {"on", "off", "out"}:
+    if clause.particles() & {"on", "off", "out"} or set(clause.directions()) & {"up", "down"}:
         raise Misfit("that is to switch something")
     plain = slots.measure("plain")
     unit = _FULL_TURN if plain is not None and plain < 1.0 else pi / 180  # a quarter; ninety

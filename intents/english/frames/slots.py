@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from intents.english.phrases.complements import Clause, Complement, first_with
-from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.phrase import Locative, NounPhrase, is_all
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
@@ -61,8 +61,11 @@ class Slots:
                 return complement.direction or ""
         return ""
 
-    def objects(self, *, spots: bool = False) -> list[ObjectQuery]:
-        """The bare noun phrases as objects, with "from" and loose places as where they are."""
+    def objects(self, *, spots: bool = False, handled: bool = False) -> list[ObjectQuery]:
+        """The bare noun phrases as objects, with "from" and loose places as where they are.
+
+        Of what is ``handled``, "the cups" are all of them.
+        """
         bare = self.take("")
         if bare is None:
             return []
@@ -72,6 +75,11 @@ class Slots:
         if plural and bare.phrase.noun == "pronoun" and len(self.scope.group) > 1:
             return list(self.scope.group)
         found = [to_object(p, self.scope, spots=spots) for p in bare.phrases]
+        if handled:
+            found = [
+                replace(o, count="all") if o.count is None and is_all(p) else o
+                for o, p in zip(found, bare.phrases, strict=True)
+            ]
         at = self.source()
         return [replace(o, at=o.at or at) for o in found] if at else found
 

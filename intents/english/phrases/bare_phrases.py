@@ -11,6 +11,11 @@ from intents.english.words.text import Text
 _STANDS = lexicon.words("is are am was were stands stood sits sat lies lay belongs goes")
 
 
+_KIN = lexicon.words(
+    "daughter son wife husband mother father mum mom dad brother sister friend colleague boss aunt "
+    "uncle cousin grandma grandpa grandmother grandfather partner girlfriend boyfriend roommate "
+    "flatmate kid child neighbour neighbor niece nephew buddy student teacher"
+)
 _SOURCES = lexicon.phrases(
     "you found it,you got it,you got it from,you took it from,you picked it up,it came from,"
     "you have it from,you had it from"
@@ -63,6 +68,9 @@ def _full(text: Text, start: int) -> NounPhrase | None:
     phrase = NounPhrase(start, start)
     at = read_quantity(text, phrase, start)
     at = read_adjectives(text, phrase, at)
+    named = text.name_at(at + 1)
+    if text.word(at) in _KIN and named and named.of("person") and phrase.determiner:
+        at += 1  # my daughter Mia
     end = read_noun(text, phrase, at)
     if end is None and at > start:
         end = _elliptic(text, phrase, at)

@@ -8,12 +8,13 @@ is for; `referents.py` turns it into an object, a person or a place.
 
 from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
-from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.phrase import Locative, NounPhrase, is_content
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
-from intents.english.words.lexer import COMMA, singular
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
 from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import Superlative
 
 _RELATIVE = lexicon.words("that which who whose")
@@ -124,7 +125,11 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if reduced:
         there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
         seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
-        return seen or (reduced + there if there else None)
+        ends = text.word(reduced) in (COMMA, FULL_STOP) and text.word(reduced - 1) in (
+            "find",
+            "see",
+        )
+        return seen or (reduced + there if there or ends else None)
     if text.word(at) not in _RELATIVE:
         return None
     at += 1
@@ -189,16 +194,38 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             phrase.noun, phrase.names, phrase.said = "name", inner.names, inner.said
             return inner.end
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
-        inner = noun_phrase(text, at + 1)
-        return inner.end if inner else None
+        return _equipped(text, phrase, at + 1)
     most = _most(text, phrase, at)
     if most:
         phrase.superlative, end = most
         return end
-    aside = _aside(text, phrase, at) or _at_its_side(text, phrase, at)
+    aside = (
+        _color_behind(text, phrase, at)
+        or _aside(text, phrase, at)
+        or _at_its_side(text, phrase, at)
+    )
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The cup *red*: as those say it who speak another language."""
+    told = phrase.color or not phrase.name("object", "category")
+    last = not is_content(text, at + 1) or bool(verbs_at(text.words, at + 1))
+    if text.word(at) not in text.index.colors or told or not last:
+        return None
+    phrase.color = text.index.colors[text.word(at)]
+    return at + 1
+
+
+def _equipped(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The book with *the blue cover* is a blue one."""
+    inner = noun_phrase(text, at)
+    if inner is None:
+        return None
+    phrase.color = phrase.color or inner.color
+    return inner.end
 
 
 def _lying_there(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -112,8 +112,11 @@ def _goes_on_unknown(text: Text, at: int) -> bool:
     """Whether words that are no names, verbs or people go on with a compound."""
     if text.word(at) in SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
         return False
-    if text.lookup(lexicon.SUPERLATIVES, at):
+    if text.lookup(lexicon.SUPERLATIVES, at) or text.words[at : at + 2] == ["end", "up"]:
         return False
+    last = not is_content(text, at + 1) or bool(verbs_at(text.words, at + 1))
+    if text.word(at) in text.index.colors and last:
+        return False  # cup red
     return is_content(text, at)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from intents.english.words import lexicon
+from intents.english.words.lexer import singular
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.words.names import Name
 from intents.english.words.text import Text
@@ -96,14 +97,27 @@ class NounPhrase:
         return list(dict.fromkeys(n.name for n in self.names if n.kind in kinds))
 
 
+_DEFINITE = lexicon.words("the my your our his her their these those")
+
+
+def is_all(phrase: NounPhrase) -> bool:
+    """Whether a phrase is of all there are: "the cups", but not "the glasses" one reads with."""
+    said = phrase.said.split()
+    plural = bool(said) and singular(said[-1]) != said[-1]
+    named = any(phrase.said == name.name.lower() for name in phrase.names)
+    if named or not plural or phrase.noun != "name" or phrase.determiner not in _DEFINITE:
+        return False
+    return not (phrase.count or phrase.superlative or phrase.other)
+
+
 SOMETHING = lexicon.words("something anything everything")
 _NO_NOUN = (
     lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice closed opened need "
-                    "needs belong belongs only ends lands winds gets wants asked ordered requested "
-                    "requires fancies asks gone called alone moved brought lie know too went")
+                    "twice thrice closed opened need needs belong belongs only ends lands winds "
+                    "gets wants asked ordered requested requires fancies asks gone called alone "
+                    "moved brought lie know too went using instead rather")
 )  # fmt: skip
 
 

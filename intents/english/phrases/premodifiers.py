@@ -47,6 +47,9 @@ def read_adjectives(text: Text, phrase: NounPhrase, at: int) -> int:
 def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
     word, match = text.word(at), text.name_at(at)
     most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most and word in LEVELS and _prefixed(text, word, at):
+        phrase.level = word
+        return at + 1
     if most and (match is None or match.end <= most[1]):
         phrase.superlative = most[0]
         return most[1]

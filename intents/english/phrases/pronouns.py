@@ -39,11 +39,22 @@ _PLAIN_PARTS: dict[str, Part] = {
 }  # fmt: skip
 
 
+HELD = "what is held"
+_IN_HAND = lexicon.phrases(
+    "you are holding,you hold,you are carrying,you carry,you have in your hand,"
+    "you have in your hands,you have got in your hand,you have got,you are holding there,"
+    "is in your hand,is in your hands,you have got in your hands,you are gripping"
+)
+
+
 def free_relative(text: Text, start: int) -> NounPhrase | None:
     """Bring me *what is on the table*; *whatever weighs* the least."""
     word, after = text.word(start), text.word(start + 1)
     if start == 0 or word not in ("what", "whatever", "whoever"):
         return None
+    held = text.phrase_end(_IN_HAND, start + 1) if word != "whoever" else None
+    if held:
+        return NounPhrase(start, held, noun="pronoun", said=HELD)
     noun: Noun = "person" if word == "whoever" else "object"
     if after in ("is", "are"):
         return NounPhrase(start, start + 2, noun=noun, said=word)

@@ -6,6 +6,7 @@ from typing import cast
 from msgspec.structs import replace
 
 from intents.english.phrases.phrase import Locative, NounPhrase
+from intents.english.phrases.pronouns import HELD
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
 from intents.english.words.names import NameIndex
 from intents.goals import (
@@ -111,6 +112,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         Unclear: Several names of the vocabulary fit.
     """
     at, relation = _where(phrase, scope)
+    if phrase.said == HELD:
+        return ObjectQuery(held=True)
     if phrase.noun == "pronoun":
         known = scope.object or ObjectQuery(held=True)
         if phrase.said in ("them", "they") and known.count == 1:
@@ -135,6 +138,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         at=at,
         relation=relation,
     )
+    if relation and name and relation.how in ("in", "on") and relation.of.name == name:
+        raise NotUnderstood(f"I do not know what is in the {name}")
     return _other(query, phrase.said, scope) if phrase.other else query
 
 

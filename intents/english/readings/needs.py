@@ -7,6 +7,7 @@ question"; "I need you in the cellar".
 from intents.english.clauses.wishes import WISHES, asks_end
 from intents.english.phrases.complements import first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
+from intents.english.phrases.phrase import SOMETHING
 from intents.english.phrases.referents import is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
@@ -35,7 +36,7 @@ def lost(sentence: Sentence, at: int) -> Found | None:
     text = sentence.text
     start = text.phrase_end(_LOST, at)
     phrase = noun_phrase(text, start) if start else None
-    if phrase is None:
+    if phrase is None or phrase.said in SOMETHING:
         return None
     end = phrase.end
     end += text.word(end) in ("is", "are") and text.word(phrase.start - 1) == "where"

@@ -1,11 +1,21 @@
 """What is asked: "what are you holding?", "how many cups are there?", "look whether ..."."""
 
+from msgspec.structs import replace
+
 from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_object
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
+from intents.goals import Find
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
+
+_SEEN = lexicon.phrases(
+    "has anyone seen,has anybody seen,did anyone see,anyone seen,do we have,do we still have,"
+    "have we got,have we still got,is there still,are there still,do we happen to have"
+)
 
 
 def about_robot(sentence: Sentence, at: int) -> Found | None:
@@ -24,5 +34,33 @@ def whether(sentence: Sentence, at: int) -> Found | None:
     text = sentence.text
     if start is None:
         return None
+    there = _is_there(sentence, start + 1)
+    if text.word(start) in ("if", "whether") and there:
+        return there
     counts = text.words[start : start + 2] == ["how", "many"]
     return question(sentence, start) if counts or text.word(start) in ("if", "whether") else None
+
+
+def _is_there(sentence: Sentence, at: int) -> Found | None:
+    """See whether *the bottle is there*: at the place spoken of."""
+    text, scope = sentence.text, sentence.scope
+    phrase = noun_phrase(text, at)
+    if phrase is None or scope.place is None or phrase.places:
+        return None
+    if text.words[phrase.end : phrase.end + 2] not in (["is", "there"], ["are", "there"]):
+        return None
+    there = to_object(phrase, scope)
+    return [Find(object=replace(there, at=scope.place))], phrase.end + 2
+
+
+def seen(sentence: Sentence, at: int) -> Found | None:
+    """Has anyone seen my umbrella? Do we still have bananas? It is looked for."""
+    text, scope = sentence.text, sentence.scope
+    start = text.phrase_end(_SEEN, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.name("object", "category"):
+        return None
+    end = phrase.end
+    while text.word(end) in ("left", "anywhere", "around", "somewhere", "lately", "recently"):
+        end += 1
+    return [Find(object=to_object(phrase, scope))], end

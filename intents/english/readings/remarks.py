@@ -16,6 +16,7 @@ _KNOWN = lexicon.phrases(
     "i have seen,i just saw,i just put,we left,we put,we have left,you left,you put,i keep,we keep,"
     "we have,i have"
 )
+_SOMEWHERE = lexicon.words("somewhere here there yesterday earlier today just now around again")
 _SHORT = 4
 """What is said of somebody in so many words is a remark."""
 
@@ -27,7 +28,10 @@ def left_somewhere(sentence: Sentence, at: int) -> Found | None:
     if phrase is None or not phrase.name("object", "category"):
         return None
     mention_phrase(phrase, sentence.scope)
-    return [], phrase.end
+    end, text = phrase.end, sentence.text
+    while text.word(end) in _SOMEWHERE:
+        end += 1
+    return [], end
 
 
 def feeling(sentence: Sentence, at: int) -> Found | None:

@@ -48,6 +48,7 @@ _SLIPS = tuple(
         (r"\bform(?=\s+(?:the|my|your|her|his)\b)", "from"),
         (r"\byour self\b", "yourself"),
         (r"&", " and "),
+        (r"\s*(?:-+>|=+>|→|⇒|(?<=\s)>+(?=\s))\s*", " to "),
     )
 )
 """More of them: "go too the table", "take it form the table"."""
@@ -58,7 +59,7 @@ _WHOLE = {
     "goto": ("go", "to"), "won't": ("will", "not"), "can't": ("can", "not"),
     "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
     "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
-    "dont": ("do", "not"), "gimme": ("give", "me"),
+    "ya": ("you",), "yer": ("your",), "dont": ("do", "not"), "gimme": ("give", "me"),
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),

@@ -8,14 +8,22 @@ Phrase = tuple[str, ...]
 T = TypeVar("T")
 
 
+LISTED: set[str] = set()
+"""Every word of every list that is made by the functions below: what the grammar knows."""
+
+
 def words(text: str) -> frozenset[str]:
     """The words of a text."""
-    return frozenset(text.split())
+    listed = frozenset(text.split())
+    LISTED.update(listed)
+    return listed
 
 
 def phrases(text: str) -> frozenset[Phrase]:
     """The phrases of a text, which stand between commas."""
-    return frozenset(tuple(phrase.split()) for phrase in text.split(","))
+    listed = frozenset(tuple(phrase.split()) for phrase in text.split(","))
+    LISTED.update(word for phrase in listed for word in phrase)
+    return listed
 
 
 def _meanings(table: dict[T, str]) -> dict[Phrase, T]:
@@ -188,24 +196,23 @@ CONNECTORS = phrases(
 FILLERS = phrases(
     "please,kindly,thank you very much,thank you,thanks,many thanks,um,uh,uhm,er,erm,hmm,hm,"
     "carefully,gently,quickly,slowly,immediately,right now,right away,at once,straight away,"
-    "as soon as possible,asap,if you can,if possible,if you please,if you could,"
-    "if you do not mind,if you would,possibly,perhaps,dear robot,mister robot,mr robot,robot,"
-    "hey robot,robot listen,listen robot,kind sir,would you be so kind,would you kindly,"
-    "would you be so kind as to,"
+    "as soon as possible,asap,if you can,if possible,if you please,if you could,if you do not mind,"
+    "if you would,possibly,perhaps,dear robot,mister robot,mr robot,robot,hey robot,robot listen,"
+    "listen robot,kind sir,would you be so kind,would you kindly,would you be so kind as to,"
     "for a moment please,safely,my friend,when you can,whenever you can,when you get a chance,"
-    "when you have time,my dear,basically,actually,kinda,sort of,now,for now,"
-    "one after the other,one after another,one by one,one at a time,in turn,by name,"
-    "do it slowly,do it quickly,do it carefully,do so slowly,do so quickly,do so carefully,"
-    "one more thing,real quick,for real,if it is no trouble,if it is not too much trouble,maybe,"
-    "fast,mate,buddy,pal,bro,pretty,with sugar on top,with a cherry on top,i was thinking,"
-    "i was wondering,i think,i guess,if you understand,if you understand me,if you hear me,"
-    "if you can hear me,if you are ready,if you have time,if you have a minute,"
-    "when you have a minute,while you are at it,if it is not too much bother,"
-    "if it is not too much to ask,if that is okay,if that is all right,if it is okay,if you like,"
-    "if you want,if you wish,whenever you are ready,when you are ready,whenever you like,"
-    "wherever she goes,wherever he goes,wherever they go,wherever i go,everywhere she goes,"
-    "everywhere he goes,everywhere i go,see if you can,see whether you can,"
-    "go see if you can,check if you can"
+    "when you have time,my dear,basically,actually,kinda,sort of,now,for now,one after the other,"
+    "one after another,one by one,one at a time,in turn,by name,do it slowly,do it quickly,"
+    "do it carefully,do so slowly,do so quickly,do so carefully,one more thing,real quick,for real,"
+    "if it is no trouble,if it is not too much trouble,maybe,fast,mate,buddy,pal,bro,pretty,"
+    "with sugar on top,with a cherry on top,i was thinking,i was wondering,i think,i guess,"
+    "if you understand,if you understand me,if you hear me,if you can hear me,if you are ready,"
+    "if you have time,if you have a minute,when you have a minute,while you are at it,"
+    "if it is not too much bother,if it is not too much to ask,if that is okay,"
+    "if that is all right,if it is okay,if you like,if you want,if you wish,whenever you are ready,"
+    "when you are ready,whenever you like,wherever she goes,wherever he goes,wherever they go,"
+    "wherever i go,everywhere she goes,everywhere he goes,everywhere i go,see if you can,"
+    "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
+    "while you are here,while you are out,while you are passing"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 _OPENINGS = phrases(
@@ -270,6 +277,8 @@ AUXILIARIES = words(
 )
 WH = words("what where who how which when why whose whom whether if unless")
 CONJUNCTIONS = words("and or then but so because else otherwise than as while until")
+OTHER_WORDS = words("to for at on in with of by from and or me the a an one is are")
+"""A noun follows these."""
 DIRECTIONS = words(
     "left right forward forwards backward backwards back ahead straight around up down away "
     "clockwise counterclockwise anticlockwise here there off together again sideways out"

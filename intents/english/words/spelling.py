@@ -8,6 +8,7 @@ from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
 from intents.english.words import lexicon
+from intents.english.words.dictionary import is_english
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.words.names import NameIndex, index_of
 from intents.english.words.properties import PROPERTIES
@@ -53,9 +54,7 @@ _SHORT_VERBS = ("put", "get", "lay", "set")
 COMMON_WORDS = frozenset(
     (files("intents.english.words") / "common_words.txt").read_text(encoding="utf-8").split()
 )
-"""Words that mean themselves even where a name of the vocabulary is one letter away."""
-
-
+"""Words of every day, which nobody is called."""
 KNOWN_WORDS = GRAMMAR_WORDS | COMMON_WORDS | {"once", "twice", "thrice", "only"}
 """Words that are no misspellings, and nobody's name."""
 
@@ -98,6 +97,10 @@ class Speller:
         Where a clause begins a verb is more likely than a name.
         """
         if word in self._known or word in COMMON_WORDS or not word.isalpha():
+            return [word]
+        if word[:-1] in lexicon.COLORS and word[-2:-1] == word[-1]:
+            return [word[:-1]]  # "redd" is in the list, and nobody says it
+        if is_english(word):
             return [word]
         past = word.removesuffix("d"), word.removesuffix("ed")
         if base_form(word) in FIRST_WORDS or any(w in FIRST_WORDS for w in past):
@@ -144,7 +147,7 @@ class Speller:
         for size in (2, 3, 4, 5):
             head, tail = word[:size], word[size:]
             small = head in lexicon.FUNCTION_WORDS or (head,) in SENSES
-            ends = len(tail) > 2 and tail in self._known and word not in COMMON_WORDS
+            ends = len(tail) > 2 and tail in self._known
             if small and ends:
                 return [head, tail]
         return []

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
+from intents.english.words.courtesy import courtesy_end
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -29,6 +30,12 @@ _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
 _WISHING = words("would it i")
+_ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
+"""What "with you" belongs to; else it is only taken along."""
+_PREDICATES = words(
+    "there here still not gone empty full open closed in on at under behind near next missing away"
+)
+"""What follows "the bottle's" where that is no owner."""
 _ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -126,6 +133,7 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     at = 0
     while at < len(tokens):
         end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
+        end = max(end or 0, courtesy_end(words, at, kept=[t.text for t in kept]) or 0) or None
         if end is None or index.match(words, at):
             kept.append(tokens[at])
             at += 1
@@ -142,6 +150,16 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    words = [t.text for t in tokens]
+    if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
+        tokens.insert(0, Token("i", ""))  # need a screwdriver here
+    for at in range(len(words) - 2, 0, -1):
+        if words[at : at + 2] == ["with", "you"] and words[at - 1] not in _ACCOMPANY:
+            tokens[at : at + 2] = [Token("along", f"{tokens[at].raw} {tokens[at + 1].raw}")]
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 1):
+        if words[at] == "'s" and words[at + 1] in _PREDICATES:
+            tokens[at] = Token("is", tokens[at].raw)
     words = [t.text for t in tokens]
     for at in range(len(words) - 1, 1, -1):
         wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING

@@ -33,7 +33,7 @@ SPELLINGS: dict[str, str] = {
     ),
     "pick": (
         "pick,pick up,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
-        "grab hold of,take hold of,pick out,gather,seize,lift up,raise,acquire,grip,"
+        "round up,grab hold of,take hold of,pick out,gather,seize,lift up,raise,acquire,grip,"
         "snatch,clutch,scoop up,withdraw,extract,remove,pull,pull out,procure,choose,"
         "select,take away"
     ),
@@ -43,10 +43,10 @@ SPELLINGS: dict[str, str] = {
         "grab hold of,go pick up,go and pick up,go and grab,go grab"
     ),
     "put": (
-        "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,"
-        "stick,stack,rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,"
-        "leave,move,drop,collect,gather,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,"
-        "shove,clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
+        "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
+        "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
+        "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
+        "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
     "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",

@@ -1,0 +1,156 @@
+"""Where a clause ends that only tells something: "my hands are full", "because it is late".
+
+A statement has a subject and a verb that agrees with it; a command has neither. What obliges
+("it should be the red one", "you have to ...") is no mere statement, and is left to the readings.
+"""
+
+from intents.english.phrases.complements import connector_end
+from intents.english.words import lexicon
+from intents.english.words.dictionary import is_english
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.text import Text
+from intents.english.words.verbs import base_form, participle_base, verbs_at
+
+_SUBJECTS = lexicon.words(
+    "i he she it they we this that there these those somebody someone everybody everyone nobody "
+    "everything nothing people who mine hers ours"
+)
+_OWNERS = lexicon.words("my his her its our their your the a an some every each no another")
+_CAUSES = lexicon.phrases(
+    "because,because of,since,as,cause,cuz,coz,cos,due to,thanks to,given that,seeing as,"
+    "seeing that,now that,so that,in case,for fear,considering,although,though,even though,"
+    "by the way,fyi,just so you know,for your information"
+)
+_STATES = lexicon.words(
+    "is are am was were 's has had have can could will would do does did may might keeps seems "
+    "looks feels smells sounds needs wants likes loves hates says means thinks knows works hurts "
+    "rings comes goes gets makes takes belongs"
+)
+"""What a subject is followed by, if no other verb of the third person or of the past."""
+_OBLIGES = lexicon.words("should must ought shall needs need")
+_PASTS = lexicon.words(
+    "said told took went got left put came saw made gave found thought knew bought brought lost "
+    "broke fell forgot kept ran sat stood sold sent spoke spent wrote ate drank slept felt held "
+    "heard met paid read shut hurt cut let set rang began became began stole spilt spilled threw "
+    "tore woke won wore hid drove flew drew grew blew used meant"
+)
+_SAME_IN_PAST = lexicon.words("put set let shut cut read hit spread cast hurt quit")
+"""Verbs whose past is no other word: "I took the cup, put it down, ..." goes on telling."""
+_ADVERBS = lexicon.words(
+    "really just always already never also still usually often only almost nearly all both not "
+    "even probably certainly surely certainly once ever kind sort of"
+)
+_SAYING = lexicon.words(
+    "said say says told tell tells asked ask asks wrote shouted yelled wants wanted thinks thought "
+    "ordered claims called calls"
+)
+_REACH = 6
+"""So many words a subject may have: "the plants on the sill could do with water"."""
+
+
+def told_end(text: Text, at: int) -> int | None:
+    """Where a clause ends that only tells something, if one begins at a word."""
+    cause = text.phrase_end(_CAUSES, at)
+    if cause is not None and (text.word(cause - 1) not in ("as", "since") or _verb_of(text, cause)):
+        return _end(text, cause, past=False, being=True)
+    verb = _verb_of(text, at)
+    if verb is None or _OBLIGES.intersection(text.words[verb : verb + 3]):
+        return None
+    word = text.word(verb)
+    past = word in _PASTS or word in ("was", "were", "had", "did") or word.endswith("ed")
+    return _end(text, verb, past=past, being=word in ("is", "are", "am", "'s"))
+
+
+def _verb_of(text: Text, at: int) -> int | None:
+    """The verb of the statement that begins at a word."""
+    word = text.word(at)
+    if word in _SUBJECTS:
+        n = _past_adverbs(text, at + 1)
+        plain = word in ("i", "we", "they", "who", "these", "those") and is_english(text.word(n))
+        if plain and not _states(text, n):
+            return None if text.name_at(n) or n >= len(text) else n
+        if _states(text, n):
+            return n
+        if word not in ("this", "that", "these", "those", "no"):
+            return None
+    if not (word in _OWNERS or word in _SUBJECTS or text.name_at(at) or _is_subject(text, at)):
+        return None
+    for n in range(at + 1, min(at + _REACH, len(text))):
+        if text.word(n) in (COMMA, FULL_STOP, QUOTE):
+            return None
+        m = _past_adverbs(text, n)
+        if _states(text, m) and not _owns(text, m):
+            return m
+    return None
+
+
+def _is_subject(text: Text, at: int) -> bool:
+    """Whether a word that is no verb of the grammar may be one: "guests are coming"."""
+    word = text.word(at)
+    if not word.isalpha() or verbs_at(text.words, at) or word in lexicon.FUNCTION_WORDS:
+        return False
+    return not word.endswith(("ed", "ing")) and (word,) not in lexicon.CONNECTORS
+
+
+def _owns(text: Text, at: int) -> bool:
+    """Leo's ball; but: Leo's hungry."""
+    return text.word(at) == "'s" and (
+        text.name_at(at + 1) is not None or not text.word(at + 1).isalpha()
+        or _states(text, at + 2) or text.word(at + 1) in lexicon.COLORS
+    )  # fmt: skip
+
+
+def _states(text: Text, at: int) -> bool:
+    """Whether a verb of a statement stands at a word: "is", "broke", "drives"."""
+    word = text.word(at)
+    if word in _STATES or word in _PASTS:
+        return True
+    if at >= len(text) or text.name_at(at) or not word.isalpha():
+        return False
+    if word.endswith("ed") and len(word) > 4:
+        return participle_base(word) is not None or is_english(word)
+    third = word.endswith("s") and not word.endswith(("ss", "us", "is")) and len(word) > 4
+    return third and base_form(word) != word
+
+
+def _past_adverbs(text: Text, at: int) -> int:
+    while text.word(at) in _ADVERBS:
+        at += 1
+    return at
+
+
+def _end(text: Text, at: int, *, past: bool, being: bool) -> int:
+    """Where a statement ends whose verb stands at ``at``.
+
+    What somebody says goes on after a comma, and so does what somebody did.
+    """
+    begin = at
+    while at < len(text):
+        word = text.word(at)
+        if word == FULL_STOP:
+            return at
+        if word == COMMA:
+            quoted = text.word(at - 1) in _SAYING or text.word(at - 2) in _SAYING
+            goes_on = past and text.word(at + 1) in _SAME_IN_PAST
+            if not quoted and not goes_on:
+                return at
+        elif at > begin and _begins_command(text, at, past=past, being=being):
+            return at
+        at += 1
+    return at
+
+
+def _begins_command(text: Text, at: int, *, past: bool, being: bool) -> bool:
+    """... *so bring me one*; ... *and could you help me?*; ... *bring me one*."""
+    word = text.word(at)
+    after = connector_end(text, at)
+    if word in ("so", "therefore", "hence") and after is None:
+        after = at + 1
+    if after is not None:
+        polite = (
+            bool(text.phrase_end(lexicon.OPENERS, after)) and "you" in text.words[after : after + 3]
+        )
+        bare = bool(verbs_at(text.words, after)) and base_form(text.word(after)) == text.word(after)
+        return polite or (bare and (word in ("so", "then") or being) and not past)
+    handed = verbs_at(text.words, at) and base_form(word) == word
+    return bool(handed) and not past and text.word(at + 1) in ("me", "us") and being

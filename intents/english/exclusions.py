@@ -1,0 +1,61 @@
+"""What is not meant, of what was said: "all cups *but the red one*", "a drink, *not the milk*"."""
+
+from msgspec.structs import replace
+
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, to_object
+from intents.english.reading import Found, Sentence
+from intents.english.substitution import substitute
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.verbs import verbs_at
+from intents.goals import ForEach, Goal, ObjectQuery
+
+_NOT = lexicon.phrases(
+    "not,but not,and not,only not,except,except for,apart from,other than,besides,excluding,"
+    "save for,aside from,with the exception of,not counting,leaving out,just not,anything but,"
+    "all but,but for"
+)
+_BUT = ("but",)
+
+
+def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Bring me a drink, *not the milk*; put all toys in the box *except the ball*."""
+    text, scope = sentence.text, sentence.scope
+    start = text.phrase_end(_NOT, at)
+    if start is None and text.word(at - 1) in _BUT and any(map(_is_of_all, last)):
+        start = at
+    if start is None or (verbs_at(text.words, start) and not text.name_at(start)):
+        return None
+    phrase = noun_phrase(text, start)
+    about = next((query for goal in last if (query := _about(goal))), None)
+    closed = phrase and (phrase.end >= len(text) or text.word(phrase.end) in (COMMA, FULL_STOP))
+    if phrase is None or about is None or not closed or phrase.is_spot or phrase.is_person:
+        return None
+    without = _narrowed(about, to_object(phrase, scope), phrase, scope)
+    return [substitute(goal, about, without) for goal in last], phrase.end
+
+
+def _about(goal: Goal) -> ObjectQuery | None:
+    query = getattr(goal, "object", None)
+    return query if isinstance(query, ObjectQuery) and not query.held else None
+
+
+def _is_of_all(goal: Goal) -> bool:
+    query = _about(goal)
+    return isinstance(goal, ForEach) or (query is not None and query.count == "all")
+
+
+def _narrowed(
+    about: ObjectQuery, other: ObjectQuery, phrase: NounPhrase, scope: Scope
+) -> ObjectQuery:
+    """The description without the other thing; of two colours it is the second that is left."""
+    marks = scope.index.variants(about.name or "")
+    alone = about.count in (None, 1) and len(marks) == 2 and other.color in marks
+    if alone and not about.color:
+        left = next(mark for mark in marks if mark != other.color)
+        return replace(about, color=left)
+    if phrase.noun == "one" and phrase.count is None:
+        other = replace(other, name=None, category=None)
+    return replace(about, except_=replace(other, count=None))

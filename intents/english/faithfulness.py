@@ -1,0 +1,272 @@
+"""The law of faithfulness: every word of a sentence comes back in its goals, or says nothing.
+
+Readings pass over words: a frame that has no slot for a manner, a noun phrase that knows no word
+for a material. So it is looked at once, here, when a sentence has been read and before anything is
+made of it: each word that carries something (a name, a colour, a number, a superlative, a word that
+the grammar does not know) has to come back in the goals, or to stand in words that ask for nothing
+(:class:`~intents.english.reading.Notes`). What does not is left out, and that is said: a word that
+only describes a thing that is known by its name in a remark, any other in a question.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, cast
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import singular
+from intents.english.words.measures import NUMBER_WORDS, measure, number
+from intents.english.words.spelling import GRAMMAR_WORDS
+from intents.english.words.text import Text
+from intents.english.words.verbs import base_form, participle_base, verbs_at
+from intents.goals import (
+    Answer,
+    Balance,
+    Bring,
+    Close,
+    ForEach,
+    Gesture,
+    Give,
+    Goal,
+    GoTo,
+    If,
+    LookAt,
+    Open,
+    Repeat,
+    Report,
+    Say,
+    each,
+    to_builtins,
+)
+
+_SUPERLATIVE_WORDS = frozenset(phrase[-1] for phrase in lexicon.SUPERLATIVES)
+_QUANTIFIERS = lexicon.words("all every each both most half several none except besides")
+_LIMBS = lexicon.words("hand hands arm arms gripper grippers")
+_OF_LIMBS = lexicon.words("with using use in your both two one left right of my the")
+"""What stands before a hand that is no verb: "with both hands", not "hand me the cup"."""
+_WAYS = lexicon.words(
+    "backward backwards rearwards sideways upside diagonally kneel kneeling crawl jump hop tiptoe"
+)
+"""How something is to be done, for which no goal has a slot but a walk by some distance."""
+_POSES = lexicon.words("kneel kneeling")
+"""What is taken for a squat, and is none."""
+_ORDINALS = lexicon.words("second third fourth fifth")
+_BOARDS = lexicon.words("top upper bottom lower middle topmost uppermost")
+_CARRYING = (
+    frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES) | _SUPERLATIVE_WORDS | NUMBER_WORDS
+    | frozenset(lexicon.COMPARATIVES) | lexicon.EMPTY_ADJECTIVES | _QUANTIFIERS | _LIMBS | _WAYS
+    | _ORDINALS | _BOARDS | lexicon.CLOTHES
+) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
+_OTHERS = lexicon.words(
+    "x y wear whoever whatever whichever robot result total amount given being having "
+    "went gone ended floor apartment house ok today fist"
+)
+"""Words of constructions that the readings know and no list has."""
+_PEOPLE = lexicon.PERSON_NOUNS | frozenset(lexicon.GENDERS)
+_WEIGHING = lexicon.words("weigh weighs weight weights heavy large big little small slender thick")
+_SPEAKS = (Say, Answer, Report)
+_HANDED = (Gesture, Open, Close, Balance, LookAt)
+
+
+class LeftOut(NamedTuple):
+    """Words that no goal carries; ``slight`` ones only describe what is known by its name."""
+
+    said: str
+    slight: bool
+
+
+def left_out(text: Text, goals: Iterable[Goal], passed: Iterable[tuple[int, int]]) -> list[LeftOut]:
+    """The words of a sentence that come back in none of its goals.
+
+    Args:
+        text: The sentence.
+        goals: What it was read as.
+        passed: From where to where words stand that ask for nothing.
+    """
+    told = _Told(tuple(each(goals)))
+    silent = {at for start, end in passed for at in range(start, end)}
+    dropped: list[LeftOut] = []
+    at = 0
+    while at < len(text):
+        end, carried = (at + 1, True) if at in silent else _carried(text, at, told)
+        if not carried:
+            grave = text.word(at) in _CARRYING - lexicon.EMPTY_ADJECTIVES
+            slight = not grave and _describes(text, end, told)
+            dropped.append(LeftOut(text.raw(at, end), slight))
+        at = max(end, at + 1)
+    return dropped
+
+
+class _Told:
+    """What the goals say, word by word."""
+
+    def __init__(self, goals: tuple[Goal, ...]) -> None:
+        self.goals = goals
+        self.values = {value.lower() for value in _strings(to_builtins(goals))}
+        self.numbers = [abs(n) for n in _numbers(to_builtins(goals))]
+        plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
+        self.words = {*plain, *map(singular, plain)}
+        self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
+        self.walks_by = any(isinstance(goal, GoTo) and goal.by for goal in goals)
+
+    def name(self, *names: str) -> bool:
+        """Whether one of these names comes back."""
+        return any(
+            name.lower() in self.values or self.words.issuperset(name.lower().split())
+            for name in names
+        )
+
+    def number(self, value: float) -> bool:
+        """Whether a quantity comes back, be it an angle in degrees or in turns."""
+        same = (value, value * 3.141593 / 180, value * 6.283185)
+        return any(abs(n - one) <= 2e-3 * max(1.0, one) for n in self.numbers for one in same)
+
+    def several(self) -> bool:
+        """Whether something is done with each of several things or people."""
+        return "all" in self.values or self.has(ForEach)
+
+    def has(self, *kinds: type[Goal]) -> bool:
+        """Whether there is a goal of one of these kinds."""
+        return any(isinstance(goal, kinds) for goal in self.goals)
+
+
+def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
+    """Where what is said at a word ends, and whether it comes back."""
+    word, match = text.word(at), text.name_at(at)
+    if match and word not in _OTHERS | _PEOPLE:
+        known = told.name(*(n.name for n in match.names)) or told.speaks
+        known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
+        favour = text.word(at - 1) == "for" and bool(match.of("person"))
+        return match.end, known or (favour and not told.has(Bring, Give))
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    if most:
+        return most[1], most[0] in told.values or text.word(at - 1) in _WEIGHING
+    if not word[0].isalnum() or word in told.words or singular(word) in told.words:
+        return at + 1, True
+    amount = measure(text.words, at) or number(text.words, at)
+    if amount and told.number(amount.value):
+        return amount.end, True
+    if amount and (word in NUMBER_WORDS - {"one"} or word[0].isdigit()) and not told.speaks:
+        return amount.end, amount.value == 1 or (told.has(Repeat) and amount.value < 1)
+    verb = max((end for _, end in verbs_at(text.words, at)), default=at)
+    if verb > at + 1 and word not in _POSES:
+        return verb, True
+    if word in _CARRYING:
+        return at + 1, told.speaks or _word_carried(text, at, told)
+    known = lexicon.LISTED | GRAMMAR_WORDS
+    plain = word in known or base_form(word) in known or participle_base(word) in known
+    return at + 1, plain or told.speaks
+
+
+def _word_carried(text: Text, at: int, told: _Told) -> bool:
+    """Whether a word of a closed class that carries something comes back."""
+    word, after = text.word(at), text.word(at + 1)
+    tables = (lexicon.COLORS, lexicon.SIZES, lexicon.COMPARATIVES)
+    if told.values.intersection(filter(None, (table.get(word) for table in tables))):
+        return True
+    if word in _QUANTIFIERS:
+        return _quantity_carried(text, at, told)
+    if word in _LIMBS:
+        about = text.word(at - 1) not in _OF_LIMBS or {"holding", "true"} & told.words
+        return bool(about) or told.has(*_HANDED) or any(map(_is_held, told.goals))
+    if word in _WEIGHING:
+        weighs = (
+            told.words & {"heaviest", "lightest", "weight", "size"}
+            | told.words & _SUPERLATIVE_WORDS
+        )
+        if weighs or text.word(at - 1) in ("how", "a"):
+            return True
+    if word in lexicon.SIZES or word in lexicon.EMPTY_ADJECTIVES:
+        return not _before_noun(text, at + 1)
+    if word in _WAYS:
+        return told.walks_by
+    if word in _ORDINALS:
+        return not _before_noun(text, at + 1) and not text.lookup(lexicon.SUPERLATIVES, at + 1)
+    if word in _BOARDS:
+        parts = set(lexicon.LEVELS.get(word, ())) & told.words
+        return bool(parts) or after == "of" or not _before_noun(text, at + 1)
+    return False
+
+
+def _quantity_carried(text: Text, at: int, told: _Told) -> bool:
+    word = text.word(at)
+    if word in ("all", "every", "each", "both"):
+        pair = word == "both" and (2 in told.numbers or len(told.goals) > 1)
+        fixed = text.word(at + 1) in ("the", "right", "in", "of")
+        return told.several() or pair or fixed or not _before_noun(text, at + 1)
+    if word == "none":
+        return told.has(If)
+    return word == "most" and bool(told.words & _SUPERLATIVE_WORDS)
+
+
+def _before_noun(text: Text, at: int) -> bool:
+    """Whether a name, or what stands before one, begins at a word."""
+    word = text.word(at)
+    return text.name_at(at) is not None or word in _CARRYING or word in lexicon.OBJECT_NOUNS
+
+
+def _is_held(goal: Goal) -> bool:
+    return bool(getattr(getattr(goal, "object", None), "held", False))
+
+
+def _contents(text: Text, end: int, told: _Told) -> bool:
+    """A *bottle* of water, the *shelf* of the bookcase, where what follows comes back."""
+    begin = end + 1 + (text.word(end + 1) in lexicon.DETERMINERS)
+    within = text.name_at(begin) if text.word(end) == "of" else None
+    return within is not None and told.name(*(n.name for n in within.names))
+
+
+_LINKS = lexicon.FUNCTION_WORDS | lexicon.words("front top side back middle")
+
+
+def _whole_of(text: Text, at: int, end: int, told: _Told) -> bool:
+    """The table *in the kitchen*: the more precise of two places stands for both."""
+    match = text.name_at(at)
+    if match is None or not match.of("place", "room"):
+        return False
+    before = at - 1
+    while before >= 0 and text.word(before) in _LINKS:
+        before -= 1
+    if told.name(*(n.name for n in text.index.partial(text.word(before)))):
+        return True
+    around = [text.name_at(end)]
+    for n in range(max(0, before - 4), before + 1):
+        name = text.name_at(n)
+        around += [name] if name and name.end == before + 1 else []
+    return any(m and told.name(*(n.name for n in m.names)) for m in around)
+
+
+def _describes(text: Text, at: int, told: _Told) -> bool:
+    """Whether what stands before a word only describes a thing whose name comes back."""
+    if "with" in text.words[max(0, at - 4) : at - 1]:
+        return True  # the book with a blue cover: the colour has come back
+    for n in range(at, min(at + 4, len(text))):
+        match = text.name_at(n)
+        if match:
+            return told.name(*(name.name for name in match.names))
+        if not text.word(n)[0].isalpha() or text.word(n) in lexicon.FUNCTION_WORDS:
+            return False
+    return False
+
+
+def strings(goals: Iterable[Goal]) -> list[str]:
+    """Every word that goals say, in lower case."""
+    return [value.lower() for value in _strings(to_builtins(goals))]
+
+
+def _strings(value: object) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    for inner in _inside(value):
+        yield from _strings(inner)
+
+
+def _numbers(value: object) -> Iterator[float]:
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        yield float(value)
+    for inner in _inside(value):
+        yield from _numbers(inner)
+
+
+def _inside(value: object) -> Iterable[object]:
+    if isinstance(value, dict):
+        return cast("dict[str, object]", value).values()
+    return cast("list[object]", value) if isinstance(value, list | tuple) else ()

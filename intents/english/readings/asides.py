@@ -1,0 +1,134 @@
+"""Asides: words beside a command that ask for nothing by themselves.
+
+Background ("my hands are full"), reasons ("because it is late"), warnings ("mind the step"), and
+what is not to be done ("don't touch my phone"). None of them keeps a command from being read, and
+none is acted on. A prohibition is noted, and looked at again when the goals are known.
+"""
+
+from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.told import told_end
+from intents.english.phrases.phrase import is_content
+from intents.english.reading import Forbidden, Found, Sentence
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.names import Name
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+from intents.goals import ObjectQuery, Person
+
+_WARNS = lexicon.phrases(
+    "mind,mind out,watch out,look out,beware,be careful,take care,careful,careful with,caution,"
+    "heads up,be aware,be gentle,easy,easy does it,make sure not to,make sure you do not,"
+    "watch your,try not to,no rush,no hurry,take your time,no need,no worries,be warned,warning,"
+    "attention,be nice,be good,be patient,be quiet,gently does it"
+)
+_FORBIDS = lexicon.phrases(
+    "forget,forget about,ignore,skip,do not,never,avoid,no,not,without,but not,and not,only not,"
+    "do not you,do not ever"
+)
+_KEEPS_AWAY = lexicon.phrases(
+    "keep away from,stay away from,keep off,stay off,keep out of,stay out of,stay clear of,"
+    "keep clear of,steer clear of,keep your distance from,keep your hands off,stay outside,"
+    "keep well away from,do not go near,do not go into,do not go in,do not enter,do not come near"
+)
+_SAFE = lexicon.words(
+    "spill spilling drop dropping break breaking hit hitting bump bumping anything hurt scratch "
+    "wake worry rush forget fall falling noise mess just fuss dawdle dilly hurry stumble trip "
+    "slip crash knock knocking shake tip crush waste disturb"
+)
+"""What the robot takes care not to do in any case."""
+
+
+def told(sentence: Sentence, at: int) -> Found | None:
+    """My hands are full, ...; ..., because it is late; he said put it down."""
+    end = told_end(sentence.text, at)
+    if end is None or end == at:
+        return None
+    _mention(sentence, at, end)
+    return [], end
+
+
+def warned(sentence: Sentence, at: int) -> Found | None:
+    """Mind the step; be careful with it."""
+    text = sentence.text
+    start = text.phrase_end(_WARNS, at)
+    return None if start is None else ([], _clause_end(text, start, links=True))
+
+
+def forbidden(sentence: Sentence, at: int) -> Found | None:
+    """Don't touch my phone; keep away from the stove; no juice for Leo."""
+    text = sentence.text
+    if sentence.depth:
+        return None  # what is not to be done if ... is no aside
+    away = text.phrase_end(_KEEPS_AWAY, at)
+    start = away or text.phrase_end(_FORBIDS, at)
+    if start is None or start >= len(text):
+        return None
+    end = _clause_end(text, start, links=away is not None and text.word(at) != "do")
+    said = text.words[at:end]
+    if end == start or (text.word(at) == "no" and not is_content(text, start)):
+        return None
+    _mention(sentence, start, end)
+    if not _SAFE.intersection(said):
+        names = _names(text, start, end)
+        sentence.notes.forbidden.append(Forbidden(text.raw(at, end), names, away is not None))
+    return [], end
+
+
+def _mention(sentence: Sentence, start: int, end: int) -> None:
+    """Remember the person and the thing that stand between two words: "give *him* ..."."""
+    for n in range(start, end):
+        match = sentence.text.name_at(n)
+        person, thing = (match.of("person"), match.of("object")) if match else ("", "")
+        if person:
+            sentence.scope.mention(Person(name=person))
+        elif thing and not sentence.before:
+            sentence.scope.mention(ObjectQuery(name=thing))
+
+
+def _names(text: Text, start: int, end: int) -> tuple[Name, ...]:
+    """The names that stand between two words."""
+    found = (text.name_at(n) for n in range(start, end))
+    return tuple(name for match in found if match for name in match.names)
+
+
+def _clause_end(text: Text, at: int, *, links: bool) -> int:
+    """Where a clause ends: at a sign, at "but", and with ``links`` at "and" before a verb."""
+    begin = at
+    while at < len(text) and text.word(at) not in (COMMA, FULL_STOP):
+        linked = text.word(at) in ("and", "so", "then") and links
+        if (text.word(at) in ("but", "just", "instead") and at > begin) or (
+            linked and verbs_at(text.words, at + 1)
+        ):
+            return at
+        at += 1
+    return at
+
+
+_KIN = lexicon.words(
+    "mum mom mummy mommy dad daddy papa mama grandma grandpa granny nana auntie uncle son daughter "
+    "kids children boys girls everyone everybody alexa siri"
+)
+
+
+def somebody_else(text: Text) -> str:
+    """Who is spoken to by name and is not the robot; empty if nobody is.
+
+    "Leo, bring me the ball"; "bring me the ball, Leo".
+    """
+    for at in (0, 1):
+        match = text.name_at(at)
+        end = match.end if match and match.of("person") else at + (text.word(at) in _KIN)
+        calls = at == 0 or text.word(0) in ("hey", "hi", "oi", "yo", "okay", "hello")
+        after = skip_openings(text, end)
+        commands = bool(verbs_at(text.words, after)) or after > end + 1
+        if end > at and calls and text.word(end) == COMMA and commands:
+            return text.raw(at, end)
+    last = next((n for n in range(len(text) - 1, 0, -1) if text.word(n - 1) == COMMA), len(text))
+    match = text.name_at(last)
+    named = match is not None and match.of("person") and match.end == len(text)
+    listed = text.word(last - 2) in lexicon.FUNCTION_WORDS or text.name_at(last - 2)
+    person = listed and _names(text, last - 2, last - 1) and (
+        _names(text, last - 2, last - 1)[0].kind == "person"
+    )  # fmt: skip
+    return text.raw(last, len(text)) if named and not person and verbs_at(text.words, 0) else ""

@@ -1,0 +1,230 @@
+"""Courtesies: what is said to be polite, to be quick or to be rude, and asks for nothing.
+
+"If it is not too much trouble", "when you've got a sec", "would you, love?", "thanks a million",
+"be a good lad and ...", "I was wondering whether you might ...". They are told by the words they
+are made of rather than one by one: a clause that begins with "if" and has no word but such as these
+is a courtesy, whatever their order.
+"""
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.measures import NUMBER_WORDS
+from intents.english.words.verbs import FIRST_WORDS, base_form
+
+_SIGNS = (COMMA, FULL_STOP)
+_IF = lexicon.words("if when whenever once unless as soon as provided assuming")
+_GRACIOUS = lexicon.words(
+    "if when whenever once as soon provided assuming it is are was were not no too much a an of "
+    "any trouble bother problem hassle imposition you ya i we that this do does did mind could "
+    "would can may might will be so very kind good possible have has had get got find the time "
+    "moment moments minute minutes second seconds sec secs mo tick chance free spare busy okay ok "
+    "all right alright fine convenient like want wish please to ask at some point able willing "
+    "enough happen really feel up ready please god allows only 's nothing else on for with or me"
+)
+"""What a courtesy that begins with "if" or "when" is made of."""
+_GRACE = lexicon.words(
+    "trouble bother problem hassle mind kind possible time moment minute second sec secs mo tick "
+    "chance spare busy okay ok right alright fine convenient like want wish please could would can "
+    "may able willing ready free happen ask"
+)
+"""One of these is in it."""
+_TAGS = lexicon.words("would will could can do does did is are should shall may won ca")
+_TAGGED = lexicon.words("you ya yah it we they he she i")
+_THANKS = lexicon.words("thanks thank ta cheers thx ty thankyou")
+_MUCH = lexicon.words(
+    "a million lot lots bunch ton tons heaps you ya so very much in advance ever again kindly for "
+    "that your help everything awfully mate love"
+)
+ADDRESSES = lexicon.words(
+    "love luv dear dearie darling sweetheart sweetie honey hun hon pet duck mate matey pal buddy "
+    "bud bro dude man guv boss chief friend robot bot droid machine sir madam maam mister champ "
+    "sunshine babe doll chap fella lad lass mister buster genius tinman oi yo hey ahem"
+)
+"""What the robot may be called."""
+_FAMILIAR = lexicon.words(
+    "love luv dear darling sweetheart honey hun mate pal buddy bro dude robot bot sir champ"
+)
+"""What needs no comma before it at the end."""
+_ADDRESSED = lexicon.words("my good old little dear you the clever")
+_CURSES = lexicon.words(
+    "bloody fucking fuckin damn damned goddamn freaking frigging effing flipping blasted ruddy "
+    "goddamned sodding"
+)
+_TAILS = lexicon.phrases(
+    "already,pronto,chop chop,sharpish,on the double,stat,quick smart,this instant,this minute,"
+    "right this minute,quick as you can,as quick as you can,as fast as you can,"
+    "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
+    "and hurry up,and be quick,and be quick about it,and step on it,and quick,and quickly,"
+    "there is a good chap,there is a good lad,there is a good girl,there is a good boy,"
+    "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
+    "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
+    "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
+    "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
+    "for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,yaar,"
+    "only please,de,ne,there 's a good chap"
+)
+"""What may be said behind a request and adds nothing to it."""
+_SMALL = lexicon.phrases("exactly,at least,at most,up to,no more than,not more than,precisely")
+_HEDGES = lexicon.words(
+    "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
+    "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
+    "very please do think there is any chance that of me trouble bother ask it us we bothering "
+    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do"
+)
+_HEDGED = lexicon.words(
+    "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
+    "appreciate grateful perhaps happen hoping hope possible might maybe"
+)
+_DUTIES = lexicon.words(
+    "favour favor solid needful kindness turn service small big huge quick good"
+)
+_LONGEST = 20
+
+
+def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
+    """Where a courtesy ends that begins at a word; ``kept`` are the words kept before it."""
+    begins = not kept or kept[-1] in (*_SIGNS, "and", "so", "well", "then")
+    return (
+        _gracious(words, at)
+        or (_hedge(words, at) if begins else None)
+        or (_prelude(words, at) if begins else None)
+        or _tag(words, at, kept)
+        or _thanks(words, at)
+        or _address(words, at, kept)
+        or _small_word(words, at)
+    )
+
+
+def _word(words: list[str], at: int) -> str:
+    return words[at] if 0 <= at < len(words) else FULL_STOP
+
+
+def _is_verb(words: list[str], at: int) -> bool:
+    word = _word(words, at)
+    return base_form(word) in FIRST_WORDS and word not in ("i", "can", "could", "may", "we")
+
+
+def _gracious(words: list[str], at: int) -> int | None:
+    """If it is not too much trouble; when you have got a sec."""
+    if words[at] not in _IF:
+        return None
+    end = at + 1
+    while end < len(words) and words[end] in _GRACIOUS:
+        end += 1
+    said = words[at:end]
+    asks = _GRACE.intersection(said) and ("you" in said or "it" in said or "possible" in said)
+    closed = _word(words, end) in _SIGNS or (
+        _is_verb(words, end) and words[end] not in ("see", "find", "spot", "locate", "hold", "need")
+    )
+    return end if asks and closed and end > at + 1 else None
+
+
+def _hedge(words: list[str], at: int) -> int | None:
+    """I was wondering whether you might possibly ...; might I trouble you to ..."""
+    end = at
+    while end < min(len(words), at + _LONGEST) and words[end] in _HEDGES:
+        end += 1
+    said = words[at:end]
+    hedged = _HEDGED.intersection(said) and "you" in said and end > at + 2
+    return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
+
+
+def _prelude(words: list[str], at: int) -> int | None:
+    """Be a good lad and ...; do me a favour and ...; what I'd like you to do is ..."""
+    first = words[at]
+    if first == "what" and words[at + 1 : at + 2] in (["i"], ["we"]):
+        asked = [n for n in range(at + 2, min(len(words), at + 12)) if words[n] == "do"]
+        if asked and words[asked[0] - 2 : asked[0]] == ["you", "to"]:
+            for n in range(asked[0] + 1, min(len(words), asked[0] + _LONGEST)):
+                if words[n] == "is" and _is_verb(words, n + 1 + (_word(words, n + 1) == "to")):
+                    return n + 1 + (_word(words, n + 1) == "to")
+        return None
+    bidden = first == "be" and words[at + 1 : at + 2] in (["a"], ["an"])
+    done = first == "do" and bool(_DUTIES.intersection(words[at + 1 : at + 5]))
+    if not (bidden or done):
+        return None
+    for n in range(at + 2, min(len(words), at + 7)):
+        if words[n] in ("and", COMMA) and _is_verb(words, n + 1):
+            return n + 1
+    return None
+
+
+def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
+    """..., would you?; ..., and make it snappy; ..., okay?"""
+    if not kept or kept[-1] in lexicon.WH or _asks(kept):
+        return None
+    for end in range(min(len(words), at + 6), at, -1):
+        if tuple(words[at:end]) in _TAILS and _closes(words, end):
+            ambiguous = words[at:end] in (["right"], ["no"], ["all", "right"], ["that"])
+            return end if not ambiguous or kept[-1] == COMMA else None
+    end = at + 2 + (_word(words, at + 1) in ("not", "nt"))
+    tagged = words[at] in _TAGS and _word(words, end - 1) in _TAGGED
+    spoken = kept[-1] not in lexicon.DETERMINERS and kept[-1] not in ("and", "or", "how", "that")
+    return end if tagged and spoken and _closes(words, end) else None
+
+
+def _asks(kept: list[str]) -> bool:
+    """Whether the clause so far is a question itself: "where are you", "are you okay"."""
+    begin = max((n + 1 for n, word in enumerate(kept) if word in _SIGNS), default=0)
+    said = [word for word in kept[begin:] if word != COMMA]
+    asked = bool(said) and said[0] in ("are", "is", "do", "does", "did", "have", "has", "am", "was")
+    return asked or not (lexicon.WH | {"whereabouts"}).isdisjoint(said[:3])
+
+
+def _closes(words: list[str], end: int) -> bool:
+    """Whether a sentence ends here, but for an address: "..., would you, love?"."""
+    while _word(words, end) == COMMA or _word(words, end) in ADDRESSES | {"please"}:
+        end += 1
+    return _word(words, end) == FULL_STOP
+
+
+def _thanks(words: list[str], at: int) -> int | None:
+    if words[at] not in _THANKS or (words[at] == "thank" and _word(words, at + 1) != "you"):
+        return None
+    end = at + 1
+    while end < len(words) and words[end] in _MUCH:
+        end += 1
+    return end if _word(words, end) in _SIGNS or words[at] in ("ta", "cheers") else None
+
+
+def _address(words: list[str], at: int, kept: list[str]) -> int | None:
+    """Love, ...; ..., you clever robot."""
+    end = at
+    while _word(words, end) in _ADDRESSED and _word(words, end + 1) in ADDRESSES | _ADDRESSED:
+        end += 1
+    if _word(words, end) not in ADDRESSES:
+        return None
+    opens = (not kept or kept[-1] in _SIGNS) and _word(words, end + 1) == COMMA
+    closes = bool(kept) and _word(words, end + 1) == FULL_STOP
+    plain = bool(kept) and kept[-1] not in lexicon.DETERMINERS | lexicon.OTHER_WORDS
+    apart = bool(kept) and (kept[-1] == COMMA or (plain and words[end] in _FAMILIAR))
+    return end + 1 if opens or (closes and apart) else None
+
+
+def _small_word(words: list[str], at: int) -> int | None:
+    """*Exactly* three; the *bloody* cup; so *like* can you."""
+    if words[at] in _CURSES:
+        return at + 1
+    if words[at] in ("very", "really", "quite", "extra", "super", "ever") and (
+        tuple(words[at + 1 : at + 2]) in lexicon.FILLERS
+    ):
+        return at + 2
+    after = words[at + 1 : at + 3]
+    if words[at] == "like" and words[at - 2 : at] in (["could", "you"], ["can", "you"]):
+        return at + 1
+    if words[at] == "like" and after and after[0] in ("can", "could", "would") and "you" in after:
+        return at + 1
+    if words[at] == "know" and words[at - 2 : at] in (["can", "you"], ["could", "you"]):
+        return at + 1 if _is_verb(words, at + 1) else None
+    if words[at : at + 2] == ["you", "know"] and _word(words, at + 2) not in lexicon.WH | {"that"}:
+        asked = _word(words, at - 1) in ("do", "if", "can", "could", "would")
+        return None if asked else at + 2
+    if words[at : at + 3] == ["let", "us", "see"] and _word(words, at + 3) == COMMA:
+        return at + 3
+    if words[at : at + 2] == ["go", "on"] and at == 0 and _word(words, 2) in (COMMA, "then"):
+        return 2 if _is_verb(words, 3) else None
+    for end in range(min(len(words), at + 3), at, -1):
+        counted = _word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit()
+        if tuple(words[at:end]) in _SMALL and counted:
+            return end
+    return None
