@@ -11,8 +11,21 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from intents import replies, wording
-from intents.context import Context, verdict_of
-from intents.goals import Cancel, Find, Goal, ObjectQuery, Report, Stop, Tell
+from intents.context import Context, answered, verdict_of
+from intents.goals import (
+    Balance,
+    Cancel,
+    Find,
+    Goal,
+    ObjectQuery,
+    Pause,
+    Report,
+    Resume,
+    Stop,
+    Tell,
+    Wait,
+)
+from intents.halting import besides
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.risks import risk
@@ -29,6 +42,15 @@ _WHERE = re.compile(
     r"(?:see|know|seen|find)\b",
     re.IGNORECASE,
 )
+
+_CORRECTS = re.compile(
+    r"^\W*(?:oh\s+)?(?:no|nope|not|sorry|oops|actually|rather|i mean|i meant|make (?:it|that)|"
+    r"better|wait|correction|scratch that|i(?: woul|')d rather|on second thoughts?)\b"
+    r"|\b(?:instead|rather)\W*$",
+    re.IGNORECASE,
+)
+_ADDS = re.compile(r"\b(?:also|too|as well|afterwards|next|after that)\b", re.IGNORECASE)
+"""A sentence with one of these comes after the one before it, however it begins."""
 
 
 class Dialogue:
@@ -127,6 +149,40 @@ class Dialogue:
             self.context = replace(self.context, question=question)
         return turn
 
+    def ask(self, question: Question) -> None:
+        """Put a question of somebody else's, as the one that is open from now on."""
+        self._pending, self._repeats = None, 0
+        self.context = replace(self.context, question=question)
+
+    def unask(self) -> None:
+        """Close the open question."""
+        self._close()
+
+    def is_answered_by(self, text: str) -> bool:
+        """Whether a text answers the open question, so that its "no" is no cry."""
+        question = self.question
+        if question is None:
+            return False
+        return verdict_of(text) is not None or answered(text, question) is not None
+
+    def besides(self, text: str, state: RobotState) -> str:
+        """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.
+
+        "No, the blue one" corrects what was asked last, "hold on, go to the hall" is a wish,
+        "careful, the glass" is neither.
+        """
+        said = besides(text)
+        before = replace(self.context, question=None, entities=state.entities, view=state.view)
+        for one in dict.fromkeys((text, said)):
+            outcome, _ = hear(one, self.vocabulary, context=before) if one else (None, None)
+            goals = outcome.goals if isinstance(outcome, Goals) else ()
+            if goals and all(isinstance(goal, Cancel | Pause | Resume) for goal in goals):
+                return one
+            waits = any(isinstance(goal, Wait | Balance) for goal in goals)
+            if said and not waits and (goals or _is_choice(outcome)):
+                return one
+        return ""
+
     def forget(self) -> None:
         """Begin anew: nothing was said, nothing is open."""
         self._close()
@@ -145,7 +201,8 @@ class Dialogue:
         pending = self._pending
         self._close()
         if not verdict:
-            busy = bool(state.doing) and "cancel" in text.lower()
+            halted = opened.goals == (Resume(),)
+            busy = halted or (bool(state.doing) and "cancel" in text.lower())
             return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
         if pending is not None:
             self.context = replace(pending, question=None)
@@ -163,6 +220,7 @@ class Dialogue:
             return replace(aside, ms=outcome.ms)
         self._close()
         if isinstance(outcome, Goals):
+            outcome = replace(outcome, instead=is_correction(text))
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome
@@ -243,6 +301,15 @@ def _known(said: str, goal: Goal, state: RobotState) -> str:
 def _sought(said: str, goal: Goal) -> ObjectQuery | None:
     """What it was asked where it is; "find it" is a wish to have it looked for."""
     return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
+
+
+def is_correction(text: str) -> bool:
+    """Whether a sentence says that it takes the place of the one before it."""
+    return bool(_CORRECTS.search(text)) and not _ADDS.search(text)
+
+
+def _is_choice(outcome: Turn | None) -> bool:
+    return isinstance(outcome, Question) and outcome.kind == "choice"
 
 
 def _confirmation(outcome: Goals, question: str) -> Question:
