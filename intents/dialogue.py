@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents import replies, wording
+from intents import looking_back, replies, wording
 from intents.context import Context, answered, verdict_of
 from intents.goals import (
     Balance,
@@ -19,6 +19,7 @@ from intents.goals import (
     Goal,
     ObjectQuery,
     Pause,
+    Place,
     Report,
     Resume,
     Stop,
@@ -31,6 +32,8 @@ from intents.parser import Fallback, hear
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
+from intents.the_rest import is_rest, with_the_rest
+from intents.undoing import is_back, is_undo, undone
 from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
@@ -43,14 +46,27 @@ _WHERE = re.compile(
     re.IGNORECASE,
 )
 
+_STEERING = (Stop, Pause, Resume, Cancel)
 _CORRECTS = re.compile(
-    r"^\W*(?:oh\s+)?(?:no|nope|not|sorry|oops|actually|rather|i mean|i meant|make (?:it|that)|"
-    r"better|wait|correction|scratch that|i(?: woul|')d rather|on second thoughts?)\b"
+    r"^\W*(?:oh\W+)?(?:no(?!\s+(?:rush|hurry|problem|worr|need|matter|doubt|pressure|one|\w+s\b))|"
+    r"nope|not|oops|actually|rather|i mean|i meant|make (?:it|that)|correction|scratch that|"
+    r"wait(?=\s*,)|i(?: woul|')d rather|on second thoughts?)\b"
     r"|\b(?:instead|rather)\W*$",
     re.IGNORECASE,
 )
 _ADDS = re.compile(r"\b(?:also|too|as well|afterwards|next|after that)\b", re.IGNORECASE)
 """A sentence with one of these comes after the one before it, however it begins."""
+
+
+_ANOTHER = re.compile(
+    r"\W*(?:(?:oh|no|not that one|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait)"
+    r"\W+)*(?P<what>(?:the|my|a|an) \w+(?: \w+){0,4}?)(?:\W+(?:instead|rather))?\W*",
+    re.IGNORECASE,
+)
+"""Actually *the blue one*; *the blue one* instead."""
+_INSTEAD = re.compile(r"\W+(?:instead|rather)\W*$", re.IGNORECASE)
+_AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
+"""And *the blue one*?"""
 
 
 class Dialogue:
@@ -112,6 +128,8 @@ class Dialogue:
         self.context = Context()
         self.dropped = ""
         self._repeats = 0
+        self._before: tuple[tuple[Goal, ...], RobotState] | None = None
+        self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
 
@@ -142,8 +160,17 @@ class Dialogue:
         polite = None if opened else replies.courtesy(text)
         if polite:
             return Reply(text=polite)
+        about = looking_back.told(text, state, opened)
+        if about:
+            return Reply(text=about)
         turn = self._answer(text, opened, state) if opened else None
-        turn = turn or self._understand(text, state, opened)
+        asked_where, self._asked_where = self._asked_where, False
+        if asked_where and _AND.match(text):
+            text = _AND.sub("where is ", text)
+        turn = turn or self._revised(text, state) or self._understand(text, state, opened)
+        self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
+        if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
+            self._before = (turn.goals, state)
         if self.question is None and self._asked_before:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
@@ -208,8 +235,28 @@ class Dialogue:
             self.context = replace(pending, question=None)
         return Goals(goals=opened.goals, parser=opened.parser)
 
+    def _revised(self, text: str, state: RobotState) -> Turn | None:
+        """What takes back what was asked last, or asks it for the others; None if it is neither."""
+        if is_undo(text) and state.doing:
+            return Goals(goals=(Cancel(),))
+        if is_undo(text) or (is_back(text) and not state.doing and self._before):
+            if self._before is None:
+                return Reply(text="There is nothing that I could undo.")
+            revised = undone(text, *self._before, state)
+        elif is_rest(text) and self.context.goals:
+            revised = with_the_rest(self.context.goals, state)
+        else:
+            return None
+        self._close()
+        if isinstance(revised, str):
+            return Reply(text=revised)
+        after = replace(self.context, goals=revised)
+        return self._settle(text, Goals(goals=revised, elliptic=True), after, state)
+
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
+        corrects = is_correction(text)
+        text = self._in_full(text, before)
         outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
             self._repeats += 1
@@ -220,10 +267,32 @@ class Dialogue:
             return replace(aside, ms=outcome.ms)
         self._close()
         if isinstance(outcome, Goals):
-            outcome = replace(outcome, instead=is_correction(text))
+            outcome = replace(outcome, instead=corrects)
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome
+
+    def _in_full(self, text: str, before: Context) -> str:
+        """A correction as the grammar knows it: "the blue one instead" as "no, the blue one"."""
+        if before.question is not None or not before.goals or not is_correction(text):
+            return text
+        other = _ANOTHER.fullmatch(text)
+        if other is None:
+            return _INSTEAD.sub("", text)
+        place = self._place_like(other["what"], before.goals[-1])
+        if place:
+            return f"no, on the {place}"
+        as_said, _ = hear(text, self.vocabulary, context=before)
+        return f"no, {other['what']}" if isinstance(as_said, Refusal) else text
+
+    def _place_like(self, what: str, last: Goal) -> str:
+        """The lower shelf, for "the lower one" after something was put on the upper shelf."""
+        place = (last.on or last.in_) if isinstance(last, Place) else ""
+        words = what.lower().split()
+        if not place or words[-1] != "one" or len(words) != 3:
+            return ""
+        meant = f"{words[1]} {place.split()[-1]}"
+        return meant if any(spot.name == meant for spot in self.vocabulary.places) else ""
 
     def _set_aside(
         self, text: str, opened: Question, outcome: Turn, before: Context, state: RobotState

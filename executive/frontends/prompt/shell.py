@@ -301,7 +301,7 @@ class Shell:
             # an answer ("no, the blue one") says nothing by itself: the job is called what it means
             steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
             if not steering:
-                by_itself = not (answers or turn.instead)
+                by_itself = not (answers or turn.instead or turn.elliptic)
                 return self._settle(text if by_itself else in_words(turn.goals), turn, state)
             if steers:
                 self._steer(turn.goals)
