@@ -10,14 +10,30 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents import replies, wording
-from intents.context import Context, verdict_of
-from intents.goals import Cancel, Find, Goal, ObjectQuery, Report, Stop, Tell
+from intents import looking_back, replies, wording
+from intents.context import Context, answered, verdict_of
+from intents.goals import (
+    Balance,
+    Cancel,
+    Find,
+    Goal,
+    ObjectQuery,
+    Pause,
+    Place,
+    Report,
+    Resume,
+    Stop,
+    Tell,
+    Wait,
+)
+from intents.halting import besides
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
+from intents.the_rest import is_rest, with_the_rest
+from intents.undoing import is_back, is_undo, undone
 from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
@@ -29,6 +45,28 @@ _WHERE = re.compile(
     r"(?:see|know|seen|find)\b",
     re.IGNORECASE,
 )
+
+_STEERING = (Stop, Pause, Resume, Cancel)
+_CORRECTS = re.compile(
+    r"^\W*(?:oh\W+)?(?:no(?!\s+(?:rush|hurry|problem|worr|need|matter|doubt|pressure|one|\w+s\b))|"
+    r"nope|not|oops|actually|rather|i mean|i meant|make (?:it|that)|correction|scratch that|"
+    r"wait(?=\s*,)|i(?: woul|')d rather|on second thoughts?)\b"
+    r"|\b(?:instead|rather)\W*$",
+    re.IGNORECASE,
+)
+_ADDS = re.compile(r"\b(?:also|too|as well|afterwards|next|after that)\b", re.IGNORECASE)
+"""A sentence with one of these comes after the one before it, however it begins."""
+
+
+_ANOTHER = re.compile(
+    r"\W*(?:(?:oh|no|not that one|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait)"
+    r"\W+)*(?P<what>(?:the|my|a|an) \w+(?: \w+){0,4}?)(?:\W+(?:instead|rather))?\W*",
+    re.IGNORECASE,
+)
+"""Actually *the blue one*; *the blue one* instead."""
+_INSTEAD = re.compile(r"\W+(?:instead|rather)\W*$", re.IGNORECASE)
+_AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
+"""And *the blue one*?"""
 
 
 class Dialogue:
@@ -90,6 +128,8 @@ class Dialogue:
         self.context = Context()
         self.dropped = ""
         self._repeats = 0
+        self._before: tuple[tuple[Goal, ...], RobotState] | None = None
+        self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
 
@@ -120,12 +160,55 @@ class Dialogue:
         polite = None if opened else replies.courtesy(text)
         if polite:
             return Reply(text=polite)
+        about = looking_back.told(text, state, opened)
+        if about:
+            return Reply(text=about)
         turn = self._answer(text, opened, state) if opened else None
-        turn = turn or self._understand(text, state, opened)
+        asked_where, self._asked_where = self._asked_where, False
+        if asked_where and _AND.match(text):
+            text = _AND.sub("where is ", text)
+        turn = turn or self._revised(text, state) or self._understand(text, state, opened)
+        self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
+        if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
+            self._before = (turn.goals, state)
         if self.question is None and self._asked_before:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
         return turn
+
+    def ask(self, question: Question) -> None:
+        """Put a question of somebody else's, as the one that is open from now on."""
+        self._pending, self._repeats = None, 0
+        self.context = replace(self.context, question=question)
+
+    def unask(self) -> None:
+        """Close the open question."""
+        self._close()
+
+    def is_answered_by(self, text: str) -> bool:
+        """Whether a text answers the open question, so that its "no" is no cry."""
+        question = self.question
+        if question is None:
+            return False
+        return verdict_of(text) is not None or answered(text, question) is not None
+
+    def besides(self, text: str, state: RobotState) -> str:
+        """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.
+
+        "No, the blue one" corrects what was asked last, "hold on, go to the hall" is a wish,
+        "careful, the glass" is neither.
+        """
+        said = besides(text)
+        before = replace(self.context, question=None, entities=state.entities, view=state.view)
+        for one in dict.fromkeys((text, said)):
+            outcome, _ = hear(one, self.vocabulary, context=before) if one else (None, None)
+            goals = outcome.goals if isinstance(outcome, Goals) else ()
+            if goals and all(isinstance(goal, Cancel | Pause | Resume) for goal in goals):
+                return one
+            waits = any(isinstance(goal, Wait | Balance) for goal in goals)
+            if said and not waits and (goals or _is_choice(outcome)):
+                return one
+        return ""
 
     def forget(self) -> None:
         """Begin anew: nothing was said, nothing is open."""
@@ -145,14 +228,35 @@ class Dialogue:
         pending = self._pending
         self._close()
         if not verdict:
-            busy = bool(state.doing) and "cancel" in text.lower()
+            halted = opened.goals == (Resume(),)
+            busy = halted or (bool(state.doing) and "cancel" in text.lower())
             return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
         if pending is not None:
             self.context = replace(pending, question=None)
         return Goals(goals=opened.goals, parser=opened.parser)
 
+    def _revised(self, text: str, state: RobotState) -> Turn | None:
+        """What takes back what was asked last, or asks it for the others; None if it is neither."""
+        if is_undo(text) and state.doing:
+            return Goals(goals=(Cancel(),))
+        if is_undo(text) or (is_back(text) and not state.doing and self._before):
+            if self._before is None:
+                return Reply(text="There is nothing that I could undo.")
+            revised = undone(text, *self._before, state)
+        elif is_rest(text) and self.context.goals:
+            revised = with_the_rest(self.context.goals, state)
+        else:
+            return None
+        self._close()
+        if isinstance(revised, str):
+            return Reply(text=revised)
+        after = replace(self.context, goals=revised)
+        return self._settle(text, Goals(goals=revised, elliptic=True), after, state)
+
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
+        corrects = is_correction(text)
+        text = self._in_full(text, before)
         outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
             self._repeats += 1
@@ -163,9 +267,32 @@ class Dialogue:
             return replace(aside, ms=outcome.ms)
         self._close()
         if isinstance(outcome, Goals):
+            outcome = replace(outcome, instead=corrects)
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome
+
+    def _in_full(self, text: str, before: Context) -> str:
+        """A correction as the grammar knows it: "the blue one instead" as "no, the blue one"."""
+        if before.question is not None or not before.goals or not is_correction(text):
+            return text
+        other = _ANOTHER.fullmatch(text)
+        if other is None:
+            return _INSTEAD.sub("", text)
+        place = self._place_like(other["what"], before.goals[-1])
+        if place:
+            return f"no, on the {place}"
+        as_said, _ = hear(text, self.vocabulary, context=before)
+        return f"no, {other['what']}" if isinstance(as_said, Refusal) else text
+
+    def _place_like(self, what: str, last: Goal) -> str:
+        """The lower shelf, for "the lower one" after something was put on the upper shelf."""
+        place = (last.on or last.in_) if isinstance(last, Place) else ""
+        words = what.lower().split()
+        if not place or words[-1] != "one" or len(words) != 3:
+            return ""
+        meant = f"{words[1]} {place.split()[-1]}"
+        return meant if any(spot.name == meant for spot in self.vocabulary.places) else ""
 
     def _set_aside(
         self, text: str, opened: Question, outcome: Turn, before: Context, state: RobotState
@@ -243,6 +370,15 @@ def _known(said: str, goal: Goal, state: RobotState) -> str:
 def _sought(said: str, goal: Goal) -> ObjectQuery | None:
     """What it was asked where it is; "find it" is a wish to have it looked for."""
     return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
+
+
+def is_correction(text: str) -> bool:
+    """Whether a sentence says that it takes the place of the one before it."""
+    return bool(_CORRECTS.search(text)) and not _ADDS.search(text)
+
+
+def _is_choice(outcome: Turn | None) -> bool:
+    return isinstance(outcome, Question) and outcome.kind == "choice"
 
 
 def _confirmation(outcome: Goals, question: str) -> Question:

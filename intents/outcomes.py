@@ -17,6 +17,8 @@ class Goals(msgspec.Struct, frozen=True, kw_only=True):
         parser: Which parser understood it.
         reason: How it was understood, where there is something to remark.
         clauses: What was said, clause by clause, and what each was read as by itself.
+        instead: Whether they take the place of what was asked last ("no, the blue one").
+        elliptic: Whether what was said means nothing without what was said before it.
         ms: How long that took [ms].
     """
 
@@ -24,6 +26,8 @@ class Goals(msgspec.Struct, frozen=True, kw_only=True):
     parser: ParserName = "grammar"
     reason: str | None = None
     clauses: tuple[tuple[str, tuple[Goal, ...]], ...] = ()
+    instead: bool = False
+    elliptic: bool = False
     ms: float = 0.0
 
 

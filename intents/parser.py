@@ -30,6 +30,7 @@ from intents.grounding import (
     narrowed,
     queries,
 )
+from intents.languages import language_of, only_english
 from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
@@ -93,6 +94,9 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
             for goal in goals:
                 scope.mention_goal(goal)
             return _settled(_checked(text, goals, context), context, scope)
+    foreign = language_of(text)
+    if foreign:
+        return Refusal(reason=only_english(foreign)), context
     question = context.question
     if question is not None and question.kind == "choice":
         chosen = _completed(text, vocabulary, context, question)
@@ -135,11 +139,19 @@ def _completed(
     text: str, vocabulary: Vocabulary, context: Context, question: Question
 ) -> tuple[Outcome, Context] | None:
     """What the sentence before means with an answer put in."""
+    asked: tuple[Outcome, Context] | None = None
     for whole in completed(text, question):
         outcome, after = _read(whole, vocabulary, context)
         if isinstance(outcome, Goals):
             return outcome, after
-    return None
+        if isinstance(outcome, Question) and outcome.choices and not _alike(outcome, question):
+            asked = asked or (outcome, after)  # one thing is known now, another is open
+    return asked
+
+
+def _alike(one: Question, other: Question) -> bool:
+    """Whether two questions ask for the same."""
+    return one.question == other.question.removeprefix("I did not get that. ")
 
 
 def _second_opinion(

@@ -37,6 +37,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
         problems: What is wrong with it, in words; empty when all is well.
         battery: State of charge, 0 to 1; None without a battery.
         last: How the last job ended, in words, with its reason ("I could not ...: ...").
+        did: What the last job that is over was asked in, as it was said; empty if there is none.
         skills: Types of goals that it has skills for ("pick"); empty means all.
     """
 
@@ -56,6 +57,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
     problems: tuple[str, ...] = ()
     battery: float | None = None
     last: str = ""
+    did: str = ""
     skills: frozenset[str] = frozenset()
 
     @property

@@ -9,8 +9,10 @@ import re
 
 from rapidfuzz.distance import OSA
 
+from intents.cries import AROUND, STEMS_OF_STOPS, STOPS
 from intents.english.words.lexicon import words
 from intents.letters import bare, latin, without_sequences
+from intents.whole_cries import WholeCries
 
 _LOOKED_AT = 240
 """Characters at either end of a long text: people cry first or last, and no text takes long."""
@@ -61,8 +63,15 @@ _NOT_A_CRY = re.compile(
 )
 _GOES_ON = words("and then to the a an next every each last first this that bus train tram")
 """Before a last word "stop" these make it a step of a plan, or a noun."""
-_ON_THE_WAY = re.compile(r"^\s*(?:by|at|in|over|off)\s+(?:the|my|your|our|a|an|his|her)\b")
+_ON_THE_WAY = re.compile(
+    r"^\s*(?:by|at|in|over|off|near|beside|outside|behind|next\s+to|in\s+front\s+of)\s+"
+    r"(?:the|my|your|our|a|an|his|her)\b"
+)
 """Stop *by the kitchen* is an errand."""
+_A_THING = re.compile(r"\b(?:get|fetch|bring|take|grab|pick|find|put|place|move|use)\b.*\bdoor\s+$")
+"""*Get the door* stop: a thing; "go to the door stop" is cried."""
+_TO_THE_COLD = re.compile(r"^\s+(?:the|my|our|some|these|those)\s+(?!robot|motor|arm|hand|leg)\w")
+"""Freeze *the leftovers*."""
 
 _STAYING = (
     "stand still", "hold still", "keep still", "stay still", "be still", "stand there",
@@ -74,6 +83,7 @@ _STAYING = (
 """Wishes that a robot stay where it is: a stop to one that moves, else a task."""
 _AROUND = _BEFORE | words("right there here then thanks thank that's it stay")
 """Words that may stand around such a wish."""
+_ABROAD = WholeCries(STOPS, stems=STEMS_OF_STOPS, around=AROUND)
 
 
 def is_stay(text: str) -> bool:
@@ -110,6 +120,8 @@ def is_stop(text: str) -> bool:
 
 def _is_cried(text: str) -> bool:
     plain = _plain(text)
+    if _ABROAD.cried(plain):
+        return True
     if len(plain) > 2 * _LOOKED_AT:
         plain = f"{plain[:_LOOKED_AT]} . {plain[-_LOOKED_AT:]}"
     return _is_stop(plain) or (not plain.isascii() and _is_stop(latin(plain)))
@@ -157,7 +169,9 @@ def _is_meant(clause: str, word: re.Match[str]) -> bool:
     if _GLUED.fullmatch(word.group()):
         return True  # what stands before it is no part of the cry
     before, after = clause[: word.start()], clause[word.end() :]
-    return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after))
+    if word.group() == "freeze" and _TO_THE_COLD.match(after):
+        return False
+    return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after) or _A_THING.search(before))
 
 
 def _is_cry(word: str) -> bool:

@@ -70,8 +70,8 @@ class Wire:
             timeout=max(until_s - self._clock(), 0.001),
         )  # fmt: skip
         work = (self._client, request, until_s, came)
+        self._awaited = came  # first: whoever sees the request on its way may give it up
         threading.Thread(target=self._exchange, args=work, name="wire", daemon=True).start()
-        self._awaited = came
         try:
             answer = came.get(timeout=max(until_s - self._clock(), 0.001))
         except queue.Empty:

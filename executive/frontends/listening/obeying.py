@@ -130,6 +130,7 @@ class Conversation:
         elif shell.robot.executive.question and one.text in ANSWERS:
             shell.robot.executive.answer(one.text)
         else:
+            shell.halt_at_once(one.text)
             doing = self._worker.submit(self._do, one.text, shell.stops)
             if not self._recorded:
                 return

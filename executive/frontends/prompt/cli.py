@@ -98,7 +98,7 @@ def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None) -> int:
     shell.speech.hush()
     if shell.gone:
         return ExitStatus.BROKEN
-    say("The robot comes to a stand." if shell.robot.busy else "The robot stands.")
+    say("The robot comes to a stand." if shell.robot.busy else shell.standing())
     return ExitStatus.DONE
 
 

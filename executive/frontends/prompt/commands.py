@@ -306,12 +306,14 @@ class _Steering:
 
     def pause(self, _rest: str) -> None:
         self._shell.robot.executive.pause()
+        self._shell.settle_halt()
         self._shell.answer("Pausing; `resume` goes on with the step.")
 
     def resume(self, _rest: str) -> None:
         executive = self._shell.robot.executive
         if executive.pause_wanted:
             executive.resume()
+            self._shell.settle_halt()
         elif executive.held:
             held = ", ".join(executive.held)
             self._shell.answer(f"Nothing is paused; a breakpoint holds {held}: say `continue`.")
@@ -342,6 +344,8 @@ class _Steering:
         under_way = self._shell.under_way()
         if rest:
             self._shell.robot.executive.cancel(number_of(rest))
+        elif self._shell.halt.on:
+            self._shell.give_up_halted()
         elif under_way:
             self._shell.robot.executive.cancel(under_way[0].number)
         else:
@@ -351,7 +355,7 @@ class _Steering:
         executive = self._shell.robot.executive
         if executive.question:
             executive.answer("continue")
-        elif executive.held:
+        elif executive.held and not self._shell.halt.on:
             executive.go_on()
         else:
             self.resume("")

@@ -1,8 +1,9 @@
 """What comes of a line: a command, an answer, or a sentence. Knows no terminal.
 
-A line is, in this order: a cry to stop; a command of the table; the answer to what the robot asks;
-a sentence, as part of one conversation. Sentences queue up: each is done when those before it are,
-or beside them where they do not need the same parts of the body.
+A line is, in this order: a cry to stop; to a robot at work a cry to halt, which is asked about; a
+command of the table; the answer to what the robot asks; a sentence, as part of one conversation.
+Sentences queue up: each is done when those before it are, or beside them where they do not need the
+same parts of the body.
 """
 
 from __future__ import annotations
@@ -20,15 +21,18 @@ from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.frontends.prompt import foresight
 from executive.frontends.prompt.command import Command
+from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
 from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.stance import standing
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
+from intents.halting import besides, is_halt
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
 from intents.state import RobotState
@@ -51,6 +55,7 @@ class Shell:
 
     Attributes:
         robot: what is spoken to.
+        halt: whether it has halted for a cry, and waits to be told more.
         out: says a line to people.
         speech: says aloud what it answers.
         folder: of this run.
@@ -80,6 +85,7 @@ class Shell:
             speech: says aloud what it answers.
         """
         self.robot = robot
+        self.halt = Halt(robot.executive)
         self.out = out
         self.speech = speech or Speech()
         self.folder = folder
@@ -92,6 +98,7 @@ class Shell:
         self._model = model
         self._holds: tuple[str, ...] = ()
         self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
+        self._corrects = False
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
@@ -114,6 +121,28 @@ class Shell:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
         return is_stop(text) or (self.robot.busy and is_stay(text))
 
+    def halt_at_once(self, text: str, *, busy: bool | None = None) -> bool:
+        """Halt a robot at work if a line is a cry that ends nothing; never waits.
+
+        Args:
+            text: the line.
+            busy: whether there is something to halt (None: if there are jobs).
+        """
+        at_work = self.robot.busy if busy is None else busy
+        if not (at_work or self.halt.on) or not is_halt(text):
+            return False
+        if self._is_answer(text) or self._is_command(text):
+            return False
+        with self._submitting:
+            self.halt.begin()
+        self.speech.hush()
+        return True
+
+    def _is_answer(self, text: str) -> bool:
+        """Whether a line that may be a cry answers what is asked: "no", "give up"."""
+        helped = self.robot.executive.question and _answer(text) is not None
+        return bool(helped) or self.dialogue.is_answered_by(text)
+
     @property
     def gone(self) -> str:
         """That the robot is gone, and what to do; empty while it is there."""
@@ -132,13 +161,18 @@ class Shell:
         """Bring the robot to a stand and end all jobs, be silent, and say so."""
         busy = self.robot.busy
         self.stop_unsaid(why)
-        self.out("Stopping." if busy else "I stand already.")
+        self.out("Stopping." if busy else self.standing())
+
+    def standing(self) -> str:
+        """What is true of a robot that has nothing to stop."""
+        return standing(self.robot.executive, self.robot.view)
 
     def stop_unsaid(self, why: str) -> None:
         """Stop without a word; first the robot, then what only is in the way of hearing."""
         with self._submitting:
             self.stops += 1
             self.robot.executive.stop(why)
+            self.halt.forget()
         self._ask_model_no_more()
         self.speech.hush()
         self.dialogue.forget()
@@ -175,25 +209,33 @@ class Shell:
         try:
             if self.stop_at_once(text):
                 return
+            halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
             if self._stopped_since:
                 self._refuse_stopped(text)
+            elif halted:
+                self._take_halted(text)
             elif text:
                 self._take(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
+        self._ask_to_go_on()
 
     def hear(self, text: str, *, stops: int) -> None:
         """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
         self._stops_before = stops
         try:
-            self.sentence(text)
+            if self.halt_at_once(text):
+                self._take_halted(text)
+            else:
+                self.sentence(text)
         except RobotError as error:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
+        self._ask_to_go_on()
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -216,7 +258,7 @@ class Shell:
             self.dialogue.forget()
             self._refuse_stopped(text)
             return None
-        if self.dialogue.dropped:
+        if self.dialogue.dropped and not self.halt.on:
             self.out(f"I ask no more: {self.dialogue.dropped}")
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
         still = self.dialogue.question
@@ -243,7 +285,11 @@ class Shell:
         self, text: str, turn: Turn, state: RobotState, *, answers: bool, steers: bool
     ) -> Understood | None:
         """Say what a turn of the conversation leads to, steer the jobs, or return what is asked."""
-        if isinstance(turn, Reply):
+        asks_or_not = isinstance(turn, Question | Refusal) and not answers
+        if asks_or_not and is_halt(text) and not besides(text):
+            self.dialogue.unask()
+            self.answer(self.standing())  # to a robot that moves it would have been a cry
+        elif isinstance(turn, Reply):
             self.answer(turn.text)
         elif isinstance(turn, Question):
             self.answer(turn.question)
@@ -252,10 +298,11 @@ class Shell:
             if self._model is not None and self._model.trouble:
                 self.out(f"The language model was of no help: {self._model.trouble}.")
         else:
-            # an answer ("the blue one") says nothing by itself: the job is called what it means
+            # an answer ("no, the blue one") says nothing by itself: the job is called what it means
             steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
             if not steering:
-                return self._settle(in_words(turn.goals) if answers else text, turn, state)
+                by_itself = not (answers or turn.instead or turn.elliptic)
+                return self._settle(text if by_itself else in_words(turn.goals), turn, state)
             if steers:
                 self._steer(turn.goals)
             else:
@@ -267,6 +314,7 @@ class Shell:
         if self.gone:
             self._refuse(self.gone)
             return
+        self._make_room(understood.text, urgent=urgent)
         with self._submitting:
             stopped = self._stopped_since
             number = 0 if stopped else self.robot.submit(understood, urgent=urgent, **how)
@@ -278,13 +326,53 @@ class Shell:
         self._asked[number] = understood, on_the_floor(world.X_WB) if world is not None else None
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)
-        before = [job for job in live.values() if mine and job.resources & mine.resources]
+        before = [
+            job
+            for job in live.values()
+            if mine and job.resources & mine.resources and not self.halt.gave_up(job)
+        ]
         if before and not urgent:
             self.answer(f"Queued as {number}, with {len(before)} before it.")
+
+    def _make_room(self, text: str, *, urgent: bool) -> None:
+        """End what a task takes the place of: what was halted for it, or what it corrects."""
+        corrects, self._corrects = self._corrects, False
+        last = max(self._asked, default=0)
+        jobs = [job for job in self.robot.executive.jobs if job.state not in OVER]
+        replaced = [job for job in jobs if corrects and job.number == last]
+        comes_first = urgent or "first" in text.casefold().split()
+        if self.halt.on and not replaced and not comes_first:
+            replaced = self.halt.kept
+        if replaced:
+            self.halt.give_up(replaced, "something else was asked for instead")
+            self.answer(f"Instead of “{replaced[0].text}”.")
+        if self.halt.on and (comes_first or not self._still_under_way()):
+            self.halt.end()
+
+    def settle_halt(self) -> None:
+        """It was said what is to become of the jobs that were halted; it is asked no more."""
+        if self.halt.on:
+            self.halt.forget()
+            self.dialogue.unask()
+
+    def give_up_halted(self) -> None:
+        """End what was halted; what waits after it is asked about next."""
+        self.halt.give_up(self.halt.kept, "cancelled on request")
+        self.dialogue.unask()
+
+    def _still_under_way(self) -> list[Job]:
+        """The jobs under way that were not given up."""
+        return [job for job in self.halt.kept if job.state in UNDER_WAY]
 
     def under_way(self) -> list[Job]:
         """The jobs that have begun and are not over."""
         return [job for job in self.robot.executive.jobs if job.state in UNDER_WAY]
+
+    def _is_command(self, text: str) -> bool:
+        """Whether a line is a command, which says itself what is to be halted: `break off`."""
+        first, _, rest = text.partition(" ")
+        command = self.commands.get(first.casefold())
+        return command is not None and (command.accepts(rest.strip()) or polite(rest))
 
     def _take(self, text: str) -> None:
         first, _, rest = text.partition(" ")
@@ -301,9 +389,32 @@ class Shell:
         else:
             self.sentence(text)
 
+    def _take_halted(self, text: str) -> None:
+        """Do what a cry that the robot has halted for says besides."""
+        if not self.halt.kept:
+            self.out(self.standing())
+            return
+        self.out("Halting.")
+        said = self.dialogue.besides(text, self._state())
+        if said:
+            self.sentence(said)
+
+    def _ask_to_go_on(self) -> None:
+        """Ask what is to become of the jobs that were halted, where nothing else is asked."""
+        if not self.halt.on or self.dialogue.question is not None:
+            return
+        question = self.halt.question()
+        if question is None:
+            self.halt.end()
+            return
+        self.dialogue.ask(question)
+        self.answer(question.question)
+
     def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
         """What the goals mean here."""
-        held = self._holds if self.robot.busy else self._held()
+        self._corrects = turn.instead
+        expected = self.robot.busy and not (self.halt.on or turn.instead)
+        held = self._holds if expected else self._held()
         understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
         if isinstance(understood, Refused):
             self._refuse(f"Not done: {understood.reason}", understood.suggestion)

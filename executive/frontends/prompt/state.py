@@ -31,6 +31,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
         mode={"pausing": "paused", "stopping": "stopped"}.get(executive.state, executive.state),
         battery=power.charge if power else None,
         last=_ending(over[-1]) if over else "",
+        did=over[-1].text if over else "",
     )
 
 

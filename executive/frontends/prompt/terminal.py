@@ -207,8 +207,14 @@ class Terminal:
         return self._shell.ask_no_more()
 
     def _is_cry(self, line: str) -> bool:
-        """Whether a line is to stop something, for all that the prompt has not read it yet."""
-        return self._busy and (self._shell.is_cry(line) or is_stay(line))
+        """Whether a line is to stop something, for all that the prompt has not read it yet.
+
+        One to halt is heeded here; what it says besides is read as any line is.
+        """
+        if self._busy and (self._shell.is_cry(line) or is_stay(line)):
+            return True
+        self._shell.halt_at_once(line, busy=self._busy)
+        return False
 
     def _cried(self) -> None:
         """Heed a cry before the prompt has it, which tells of it when it has."""
@@ -233,7 +239,7 @@ class Terminal:
             if event.current_buffer.text:
                 event.current_buffer.reset()
             else:
-                self._shell.out("The robot stands. Ctrl-D or `quit` leaves.")
+                self._shell.out(f"{self._shell.standing()} Ctrl-D or `quit` leaves.")
 
         def heeded(event: KeyPressEvent) -> None:
             """A line that was heeded is entered as what was heard."""

@@ -12,8 +12,10 @@ from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
+    Balance,
     Bring,
     Close,
+    Displacement,
     Find,
     Follow,
     Give,
@@ -27,10 +29,20 @@ from intents.goals import (
     Pick,
     Place,
     Switch,
+    Wait,
 )
 
 _TOO = lexicon.phrases("too,also,as well,likewise")
-_MORE = lexicon.phrases("more,a bit more,a little more,some more,further,a bit further,again more")
+_MORE = lexicon.phrases("more,some more,further,again more")
+_A_BIT_MORE = lexicon.phrases(
+    "a bit more,a little more,a bit further,a little further,a bit farther,a little farther,"
+    "a touch more,a tad more,slightly more,slightly further,a little bit more,a bit longer,"
+    "a little longer,just a bit more,just a little more"
+)
+_BIT = 0.25
+"""Of the last amount: after two metres half a metre, after a quarter turn a quarter of that."""
+_LEAST_BIT_M, _LEAST_BIT_RAD, _LEAST_BIT_S = 0.1, 0.17, 1.0
+"""Of what a robot does and people see; never more than the last amount."""
 _SIDES = lexicon.words("left right up down ahead behind")
 _LINKING = ("and", "also", "then", "plus", "next", "about")
 
@@ -54,6 +66,9 @@ def follow_up(sentence: Sentence, at: int) -> Found | None:
     more = text.phrase_end(_MORE, at)
     if more is not None and more == len(text) and isinstance(last, GoTo) and last.by:
         return [last], more
+    bit = text.phrase_end(_A_BIT_MORE, at)
+    if bit is not None and bit == len(text) and (part := _bit_of(last)):
+        return [part], bit
     phrase = noun_phrase(text, at)
     linked = at > 0 and text.word(at - 1) in _LINKING
     if phrase is None or phrase.end < len(text) or not (linked or phrase.other):
@@ -63,6 +78,27 @@ def follow_up(sentence: Sentence, at: int) -> Found | None:
         return framed(sentence, "put", text.word(at), [thing], first=at + 1, end=phrase.end)
     found = _with_another(last, phrase, sentence.scope)
     return (found, phrase.end) if found else None
+
+
+def _bit_of(last: Goal) -> Goal | None:
+    """A part of what the last goal was an amount of; None if it was none."""
+    if isinstance(last, GoTo) and last.by:
+        by = Displacement(
+            forward_m=_bit(last.by.forward_m, _LEAST_BIT_M),
+            left_m=_bit(last.by.left_m, _LEAST_BIT_M),
+            turn_rad=_bit(last.by.turn_rad, _LEAST_BIT_RAD),
+        )
+        return replace(last, by=by)
+    if isinstance(last, Wait | Balance) and last.duration_s:
+        return replace(last, duration_s=_bit(last.duration_s, _LEAST_BIT_S))
+    return None
+
+
+def _bit(amount: float | None, least: float) -> float | None:
+    if not amount:
+        return amount
+    size = min(abs(amount), max(_BIT * abs(amount), least))
+    return round(size if amount > 0 else -size, 4)
 
 
 def _with_another(last: Goal, phrase: NounPhrase, scope: Scope) -> list[Goal]:

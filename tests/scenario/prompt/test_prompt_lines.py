@@ -529,3 +529,62 @@ def test_a_wish_to_stay_stops_what_is_under_way_and_is_a_task_otherwise(shell: S
     assert shell.robot.executive.jobs[-1].state == "done"
     shell.line("walk 1 metre back")
     shell.robot.wait()
+
+
+def test_a_cry_halts_what_is_under_way_and_asks_whether_to_go_on(shell: Shell):
+    shell.line("walk 1 metre forward")
+    shell.line("careful!")
+    assert "Shall I go on with “walk 1 metre forward”?" in shell.out.text
+    assert eventually(lambda: shell.robot.executive.state == "paused")
+    shell.line("where are you?")
+    assert "Still open: Shall I go on" in shell.out.text
+    shell.line("yes")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+    shell.line("walk 1 metre back")
+    shell.line("not that")
+    shell.line("no")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "cancelled"
+    assert shell.dialogue.question is None
+    assert not shell.halt.on
+    shell.line("wave")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+
+
+def test_what_is_said_after_a_cry_takes_the_place_of_what_was_halted(shell: Shell):
+    shell.line("walk 1 metre forward")
+    shell.line("hold on")
+    shell.line("say good morning")
+    assert "Instead of “walk 1 metre forward”." in shell.out.text
+    shell.robot.wait()
+    assert [job.state for job in shell.robot.executive.jobs[-2:]] == ["cancelled", "done"]
+
+
+def test_a_correction_takes_the_place_of_what_it_corrects(shell: Shell):
+    shell.line("say good morning and look at the red cup")
+    shell.line("no, the blue one")
+    shell.robot.wait()
+    before, after = shell.robot.executive.jobs[-2:]
+    assert before.state == "cancelled"
+    assert "blue cup" in after.text
+    assert after.state == "done"
+
+
+def test_to_a_robot_that_stands_a_warning_is_answered_with_what_is_true(shell: Shell):
+    before = len(shell.robot.executive.jobs)
+    for line in ("careful!", "watch out", "not that"):
+        shell.line(line)
+        assert shell.out[-1] == "I stand already."
+        assert shell.dialogue.question is None
+    assert len(shell.robot.executive.jobs) == before
+
+
+def test_no_to_a_question_is_no_cry(shell: Shell):
+    shell.line("walk 1 metre back")
+    shell.line("pick up the cup")
+    shell.line("no")
+    assert not shell.halt.on
+    shell.line("stop")
+    shell.robot.wait()

@@ -68,7 +68,7 @@ def test_an_answer_that_points_at_another_thing_is_none() -> None:
         ("take the green jar", "now the other one", "take the white jar"),
         ("bring me the hammer", "what about the white jar?", "bring me the white jar"),
         ("greet Emil", "and Noor", "greet Noor"),
-        ("walk forward 20 cm", "a bit more", "walk forward 20 cm"),
+        ("walk forward 20 cm", "a bit more", "walk forward 10 cm"),
         ("open the drawer", "and the fridge", "open the fridge"),
     ],
 )  # fmt: skip

@@ -1,0 +1,123 @@
+"""Cries that a robot at work halts for: any that says wait, no, careful, and no errand."""
+
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from intents.cries import HALTS, STOPS
+from intents.halting import besides, is_halt
+from intents.letters import bare
+from intents.stopping import is_stay, is_stop
+
+CRIES = (
+    "wait", "wait a minute, that's mine", "wait I forgot something", "wait for me", "hold it",
+    "hold on!", "hold on a second", "hang on", "one moment", "just a second please", "hold up",
+    "easy!", "easy now", "slow down", "not so fast", "too close", "timeout",
+    "no", "no no", "nooo", "no, not there", "no not the red one", "no that's wrong", "no way",
+    "don't", "don't do that", "dont touch it", "do not go in there", "you can't go in there",
+    "not that", "not like that", "not now", "that's wrong", "that's not what I meant", "wrong one",
+    "enough", "that's enough now", "no more", "quit it", "never mind", "abort mission", "let go",
+    "careful!", "be careful with that", "careful, the glass is going to fall", "watch out",
+    "look out!", "watch your step", "mind the cat!", "watch the vase", "behind you!", "back off",
+    "stay away from the baby", "get back", "you're going to fall!", "the lamp is about to tip over",
+    "you're dropping it", "there's a child in front of you", "ouch", "oh no", "help!", "danger",
+    "wiat", "carefull", "enogh", "Juno, wait", "juno wait", "hey robot, careful",
+)  # fmt: skip
+ERRANDS = (
+    "hold the cup", "hold the tray with both hands", "hold out your hand", "hold hands with me",
+    "wait for me at the door", "wait in the kitchen", "wait ten seconds",
+    "wait five seconds and then go to the table", "no rush, bring me the book",
+    "no problem, take the green one", "no cups on the shelf, look on the table",
+    "don't forget the box", "don't worry", "don't stop", "never stop", "not bad", "not at all",
+    "watch me", "look out of the window", "watch over the baby", "stay in the kitchen",
+    "carefully carry the glass to the table", "walk carefully to the door", "take it easy",
+    "bring enough plates for four", "is there enough milk?", "that's not enough, bring two more",
+    "a second cup please", "one cup please", "a bit more", "a bit further",
+    "drop the ball in the box", "leave the cup on the table", "leave the kitchen",
+    "turn off the lamp", "shut the door", "get back to the kitchen", "cancel the alarm clock",
+    "pick up the pause button", "go to the table", "bring me the matte paint",
+    "bring the para cord", "pare the apple", "help me", "and the blue one?", "the blue one", "yes",
+    "go on", "continue", "", "...", "you could walk to the table", "it is on the table",
+    "wait" + " and see" * 100,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("cry", CRIES)
+def test_a_cry_halts(cry: str) -> None:
+    assert is_halt(cry) or is_stop(cry) or is_stay(cry)
+
+
+@pytest.mark.parametrize("text", ERRANDS)
+def test_an_errand_does_not(text: str) -> None:
+    assert not is_halt(text)
+    assert not is_stop(text)
+
+
+@given(
+    st.sampled_from(["", "hey ", "robot, ", "oh ", "Please ", "ok "]),
+    st.sampled_from(["wait", "careful", "hold on", "don't", "no", "not that", "watch out", "easy"]),
+    st.sampled_from(["", "!", "!!!", "...", " please", " robot!", ", I said"]),
+    st.sampled_from([str.lower, str.upper, str.title]),
+)
+def test_address_signs_and_case_do_not_matter(before: str, cry: str, after: str, case) -> None:  # type: ignore[no-untyped-def]
+    assert is_halt(case(before + cry + after))
+
+
+@pytest.mark.parametrize("language", STOPS)
+def test_every_language_has_its_cries(language: str) -> None:
+    for cry in STOPS[language].split(","):
+        assert is_stop(cry), cry
+        assert is_stop(f"{bare(cry)}!"), cry
+    for cry in HALTS[language].split(","):
+        assert is_halt(cry) or is_stop(cry), cry
+
+
+def test_there_are_more_than_twenty_languages() -> None:
+    assert STOPS.keys() == HALTS.keys()
+    assert len(STOPS) > 20
+
+
+@pytest.mark.parametrize("word", ["para", "pare", "dur", "vent", "bas", "matte", "alt", "dung"])
+def test_a_word_of_another_language_is_itself_in_a_sentence(word: str) -> None:
+    for text in (f"bring me the {word}", f"put the {word} on the shelf", f"is the {word} there?"):
+        assert not is_stop(text)
+        assert not is_halt(text)
+
+
+@pytest.mark.parametrize(
+    ("cry", "rest"),
+    [
+        ("wait", ""),
+        ("no no no", ""),
+        ("no, not there", ""),
+        ("careful, the glass is going to fall", ""),
+        ("no, the blue one", "the blue one"),
+        ("no the blue one", "the blue one"),
+        ("don't go to the kitchen, go to the hall", "go to the hall"),
+        ("wait, the hall", "the hall"),
+    ],
+)
+def test_what_a_cry_says_besides_is_told(cry: str, rest: str) -> None:
+    assert is_halt(cry)
+    assert besides(cry) == rest
+
+
+@given(st.text(max_size=400))
+def test_any_text_is_taken(text: str) -> None:
+    besides(text)
+    assert is_halt(text) in (True, False)
+
+
+@pytest.mark.parametrize(
+    "text", ["it is " * 40, "the a b going to " * 14, "a, " * 80, "停" * 240, "no " * 100_000]
+)
+def test_no_text_takes_long(text: str) -> None:
+    is_halt(text)
+    took_s = []
+    for _ in range(5):
+        began = time.perf_counter()
+        is_halt(text)
+        took_s.append(time.perf_counter() - began)
+    assert min(took_s) < 0.005
