@@ -65,15 +65,19 @@ def walk_to(body: Body, goal: Stance) -> Script[None]:
     """
     if is_at_stance(body, goal):
         return
+    yield from walk_near(body, goal)
+    yield from step_to(body, goal)
+
+
+def walk_near(body: Body, goal: Stance) -> Script[None]:
+    """The same, until a few exact steps will do; the body is left walking."""
     if _is_near(body, goal):
-        yield from step_to(body, goal)
         return
     blocker: Obstacle | None = None
     for _ in range(1 + REPLANS):
         path = yield from plan_path(body, goal)
         blocker = yield from follow(body, path)
         if blocker is None:
-            yield from step_to(body, goal)
             return
         words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
