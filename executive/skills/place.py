@@ -11,7 +11,7 @@ from executive.skills.ability import no_hand
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
-from executive.skills.motions.approach import approach, back_away, bring_in, come_nearer, withdraw
+from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import check_grips, open_fingers, set_payload
 from executive.skills.motions.gaze import look_at, see
@@ -143,11 +143,8 @@ class PutDown(ScriptedSkill[PlaceParams]):
         plan = yield from self._bring(info, place, held)
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
-        yield from back_away(body, plan, what=place.name)
-        missed = yield from self._verify(info, place, plan)
-        yield from bring_in(body, plan.side, posture_rad(body, plan.side, HOME))
-        if missed is not None:
-            raise GaveUp(missed)
+        yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
+        yield from self._verify(info, place, plan)
 
     def _bring(self, info: ObjectInfo, place: Place, held: Held) -> Script[PlacePlan]:
         """Go there and lower it; plans again, for another spot or stance, if this one is taken."""
@@ -286,8 +283,8 @@ class PutDown(ScriptedSkill[PlaceParams]):
         back = release.X_WG_back
         yield from move_hand(self.body, release.side, lambda: back, speed_m_s=RETREAT_M_S)
 
-    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[Failure | None]:
-        """Look: the object must stand where it was put. Returns what is wrong."""
+    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[None]:
+        """Look: the object must stand where it was put. Gives up with `place_missed`."""
         self.body.phase = f"checking the {info.name}"
         try:
             X_WO = yield from see(self.body, info.id, p_W=plan.X_WO.p)
@@ -295,13 +292,13 @@ class PutDown(ScriptedSkill[PlaceParams]):
             if end.failure.code != "object_not_seen":
                 raise
             cause = f"the {info.name} cannot be seen on the {place.name}"
-            return failure("place_missed", cause, object=info.id)
+            raise give_up("place_missed", cause, object=info.id) from end
         off_m = math.dist(X_WO.p, plan.X_WO.p)
         tilt_rad = tilt(X_WO)
         if off_m <= PLACED_WITHIN_M and tilt_rad <= UPRIGHT_RAD:
-            return None
+            return
         toppled = ", and has toppled" if tilt_rad > UPRIGHT_RAD else ""
-        return failure(
+        raise give_up(
             "place_missed",
             f"the {info.name} is {off_m * 100:.1f} cm from where it was put{toppled}",
             object=info.id,

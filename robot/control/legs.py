@@ -178,6 +178,9 @@ class Legs:
             tall = self.height_m > walking.base_height_m - WALK_HEIGHT_TOLERANCE_M
             if not tall:
                 goal = Twist()
+            # The first step is decided long before it lands, and as long as the ramp is by then.
+            if self.gait.phase == "stand" and wish == Twist():
+                dt_s += walking.start_s + walking.single_support_s
             dv = walking.acceleration_m_s2 * dt_s
             dw = walking.turn_acceleration_rad_s2 * dt_s
             self.gait.wish = Twist(

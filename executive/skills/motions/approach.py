@@ -1,20 +1,31 @@
-"""Getting into place for the hand to work: stand off, raise the hand, step in, lean; and back."""
+"""Getting into place for the hand to work: stand off, raise the hand, step in, lean; and back.
+
+Where there is room for an arm the hand is raised during the last steps to the standoff, and brought
+in during the last steps back to it: the feet need not wait for the arm, nor the arm for the feet.
+"""
 
 from __future__ import annotations
 
 import math
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.final_steps import is_at_stance, step_to
-from executive.skills.motions.planning import stance_of
+from executive.skills.motions.final_steps import is_at_stance, miss, step_to
+from executive.skills.motions.gaze import look_at
+from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.personal_space import get_familiar
+from executive.skills.motions.planning import pose_of, stance_of
 from executive.skills.motions.reach import move_arm
-from executive.skills.motions.script import Script
-from executive.skills.motions.walk import stand_still, walk_to
+from executive.skills.motions.script import OVER, Script, side_by_side
+from executive.skills.motions.walk import stand_still, walk_near
 from robot.failures import Failure
-from robot.messages import Side
-from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan
+from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
+RAISE_M = 0.45
+"""How near the standoff the hand begins to be raised, if there is room for the arm all the way."""
+BRING_IN_WITHIN = (0.12, 0.2)
+IN_LINE_M, IN_LINE_RAD = 0.05, 0.12
+"""Off the line to the stance: what the step in corrects on its first half."""
 MOST_SHORT_M = 0.04
 MOST_SHORT_RAD = 0.1
 NEARER_M = 0.015
@@ -23,17 +34,74 @@ NEARER_TOLERANCE_M = 0.012
 
 def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
     """Walk to the standoff, raise the hand, step in to the stance and take the posture."""
-    keep_upright = body.context.holdings.must_stay_upright(plan.side)
     if not is_at_stance(body, plan.stance):
+        X_WB = pose_of(plan.standoff) @ _X_SB(body)
         body.phase = f"walking to the {what}"
-        yield from walk_to(body, plan.standoff)
-    body.phase = f"raising the {plan.side} hand"
-    yield from move_arm(body, plan.side, plan.ready_rad, keep_upright=keep_upright)
+        yield from walk_near(body, plan.standoff)
+        if _has_room(body, plan.standoff):
+            yield from _raise_stepping(body, plan, X_WB=X_WB)
+        else:
+            yield from step_to(body, plan.standoff)
+            yield from _raise(body, plan)
+    else:
+        yield from _raise(body, plan)
     yield from step_in(body, plan, what=what)
 
 
+def _raise(body: Body, plan: PickPlan | PlacePlan, *, X_WB: SE3 | None = None) -> Script[None]:
+    body.phase = f"raising the {plan.side} hand"
+    keep_upright = body.context.holdings.must_stay_upright(plan.side)
+    yield from move_arm(body, plan.side, plan.ready_rad, keep_upright=keep_upright, X_WB=X_WB)
+
+
+def _raise_stepping(body: Body, plan: PickPlan | PlacePlan, *, X_WB: SE3) -> Script[None]:
+    """Raise the hand on the last steps to the standoff; ends when the feet can go straight in."""
+    X_WS_goal, feet = pose_of(plan.standoff), step_to(body, plan.standoff)
+    there = False
+    while not there and not _may_raise(body, X_WS_goal):
+        there = next(feet, OVER) is OVER
+        yield
+    get_familiar(body)
+    hand = _raise(body, plan, X_WB=None if there else X_WB)
+    while next(hand, OVER) is not OVER or not (there or _is_in_line(body, X_WS_goal)):
+        there = next(feet, OVER) is OVER
+        yield
+    feet.close()
+
+
+def _may_raise(body: Body, X_WS_goal: SE3) -> bool:
+    """Whether the standoff is near, with room for an arm on the way there."""
+    near = _is_within(body, X_WS_goal, RAISE_M, math.pi)
+    return near and _has_room(body, stance_of(body.X_WS))
+
+
+def _is_within(body: Body, X_WS_goal: SE3, within_m: float, within_rad: float) -> bool:
+    off_m, off_rad = miss(body.X_WS, X_WS_goal)
+    return off_m <= within_m and off_rad <= within_rad
+
+
+def _is_in_line(body: Body, X_WS_goal: SE3) -> bool:
+    """Whether the way straight in may be taken from here: the standoff need not be met exactly."""
+    X_GS = X_WS_goal.inverse() @ body.X_WS
+    return abs(X_GS.p[1]) <= IN_LINE_M and abs(X_GS.yaw_rad) <= IN_LINE_RAD
+
+
+def _X_SB(body: Body) -> SE3:
+    """Where the base stands over the feet; of a body that stands."""
+    return body.X_WS.inverse() @ body.X_WN @ body.state.X_NB
+
+
+def _has_room(body: Body, stance: Stance) -> bool:
+    """Whether an arm can be moved freely about a stance."""
+    handy = body.description.handy
+    things = (*body.map.obstacles, *body.world.unmapped)
+    room_m = handy.reaching.arm_room_m
+    return all(clearance_m(stance[:2], thing) >= room_m for thing in things)
+
+
 def step_in(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
-    """Step to the stance, the hand being raised, and take the posture."""
+    """Step to the stance, the hand being raised and the eyes on the goal, and take the posture."""
+    look_at(body, plan.X_WG_grasp.p if isinstance(plan, PickPlan) else plan.X_WO.p)
     if not is_at_stance(body, plan.stance):
         body.phase = f"stepping up to the {what}"
         yield from step_to(body, plan.stance)
@@ -72,21 +140,18 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
 
 def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: str) -> Script[None]:
     """Straighten up, step back to the standoff, and bring the arm to `arm_rad`."""
-    yield from back_away(body, plan, what=what)
-    yield from bring_in(body, plan.side, arm_rad)
-
-
-def back_away(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
-    """Straighten up and step back to the standoff, the hand still out."""
     if plan.posture != BodyPosture():
         body.phase = "straightening up"
         yield from stand_still(body)
     body.phase = f"stepping back from the {what}"
-    yield from step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
-
-
-def bring_in(body: Body, side: Side, arm_rad: Joints) -> Script[None]:
-    """Bring an arm near the body, upright if it holds something."""
-    body.phase = f"bringing the {side} arm in"
-    keep_upright = body.context.holdings.must_stay_upright(side)
-    yield from move_arm(body, side, arm_rad, keep_upright=keep_upright)
+    X_WS_goal = pose_of(plan.standoff)
+    X_WB = X_WS_goal @ _X_SB(body)
+    feet = step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
+    near = False
+    while not near and next(feet, OVER) is not OVER:
+        yield
+        near = _has_room(body, plan.standoff) and _is_within(body, X_WS_goal, *BRING_IN_WITHIN)
+    body.phase = f"bringing the {plan.side} arm in"
+    keep_upright = body.context.holdings.must_stay_upright(plan.side)
+    arm = move_arm(body, plan.side, arm_rad, keep_upright=keep_upright, X_WB=X_WB if near else None)
+    yield from side_by_side(feet, arm)

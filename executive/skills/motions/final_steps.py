@@ -25,7 +25,8 @@ AIM_TOLERANCE_M = 0.02
 AIM_SHARE = 0.7
 AIM_TOLERANCE_RAD = 0.035
 STAND_TIMEOUT_S = 5.0
-SETTLE_S = 0.3
+SETTLE_S = 0.1
+"""The newest fix of localisation comes in; the soles rest since the step was reported done."""
 SECONDS_PER_METRE = 15.0
 SECONDS_PER_RADIAN = 6.0
 LEAST_TIMEOUT_S = 12.0

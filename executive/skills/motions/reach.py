@@ -35,9 +35,11 @@ def move_arm(
     allowed: tuple[str, ...] = (),
     near_rad: Joints | None = None,
     speed: float = 1.0,
+    X_WB: SE3 | None = None,
 ) -> Script[None]:
     """Plan a motion of an arm to joint values or a pose X_WG, and carry it out.
 
+    It is planned for the base at X_WB, where the feet are about to bring it (None: where it is).
     Waits while somebody is near the hand, and plans again. Gives up with the planner's failure,
     `arm_stalled`, `person_near` or `object_dropped`.
     """
@@ -47,7 +49,7 @@ def move_arm(
             lambda attempt: ArmRequest(
                 side=side,
                 q_start_rad=body.state.q_rad,
-                X_WB=body.X_WN @ body.state.X_NB,
+                X_WB=X_WB or body.X_WN @ body.state.X_NB,
                 goal=goal,
                 around=surroundings(body),
                 held=held_in(body, side),

@@ -11,13 +11,17 @@ run by `executive.skills.scripted.ScriptedSkill`.
 from __future__ import annotations
 
 from collections.abc import Generator
-from typing import TypeAlias, TypeVar
+from typing import Final, TypeAlias, TypeVar
 
 from robot.failures import Failure, failure
 
 T = TypeVar("T")
 Script: TypeAlias = Generator[None, None, T]
 """Yields at every tick it waits for, and returns a T."""
+
+
+OVER: Final = object()
+"""What `next(script, OVER)` gives for a script that is over."""
 
 
 class GaveUp(Exception):
@@ -32,3 +36,14 @@ class GaveUp(Exception):
 def give_up(code: str, cause: str, *, suggestion: str = "", **evidence: float | str) -> GaveUp:
     """The exception to raise for a failure of the catalogue."""
     return GaveUp(failure(code, cause, suggestion=suggestion, **evidence))
+
+
+def side_by_side(*scripts: Script[None]) -> Script[None]:
+    """Run scripts in the same ticks until all are over; one that gives up ends them all."""
+    try:
+        running = list(scripts)
+        while running := [script for script in running if next(script, OVER) is not OVER]:
+            yield
+    finally:
+        for script in scripts:
+            script.close()

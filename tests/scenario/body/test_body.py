@@ -56,9 +56,28 @@ def test_it_walks_as_fast_as_it_is_told_then_stands(rig):
     assert rig.upright
     assert rig.loop.mode == "stand"
     X_SS = X_WS.inverse() @ rig.X_WS
-    assert 1.2 < X_SS.p[0] < 1.8
+    assert 1.5 < X_SS.p[0] < 0.35 * 5.0 + 0.2  # braking takes 0.18 m
     assert abs(X_SS.p[1]) < 0.05
     assert rig.drift_m() < 0.03
+
+
+@pytest.mark.parametrize(
+    ("twist", "along"),
+    [
+        ({"forward_m_s": 0.35}, lambda X_SS: X_SS.p[0] / 0.35),
+        ({"turn_rad_s": 0.6}, lambda X_SS: X_SS.yaw_rad / 0.6),
+        ({"turn_rad_s": -0.6}, lambda X_SS: -X_SS.yaw_rad / 0.6),
+    ],
+)
+def test_its_first_step_goes_where_it_is_told(rig, twist, along):
+    X_WS, gait = rig.X_WS, rig.robot.walking
+    rig.send(Walk, **twist, hold_s=5.0)
+    while rig.loop.legs.gait.steps_taken < 1:
+        assert rig.run(0.02)
+    step_s = gait.single_support_s + gait.double_support_s
+    assert along(X_WS.inverse() @ rig.X_WS) > 0.4 * step_s
+    assert rig.run(4 * step_s)
+    assert rig.upright
 
 
 @pytest.mark.parametrize("goal", [(0.4, 0.25, 0.8), (1.3, -0.9, -2.2)])

@@ -109,6 +109,13 @@ def test_where_the_path_comes_back_on_itself_it_does_not_jump_ahead():
     assert abs(trail[-1].p[0]) < 0.2
 
 
+def test_a_way_that_begins_behind_is_taken_up_ahead():
+    follower = follower_of((0.0, 0.0, 0.0), [(-0.06, 0.0, 0.0), (2.0, 0.0, 0.0)])
+    trail = walk(follower, SE3())
+    assert follower.done
+    assert min(X_WS.p[0] for X_WS in trail) > -0.1
+
+
 @given(st.lists(stance, min_size=2, max_size=4), st.floats(-1.0, 20.0))
 def test_a_stance_along_a_run_lies_on_it(stances, along_m):
     if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in itertools.pairwise(stances)):

@@ -4,10 +4,22 @@ import math
 
 import msgspec
 import pytest
+from msgspec.structs import replace
 
 from executive.skills.pick import PickParams
 from robot.failures import failure
-from robot.messages import DepthImage, Grip, MoveArm, MoveHand, Payload, Stand, Walk, WalkTo
+from robot.messages import (
+    DepthImage,
+    Grip,
+    MoveArm,
+    MoveHand,
+    Obstacle,
+    Payload,
+    Shape,
+    Stand,
+    Walk,
+    WalkTo,
+)
 from robot.planning.requests import ArmRequest, PickRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
@@ -384,3 +396,33 @@ def test_it_can_be_stopped_in_any_phase_and_stands(stage, phase):
     assert len(stage.commands(Grip)) == grips + opened, "stopping keeps a grip that is one"
     assert not (opened and stage.puppet.holding)
     assert stage.stop() == report
+
+
+def arm_moves(stage):
+    """What the legs did, and what the skill said, whenever an arm was told to move."""
+    send, moves = stage.puppet.send, []
+
+    def listen(command):
+        if isinstance(command, MoveArm):
+            moves.append((stage.skill.body.phase, stage.puppet.mode))
+        send(command)
+
+    stage.puppet.send = listen
+    return moves
+
+
+def test_the_hand_is_raised_and_brought_in_on_the_last_steps(stage):
+    moves = arm_moves(stage)
+    assert stage.run(CUP).status == "succeeded"
+    assert moves[0] == ("raising the right hand", "walk")
+    assert moves[-1] == ("bringing the right arm in", "walk")
+
+
+def test_where_there_is_no_room_for_an_arm_the_feet_stand_first(stage):
+    post = Shape(kind="box", size_m=(0.1, 0.1, 1.0))
+    near = Obstacle(id="post", name="post", X_WO=SE3((1.1, 0.7, 0.5)), shapes=(post,))
+    stage.puppet.world_map = replace(stage.puppet.world_map, obstacles=(near,))
+    moves = arm_moves(stage)
+    assert stage.run(CUP).status == "succeeded"
+    assert moves[0] == ("raising the right hand", "stand")
+    assert moves[-1] == ("bringing the right arm in", "stand")
