@@ -29,6 +29,8 @@ class Reality(Protocol):
     def world(self, name_or_path: str, *, vary_seed: int | None = None) -> World:
         """A world by name or path, with its start and objects shuffled if a seed is given.
 
+        `flat:7` is the home that is made of the kind `flat` and the seed 7.
+
         Raises:
             ConfigError: with everything that is wrong in the file.
         """
@@ -51,12 +53,32 @@ class Reality(Protocol):
         """
         ...
 
+    def cast(self, kind: str, *, seed: int) -> Cast:
+        """Who plays the roles of a campaign's cases in a home that is made.
+
+        Raises:
+            ConfigError: as `home` does.
+        """
+        ...
+
 
 class Home(NamedTuple):
     """A made home: the texts of a world file, and of a file of tasks in it."""
 
     world: str
     tasks: str
+
+
+class Cast(NamedTuple):
+    """What the roles of a campaign's cases stand for in a home (`executive.evaluation.roles`).
+
+    Attributes:
+        roles: plain data by role.
+        vacant: roles that nothing there can play, and why.
+    """
+
+    roles: Mapping[str, Any]
+    vacant: Mapping[str, str]
 
 
 class Begin(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zlib
+from functools import lru_cache
 
 import msgspec
 import numpy as np
@@ -45,8 +46,9 @@ class Home(msgspec.Struct, frozen=True):
     surfaces: list[Surface]
 
 
+@lru_cache(maxsize=16)  # making one takes up to 3 s, and a campaign asks for each many times
 def home(kind_name: str, seed: int) -> Home:
-    """Make a home.
+    """Make a home; nobody changes it afterwards.
 
     Args:
         kind_name: one of `sim.homes.catalogue.names()`.
