@@ -50,11 +50,20 @@ class Simulation:
         """Kinds of homes that can be made (sim/homes/kinds)."""
         return catalogue.names()
 
-    def home(self, kind: str, *, seed: int, file: str) -> Home:
-        """Make a home. Raises ConfigError for an unknown kind."""
+    def home(
+        self,
+        kind: str,
+        *,
+        seed: int,
+        file: str,
+        rooms: int | None = None,
+        things: int | None = None,
+    ) -> Home:
+        """Make a home. Raises ConfigError for an unknown kind, and where none is that large."""
+        from sim.homes.home import Size
         from sim.homes.made import made
 
-        return made(kind, seed, file=file)
+        return made(kind, seed, file=file, size=Size(rooms, things))
 
     def cast(self, kind: str, *, seed: int) -> Cast:
         """Fill the roles of a campaign in a home. Raises ConfigError for an unknown kind."""

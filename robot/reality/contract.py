@@ -40,16 +40,26 @@ class Reality(Protocol):
         """Kinds of homes that can be made."""
         ...
 
-    def home(self, kind: str, *, seed: int, file: str) -> Home:
+    def home(
+        self,
+        kind: str,
+        *,
+        seed: int,
+        file: str,
+        rooms: int | None = None,
+        things: int | None = None,
+    ) -> Home:
         """Make a home, always the same of a kind and a seed.
 
         Args:
             kind: one of `home_kinds`.
             seed: of everything random.
             file: the world's file, as the tasks name it.
+            rooms: how many; None: as usual for the kind.
+            things: how many; None: as usual.
 
         Raises:
-            ConfigError: there is no such kind, with the nearest name.
+            ConfigError: there is no such kind, with the nearest name, or none of that size.
         """
         ...
 
