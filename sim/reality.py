@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin, Home
+from robot.reality.contract import Begin, Cast, Home
 from robot.reality.faults import Fault
 from sim import atlas, faults, placing, world
 from sim.homes import catalogue
@@ -16,6 +17,9 @@ from sim.world_schema import World
 
 if TYPE_CHECKING:
     from sim.judged_plant import JudgedPlant
+
+_MADE = re.compile(r"(?P<kind>[a-z_]+):(?P<seed>[0-9]{1,9})")
+"""The name of a home that is made."""
 
 
 class Simulation:
@@ -26,8 +30,18 @@ class Simulation:
         return world.available()
 
     def world(self, name_or_path: str, *, vary_seed: int | None = None) -> SimulatedWorld:
-        """A world by name or path, shuffled if a seed is given. Raises ConfigError."""
-        entries = world.load(name_or_path)
+        """A world by name or path, or `KIND:SEED`; shuffled if a seed is given.
+
+        Raises:
+            ConfigError: as the contract says.
+        """
+        made = _MADE.fullmatch(name_or_path)
+        if made:
+            from sim.homes.home import home  # scipy's graphs, which nothing else here needs
+
+            entries = home(made["kind"], int(made["seed"])).world
+        else:
+            entries = world.load(name_or_path)
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
         return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed)
@@ -36,11 +50,27 @@ class Simulation:
         """Kinds of homes that can be made (sim/homes/kinds)."""
         return catalogue.names()
 
-    def home(self, kind: str, *, seed: int, file: str) -> Home:
-        """Make a home. Raises ConfigError for an unknown kind."""
-        from sim.homes.made import made  # scipy's graphs, which nothing else here needs
+    def home(
+        self,
+        kind: str,
+        *,
+        seed: int,
+        file: str,
+        rooms: int | None = None,
+        things: int | None = None,
+    ) -> Home:
+        """Make a home. Raises ConfigError for an unknown kind, and where none is that large."""
+        from sim.homes.home import Size
+        from sim.homes.made import made
 
-        return made(kind, seed, file=file)
+        return made(kind, seed, file=file, size=Size(rooms, things))
+
+    def cast(self, kind: str, *, seed: int) -> Cast:
+        """Fill the roles of a campaign in a home. Raises ConfigError for an unknown kind."""
+        from sim.homes.casting import cast
+        from sim.homes.home import home
+
+        return cast(home(kind, seed), seed)
 
 
 class SimulatedWorld:

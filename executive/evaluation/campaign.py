@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 
+from executive.evaluation import roles
 from executive.meaning import request
 from executive.missions import check, fault_plans
 from executive.missions.load import find
@@ -24,6 +25,7 @@ from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
 from robot.reality import truth
 from robot.reality.contract import Reality
+from robot.yaml_nodes import Node
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
@@ -52,6 +54,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         kind: of a task (`executive.evaluation.exam`): a sentence that may well be refused, which
             is a result then, and no mistake of the file.
         person_s: what a person would need for it; 0: nobody said.
+        origin: the case that this is in another home (`executive.evaluation.elsewhere`).
     """
 
     name: str
@@ -67,6 +70,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     why: str = ""
     kind: str = ""
     person_s: float = 0.0
+    origin: str = ""
 
     @property
     def recovers(self) -> bool:
@@ -80,9 +84,10 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
 
 class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A file of cases."""
+    """A file of cases; `roles` say what plays the roles that they name (`evaluation.roles`)."""
 
     cases: tuple[Case, ...]
+    roles: dict[str, Any] = {}
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):
@@ -113,7 +118,7 @@ def load(path: Path | str, reality: Reality, *, robot: str = "") -> tuple[Case, 
     Raises:
         ConfigError: with file, line and the nearest valid name.
     """
-    node = yaml_nodes.read(path)
+    node = read(path)
     cases = config.convert(node, Campaign).cases
     settings = Settings(reality, robot)
     problems = [
@@ -131,6 +136,12 @@ def load(path: Path | str, reality: Reality, *, robot: str = "") -> tuple[Case, 
     if problems:
         raise ConfigError(problems)
     return cases
+
+
+def read(path: Path | str) -> Node:
+    """A campaign's file, its roles played as it says. Raises ConfigError by file and line."""
+    node = yaml_nodes.read(path)
+    return roles.filled(node, roles.of(node))
 
 
 def check_names(cases: Sequence[Case]) -> None:

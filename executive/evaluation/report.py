@@ -78,14 +78,13 @@ def report(
         ours = [record for record in all_records if record.case == case.name]
         on = [record for record in ours if record.recovery]
         off = [record for record in ours if not record.recovery]
-        expect = case.expect if isinstance(case.expect, str) else " or ".join(case.expect)
         wrong = tuple(sorted(record.seed for record in on if not record.ok))
-        without = _score(off) if off else None
+        without = score(off) if off else None
         rows.append(
             Row(
                 case=case.name,
-                expect=expect,
-                with_recovery=_score(on),
+                expect=expected(case),
+                with_recovery=score(on),
                 without=without,
                 seeds_wrong=wrong,
             )
@@ -162,7 +161,13 @@ def _share(row: Row, score: Score) -> str:
     return f"{score.ok}/{score.runs}{done}"
 
 
-def _score(records: list[Record]) -> Score:
+def expected(case: Case) -> str:
+    """What is expected of a case, in words."""
+    return case.expect if isinstance(case.expect, str) else " or ".join(case.expect)
+
+
+def score(records: list[Record]) -> Score:
+    """Sum up the runs of one way of doing something."""
     wrong = Counter(_wrong(record) for record in records if not record.ok)
     return Score(
         runs=len(records),

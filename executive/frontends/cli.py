@@ -254,6 +254,8 @@ def evaluate(options: Eval) -> None:
 
       humanoid eval --faults "missed grasp,camera silent" --json
 
+      humanoid eval --homes flat:7,office:8 --seeds 1    (the campaign in homes made from seeds)
+
       humanoid eval --tasks my_flat.tasks.yaml --seeds 10    (an exam: docs/evaluation.md)
 
     Exit status 1 where a case is right, or an exam is done, in fewer runs than --require.

@@ -4,33 +4,30 @@ from __future__ import annotations
 
 import shlex
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 import msgspec
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import executive
-from executive.evaluation import campaign, exam, marks, pool, report
+from executive.evaluation import campaign, elsewhere, exam, marks, pool, report, strangers
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends.ending import Ending
+from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words
 from executive.frontends.launching import now_stamp
 from executive.frontends.options import Eval
-from executive.frontends.output import Screen, say, table_screen, write_json
+from executive.frontends.output import Screen, say, write_json
 from executive.frontends.reality import REALITY
 from executive.runs import run_folder
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
-
-MAX_WIDTH = 1000
-"""Of any table: how wide it would be is asked without a bound of the terminal."""
 
 WORLD = "kitchen"
 """Where a sentence of one's own is done if nothing else is said, as by `humanoid do`."""
-Found = report.Report | marks.Marks
 
 
 def evaluate(options: Eval) -> int:
@@ -42,7 +39,8 @@ def evaluate(options: Eval) -> int:
         ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
         ProcessError: a worker died.
     """
-    cases = chosen(options)
+    moved = _moved(options) if options.homes else None
+    cases = moved.cases if moved else chosen(options)
     wanted = campaign.runs(
         cases, seeds=options.seeds, without_too=options.no_recovery, robot=options.robot
     )
@@ -55,19 +53,29 @@ def evaluate(options: Eval) -> int:
             screen.print("some results there were made by other code", style="yellow")
         with Ending() as ending:
             _go_through(results, left, options, screen, ending=ending)
+        left = results.left(wanted)
         records = results.records.values()
-        sum_up = marks.marks if options.tasks else report.report
-        found = sum_up(cases, records, left=len(results.left(wanted)), mixed=mixed)
+        found = _summed_up(cases, moved, options, records, left=len(left), mixed=mixed)
         _say(found, results.path.parent, options)
         if ending.asked:
             return _stopped(found, results.path.parent)
-        return ExitStatus.DONE if _well(found, options.require) else ExitStatus.FAILED
+        return ExitStatus.DONE if well(found, options.require) else ExitStatus.FAILED
 
 
-def _well(found: Found, share: float) -> bool:
-    if isinstance(found, marks.Marks):
-        return found.whole.share >= share
-    return found.worst >= share and not found.without_code
+def _summed_up(
+    cases: tuple[Case, ...],
+    moved: elsewhere.Moved | None,
+    options: Eval,
+    records: Iterable[Record],
+    *,
+    left: int,
+    mixed: bool,
+) -> Found:
+    if moved is not None:
+        skipped = moved.skipped
+        return strangers.strangers(cases, records, skipped=skipped, left=left, mixed=mixed)
+    sum_up = marks.marks if options.tasks else report.report
+    return sum_up(cases, records, left=left, mixed=mixed)
 
 
 def _folder(options: Eval) -> Path:
@@ -101,31 +109,6 @@ def _stopped(found: Found, folder: Path) -> int:
     lines = [f"{found.runs} runs are kept, {found.left} are left (those under way were given up)"]
     cure = f"go on with: {again}"
     return last_words("Stopped on request.", lines, cure, status=ExitStatus.FAILED, as_json=False)
-
-
-def show(found: Found) -> None:
-    """The report as a table, where the terminal is wide enough for one."""
-    is_exam = isinstance(found, marks.Marks)
-    screen, table = table_screen(), marks.table(found) if is_exam else report.table(found)
-    unbound = screen.options.update(width=MAX_WIDTH)
-    if screen.measure(table, options=unbound).maximum <= screen.width:
-        screen.print(table)
-    else:
-        say(marks.narrow(found) if is_exam else report.narrow(found))
-
-
-def save(folder: Path, found: Found) -> None:
-    """Keep the table beside the results, for machines and for people."""
-    page = marks.markdown(found) if isinstance(found, marks.Marks) else report.markdown(found)
-    data = msgspec.json.format(msgspec.json.encode(found, order="deterministic"))
-    try:
-        write_ordinary(folder / "report.json", data + b"\n")
-        write_ordinary(folder / "report.md", page.encode())
-    except OSError as error:
-        text = f"the report in {folder} cannot be written: {error.strerror}"
-        raise ConfigError(
-            [Problem(text, suggestion="the records are there: --resume it")]
-        ) from None
 
 
 def chosen(options: Eval) -> tuple[Case, ...]:
@@ -174,6 +157,27 @@ def _tasks(options: Eval, paths: list[Path], settings: campaign.Settings) -> tup
     cases = [case for path in paths for case in exam.load(path, settings)]
     campaign.check_names(cases)
     return tuple(cases)
+
+
+def _moved(options: Eval) -> elsewhere.Moved:
+    """The cases that are meant, in other homes. Raises ConfigError as `chosen`."""
+    given = {
+        "--world": options.world, "--tasks": options.tasks, "missions": options.missions,
+    }  # fmt: skip
+    problems = [
+        Problem("in other homes the cases of campaigns are done", name, suggestion="leave it out")
+        for name, value in given.items()
+        if value
+    ]
+    if problems:
+        raise ConfigError(problems)
+    names = elsewhere.homes(options.homes, REALITY)
+    files = [Path(word) for word in options.cases if _is_file(word)]
+    only = [case.name for case in _named(options)]
+    if len(files) < len(options.cases) or not files:
+        files.append(campaign.SHIPPED)
+    settings = campaign.Settings(REALITY, options.robot)
+    return elsewhere.moved(files, names, settings, only=only)
 
 
 def _named(options: Eval) -> list[Case]:

@@ -179,6 +179,12 @@ class Eval:
         str,
         typer.Option("--faults", "-f", help="Cases by name, or campaign files; commas between."),
     ] = ""
+    homes: Annotated[
+        str,
+        typer.Option(
+            "--homes", help="The cases in other homes: flat:7,office:8, or how many (a kind each)."
+        ),
+    ] = ""
     processes: Annotated[
         int, typer.Option("--processes", "-j", min=1, max=256, help="Runs at the same time.")
     ] = max(1, os.cpu_count() or 1)

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from executive.engine import health_monitor
-from executive.evaluation.campaign import SHIPPED, Campaign
+from executive.evaluation.campaign import SHIPPED, Campaign, read
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot import config
@@ -133,7 +133,7 @@ def exit_statuses() -> str:
 
 def campaign() -> str:
     """What is expected of the robot under every fault."""
-    cases = config.load(SHIPPED, Campaign).cases
+    cases = config.convert(read(SHIPPED), Campaign).cases
     rows: list[list[str]] = [
         [
             case.name,

@@ -29,6 +29,8 @@ class Reality(Protocol):
     def world(self, name_or_path: str, *, vary_seed: int | None = None) -> World:
         """A world by name or path, with its start and objects shuffled if a seed is given.
 
+        `flat:7` is the home that is made of the kind `flat` and the seed 7.
+
         Raises:
             ConfigError: with everything that is wrong in the file.
         """
@@ -38,16 +40,34 @@ class Reality(Protocol):
         """Kinds of homes that can be made."""
         ...
 
-    def home(self, kind: str, *, seed: int, file: str) -> Home:
+    def home(
+        self,
+        kind: str,
+        *,
+        seed: int,
+        file: str,
+        rooms: int | None = None,
+        things: int | None = None,
+    ) -> Home:
         """Make a home, always the same of a kind and a seed.
 
         Args:
             kind: one of `home_kinds`.
             seed: of everything random.
             file: the world's file, as the tasks name it.
+            rooms: how many; None: as usual for the kind.
+            things: how many; None: as usual.
 
         Raises:
-            ConfigError: there is no such kind, with the nearest name.
+            ConfigError: there is no such kind, with the nearest name, or none of that size.
+        """
+        ...
+
+    def cast(self, kind: str, *, seed: int) -> Cast:
+        """Who plays the roles of a campaign's cases in a home that is made.
+
+        Raises:
+            ConfigError: as `home` does.
         """
         ...
 
@@ -57,6 +77,18 @@ class Home(NamedTuple):
 
     world: str
     tasks: str
+
+
+class Cast(NamedTuple):
+    """What the roles of a campaign's cases stand for in a home (`executive.evaluation.roles`).
+
+    Attributes:
+        roles: plain data by role.
+        vacant: roles that nothing there can play, and why.
+    """
+
+    roles: Mapping[str, Any]
+    vacant: Mapping[str, str]
 
 
 class Begin(NamedTuple):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import zlib
+from functools import lru_cache
 
 import msgspec
 import numpy as np
 
-from robot.errors import ConfigError
+from robot.errors import ConfigError, Problem
 from sim.footprint import Point
-from sim.homes import layout
+from sim.homes import choosing, layout
 from sim.homes.catalogue import HomeKind, Someone, home_kind, stock
 from sim.homes.draws import shuffled
 from sim.homes.furnishing import furnished
@@ -21,7 +22,8 @@ from sim.world_checks import check
 from sim.world_schema import Person, Spot, Start, World
 
 TRIES = 60
-LEAST_SURFACES, LEAST_OBJECTS = 5, 9
+LEAST_SURFACES, LEAST_OBJECTS, MOST_THINGS = 5, 9, 400
+"""Things: all goods in all colours are some 420, each of its own colour in its category."""
 PEOPLE = (1, 3)
 PERSON_ROOM_M = 0.55
 """Of free floor around somebody."""
@@ -45,29 +47,50 @@ class Home(msgspec.Struct, frozen=True):
     surfaces: list[Surface]
 
 
-def home(kind_name: str, seed: int) -> Home:
-    """Make a home.
+class Size(msgspec.Struct, frozen=True):
+    """How large a home is to be; None: as usual for its kind."""
+
+    rooms: int | None = None
+    things: int | None = None
+
+
+@lru_cache(maxsize=16)  # making one takes up to 3 s, and a campaign asks for each many times
+def home(kind_name: str, seed: int, size: Size = Size()) -> Home:  # noqa: B008, it is frozen
+    """Make a home; nobody changes it afterwards.
 
     Args:
         kind_name: one of `sim.homes.catalogue.names()`.
         seed: of all that is drawn.
+        size: of how many rooms and things.
 
     Raises:
-        ConfigError: there is no such kind, or no home of it was found for this seed.
+        ConfigError: there is no such kind, none of that size, or no home of it was found for this
+            seed.
     """
     kind = home_kind(kind_name)
+    _check(kind, kind_name, size)
     for attempt in range(TRIES):
         rng = np.random.default_rng([seed, zlib.crc32(kind_name.encode()), attempt])
-        made = _attempt(kind, f"{kind_name}_{seed}", rng)
+        made = _attempt(kind, f"{kind_name}_{seed}", rng, size)
         if made is not None:
             return made
-    raise ConfigError(f"no {kind_name} was found for seed {seed}; take another seed")
+    cure = "take another seed" if size == Size() else "take another seed, more rooms, fewer things"
+    raise ConfigError(f"no {kind_name} was found for seed {seed}; {cure}")
 
 
-def _attempt(kind: HomeKind, name: str, rng: np.random.Generator) -> Home | None:
-    """One draw; None if not everything in it can be reached."""
-    rooms = layout.rooms(kind, rng)
-    kinds = {room.id: room for room in kind.rooms}
+def _check(kind: HomeKind, name: str, size: Size) -> None:
+    if size.rooms is not None:
+        choosing.check(kind, name, size.rooms)
+    if size.things is not None and not LEAST_OBJECTS <= size.things <= MOST_THINGS:
+        cure = f"from {LEAST_OBJECTS} to {MOST_THINGS}"
+        raise ConfigError([Problem(f"{size.things} things cannot be had", suggestion=cure)])
+
+
+def _attempt(kind: HomeKind, name: str, rng: np.random.Generator, size: Size) -> Home | None:
+    """One draw; None if not everything in it can be reached, or not all that is wanted is there."""
+    chosen = choosing.chosen(kind, rng, count=size.rooms)
+    rooms = layout.rooms(chosen, rng)
+    kinds = {room.id: room for room in chosen.rooms}
     furniture = furnished(rooms, [kinds[room.id] for room in rooms], rng)
     world = World(name=name, rooms=rooms, furniture=furniture)
     ground = Ground(world)
@@ -80,13 +103,13 @@ def _attempt(kind: HomeKind, name: str, rng: np.random.Generator) -> Home | None
     start = _start(world, spots, ground, rng)
     if len(reached) < LEAST_SURFACES or not spots or start is None:
         return None
-    objects = stocked(kind, reached, rng)
+    objects = stocked(kind, reached, rng, count=size.things)
     goods = {good.category: good for good in stock().goods}
     plurals = {item.category: goods[item.category].plural for item in objects}
     world = msgspec.structs.replace(
         world, spots=spots, start=start, objects=objects, categories=plurals
     )
-    if len(objects) < LEAST_OBJECTS or check(world):
+    if len(objects) < (size.things or LEAST_OBJECTS) or check(world):
         return None
     return Home(kind, world, ground, reached)
 

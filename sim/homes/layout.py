@@ -12,8 +12,9 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from sim.homes.catalogue import Form, HomeKind, RoomKind
-from sim.homes.draws import one_of, shuffled
+from sim.homes.catalogue import Form, RoomKind
+from sim.homes.choosing import Chosen
+from sim.homes.draws import one_of
 from sim.world_schema import Door, Room, Side
 
 WALL_CM = 8
@@ -23,8 +24,8 @@ JAMB_CM = 16
 STRETCH = (0.88, 1.18)
 """Of a room, to what is usual for it."""
 HALL_LENGTH_CM = 420
-MOST_ON_ONE_SIDE, MOST_IN_A_ROW = 3, 4
-"""Of rooms: more lie on both sides of a hall; a longer row would be no home."""
+MOST_ON_ONE_SIDE = 3
+"""Of rooms: more lie on both sides of a hall."""
 SECOND_DOOR = 0.15
 """How likely two rooms have a door that no way needs."""
 OPPOSITE: dict[Side, Side] = {"north": "east", "east": "north", "south": "west", "west": "south"}
@@ -54,10 +55,9 @@ class _Border:
     is_open: bool = False
 
 
-def rooms(kind: HomeKind, rng: np.random.Generator) -> tuple[Room, ...]:
+def rooms(chosen: Chosen, rng: np.random.Generator) -> tuple[Room, ...]:
     """Rooms with their walls and doors; from each of them a way leads to each other."""
-    form: Form = one_of(kind.forms, rng)
-    rows = _rows(form, _chosen(kind, form, rng), rng)
+    rows = _rows(chosen.form, list(chosen.rooms), rng)
     cells = _laid_out(rows, rng)
     borders = [*_within_rows(cells), *_between_rows(cells)]
     _walls_around(cells)
@@ -65,21 +65,6 @@ def rooms(kind: HomeKind, rng: np.random.Generator) -> tuple[Room, ...]:
     flat = [cell for row in cells for cell in row]
     turned = bool(rng.random() < 0.5)
     return tuple(_room(cell, _middle(flat), turned=turned) for cell in flat)
-
-
-def _chosen(kind: HomeKind, form: Form, rng: np.random.Generator) -> list[RoomKind]:
-    """The rooms of one home, shuffled; a hall only where rooms lie along it."""
-    least, most = kind.count
-    halls = [room for room in kind.rooms if room.role == "hall"]
-    others = [room for room in kind.rooms if room.role != "hall"]
-    found = halls[:1] if form == "corridor" else []
-    found += [room for room in others if room.always]
-    rest = [room for room in others if not room.always]
-    if form == "enfilade":
-        most = MOST_IN_A_ROW
-    count = int(rng.integers(least, most + 1)) - len(found)
-    found += shuffled(rest, rng)[: max(0, count)]
-    return shuffled(found, rng)
 
 
 def _rows(

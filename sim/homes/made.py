@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from robot.reality.contract import Home
-from sim.homes.home import home
+from sim.homes.home import Size, home
 from sim.homes.tasks import tasks
 from sim.homes.writing import tasks_yaml, world_yaml
 
 
-def made(kind: str, seed: int, *, file: str) -> Home:
+def made(kind: str, seed: int, *, file: str, size: Size = Size()) -> Home:  # noqa: B008, it is frozen
     """Make a home; `file` is how its tasks name its world. Raises ConfigError as `home`."""
-    found = home(kind, seed)
+    found = home(kind, seed, size)
     by = f"humanoid worlds new --kind {kind} --seed {seed}"
+    by += "".join(
+        f" --{name} {count}"
+        for name, count in (("rooms", size.rooms), ("things", size.things))
+        if count is not None
+    )
     return Home(
         world=world_yaml(found, head=f"A home made by `{by}`; docs/worlds.md says what is what."),
         tasks=tasks_yaml(

@@ -27,25 +27,50 @@ BESIDE = 0.4
 """How likely a thing is put near another that is there."""
 MOST_PER_M, LEAST_FULL = 5, 2
 """Of things on a metre of a surface; so many it holds, however short it is."""
+CROWDED = 1.6
+"""How full a surface may be where more things are wanted than usual, to what is needed on average:
+not all of a surface is within reach."""
+PAINTS = (
+    "red", "orange", "yellow", "green", "teal", "blue", "purple", "pink", "brown", "white", "gray",
+    "black", "cream", "charcoal", "steel",
+)  # fmt: skip
+"""What anything may be painted."""
 TIGHT_M, CLOSE_M, APART_M = 0.05, 0.16, 0.12
 """Gaps: the least, the most of what lies beside something, the least of all else."""
 
 
 def stocked(
-    kind: HomeKind, surfaces: Sequence[Surface], rng: np.random.Generator
+    kind: HomeKind,
+    surfaces: Sequence[Surface],
+    rng: np.random.Generator,
+    *,
+    count: int | None = None,
 ) -> tuple[Object, ...]:
-    """Things, each with a spot, reachable; no two share colour and category, or a name."""
+    """Things, each with a spot, reachable; no two share colour and category, or a name.
+
+    Args:
+        kind: of the home.
+        surfaces: to put them on.
+        rng: of what is drawn.
+        count: how many are wanted (fewer where they find no room); None: as usual.
+    """
     there: dict[str, list[Object]] = {surface.place.id: [] for surface in surfaces}
     found: list[Object] = []
-    for good, count in _wanted(kind, rng):
+    length_m = sum(surface.place.size_m[1] for surface in surfaces)
+    full_per_m = max(MOST_PER_M, CROWDED * (count or 0) / length_m)
+    for good, most in _wanted(kind, rng) if count is None else _plenty(kind, rng):
         size, mass_kg = _sized(good, rng)
-        for word, color in shuffled(good.variants, rng)[:count]:
+        variants = good.variants if count is None else _all_variants(good)
+        for word, color in shuffled(variants, rng)[:most]:
+            if len(found) == count:
+                return tuple(found)
             name = f"{word}_{good.category}".replace(" ", "_")
             bare = Object(
                 id=name, category=good.category, color=color, shape=good.shape, size_m=size,
-                mass_kg=mass_kg, on="", synonyms=good.synonyms if count == 1 else (),
+                mass_kg=mass_kg, on="", synonyms=good.synonyms if most == 1 else (),
             )  # fmt: skip
-            item = _put(bare, kind.goods[good.category], surfaces, there, rng)
+            usual = kind.goods.get(good.category, ())
+            item = _put(bare, usual, surfaces, there, rng, full_per_m=full_per_m)
             if item is not None:
                 there[item.on].append(item)
                 found.append(item)
@@ -72,12 +97,32 @@ def _wanted(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
     ]
 
 
+def _plenty(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
+    """Goods of all kinds of homes, those of this one first, in as many colours as there are."""
+    found: list[Good] = []
+    for good in sorted(
+        shuffled(stock().goods, rng), key=lambda good: good.category not in kind.goods
+    ):
+        if all(good.category.split()[-1] != other.category.split()[-1] for other in found):
+            found.append(good)
+    return [(good, len(_all_variants(good))) for good in found]
+
+
+def _all_variants(good: Good) -> list[tuple[str, str]]:
+    """The variants of a good, and the plain colours that none of them has."""
+    taken = {color for _, color in good.variants}
+    more = [color for color in PAINTS if color not in taken and color not in good.named]
+    return [*good.variants, *((color, color) for color in more)]
+
+
 def _put(
     item: Object,
     usual: Sequence[str],
     surfaces: Sequence[Surface],
     there: dict[str, list[Object]],
     rng: np.random.Generator,
+    *,
+    full_per_m: float,
 ) -> Object | None:
     """The thing with a place and a spot; None where there is none."""
     likely = [surface for surface in surfaces if surface.room in usual]
@@ -85,7 +130,7 @@ def _put(
         among = likely if likely and rng.random() < USUAL else surfaces
         surface = one_of(among, rng)
         others = there[surface.place.id]
-        if len(others) >= max(LEAST_FULL, MOST_PER_M * surface.place.size_m[1]):
+        if len(others) >= max(LEAST_FULL, full_per_m * surface.place.size_m[1]):
             continue
         if others and rng.random() < BESIDE:
             at, gap_m = _beside(item, one_of(others, rng), rng), TIGHT_M

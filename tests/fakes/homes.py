@@ -1,7 +1,9 @@
-"""Homes and their tasks, made once for all tests."""
+"""Homes, their tasks and who plays what in them, made once for all tests."""
 
 from functools import cache
 
+from robot.reality.contract import Cast
+from sim.homes.casting import cast
 from sim.homes.home import Home, home
 from sim.homes.tasks import Task, tasks
 
@@ -18,3 +20,9 @@ def made(kind: str, seed: int) -> Home:
 def asked(kind: str, seed: int) -> list[Task]:
     """What is asked for there."""
     return tasks(made(kind, seed), seed)
+
+
+@cache
+def played(kind: str, seed: int) -> Cast:
+    """Who plays the roles of a campaign there."""
+    return cast(made(kind, seed), seed)

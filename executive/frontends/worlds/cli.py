@@ -36,6 +36,13 @@ def new(
         str, typer.Option("--kind", "-k", help="flat, office, ...: humanoid worlds lists them.")
     ],
     seed: Seed = 0,
+    rooms: Annotated[
+        int | None, typer.Option("--rooms", help="How many rooms, up to 16 (default: as usual).")
+    ] = None,
+    things: Annotated[
+        int | None,
+        typer.Option("--things", help="How many things, 9 to 400 (default: as usual)."),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -58,7 +65,11 @@ def new(
       humanoid worlds new -k office -s 3 -o office3.yaml --tasks office3.tasks.yaml
 
       humanoid worlds new --kind clinic            (print it)
+
+      humanoid worlds new --kind clinic --rooms 12 --things 300 --out large.yaml
     """
     from executive.frontends.worlds import commands
 
-    raise typer.Exit(commands.new(kind, seed=seed, output=output, tasks=tasks))
+    raise typer.Exit(
+        commands.new(kind, seed=seed, output=output, tasks=tasks, rooms=rooms, things=things)
+    )

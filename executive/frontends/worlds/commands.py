@@ -27,11 +27,19 @@ def list_all() -> int:
     return ExitStatus.DONE
 
 
-def new(kind: str, *, seed: int, output: Path | None, tasks: Path | None) -> int:
+def new(
+    kind: str,
+    *,
+    seed: int,
+    output: Path | None,
+    tasks: Path | None,
+    rooms: int | None = None,
+    things: int | None = None,
+) -> int:
     """Make a home, and print it or write it down with its tasks.
 
     Raises:
-        ConfigError: the kind is unknown, a file is there already or cannot be written.
+        ConfigError: the kind or its size is unknown, a file is there already or cannot be written.
     """
     output = None if str(output) == PRINTED else output
     if tasks is not None and output is None:
@@ -43,7 +51,7 @@ def new(kind: str, *, seed: int, output: Path | None, tasks: Path | None) -> int
     for path in (output, tasks):
         if path is not None:
             _check(path)
-    home = REALITY.home(kind, seed=seed, file=_named(output, tasks))
+    home = REALITY.home(kind, seed=seed, file=_named(output, tasks), rooms=rooms, things=things)
     if output is None:
         write(home.world)
         return ExitStatus.DONE

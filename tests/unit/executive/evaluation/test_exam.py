@@ -9,7 +9,7 @@ from executive.evaluation import campaign, exam, marks
 from executive.evaluation.campaign import Case, Settings
 from executive.evaluation.record import Record
 from executive.evaluation.single import perform
-from executive.frontends import evaluation, output
+from executive.frontends import evaluation, evaluation_report, output
 from executive.frontends.options import Eval
 from robot.errors import ConfigError
 from sim.reality import Simulation
@@ -105,8 +105,8 @@ def test_marks_count_by_kind_what_is_so_in_truth():
 
 @pytest.mark.parametrize("columns", [40, 80, 200])
 def test_marks_can_be_read_on_any_terminal(columns, monkeypatch, capsys):
-    monkeypatch.setattr(evaluation, "table_screen", lambda: output.Screen(width=columns))
-    evaluation.show(found())
+    monkeypatch.setattr(evaluation_report, "table_screen", lambda: output.Screen(width=columns))
+    evaluation_report.show(found())
     words = capsys.readouterr().out
     assert all(word in words for word in ("fetch", "count", "timeout", "1/2", "33%"))
 

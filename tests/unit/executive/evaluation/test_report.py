@@ -3,7 +3,7 @@
 import pytest
 
 from executive.evaluation.report import Report, Row, Score
-from executive.frontends import evaluation, output
+from executive.frontends import evaluation_report, output
 
 SCORE = Score(
     runs=20, ok=18, done=3, unsafe=0, median_s=63.2, recoveries=1.1,
@@ -20,8 +20,8 @@ FOUND = Report(
 
 @pytest.mark.parametrize("columns", [40, 60, 80, 120, 200])
 def test_no_word_is_broken(columns, monkeypatch, capsys):
-    monkeypatch.setattr(evaluation, "table_screen", lambda: output.Screen(width=columns))
-    evaluation.show(FOUND)
+    monkeypatch.setattr(evaluation_report, "table_screen", lambda: output.Screen(width=columns))
+    evaluation_report.show(FOUND)
     words = capsys.readouterr().out.split()
     for word in ("missed", "grasp", "object_not_seen", "path_blocked", "grasp_missed", "expected"):
         assert word in words

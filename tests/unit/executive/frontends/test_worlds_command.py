@@ -26,6 +26,22 @@ def test_a_home_and_its_tasks_are_written_down(tmp_path):
     assert (tasks.parent / named).resolve() == world.resolve()
 
 
+def test_a_home_is_as_large_as_is_wanted(tmp_path):
+    path = tmp_path / "large.yaml"
+    commands.new("clinic", seed=1, output=path, tasks=None, rooms=12, things=300)
+    made = REALITY.world(str(path)).map
+    assert len(made.objects) == 300
+    assert sum(place.floor and place.id == place.room for place in made.places) == 12
+    assert "--rooms 12 --things 300" in path.read_text().splitlines()[0]
+
+
+def test_a_home_is_a_world_by_its_kind_and_seed():
+    world = REALITY.world("clinic:2")
+    assert (world.name, world.map.name) == ("clinic:2", "clinic_2")
+    with pytest.raises(ConfigError, match="did you mean 'clinic'"):
+        REALITY.world("klinic:2")
+
+
 @pytest.mark.parametrize(
     ("world", "tasks", "wrong"),
     [

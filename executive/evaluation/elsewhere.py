@@ -1,0 +1,143 @@
+"""A campaign that moves house: the same faults in homes that are made from seeds.
+
+Each case is done in each home, on a task made for that home: its roles are played by what is
+there and within reach (`executive.evaluation.roles`). Where nothing can play one of them the case
+makes no sense: it is skipped, said, and counted nowhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from pathlib import Path
+
+import msgspec
+
+from executive.evaluation import campaign, roles
+from executive.evaluation.campaign import Campaign, Case, Settings
+from robot import config, yaml_nodes
+from robot.errors import ConfigError, Problem
+from robot.reality.contract import Cast, Reality
+from robot.yaml_nodes import Node
+
+MOST_HOMES = 1000
+MOST_SEED = 999_999_999
+HOW = "--homes flat:7,office:8, or a number of homes"
+AT_HOME_ONLY = "it is written for one home: it names no role (docs/evaluation.md)"
+
+
+class Skipped(msgspec.Struct, frozen=True, kw_only=True):
+    """A case that makes no sense in a home, and why."""
+
+    home: str
+    fault: str
+    why: str
+
+
+class Moved(msgspec.Struct, frozen=True, kw_only=True):
+    """All cases in all homes."""
+
+    cases: tuple[Case, ...]
+    skipped: tuple[Skipped, ...]
+
+
+def homes(words: str, reality: Reality) -> tuple[str, ...]:
+    """The homes that are meant, each `KIND:SEED`.
+
+    Args:
+        words: such names with commas between; or a number: so many homes, the kinds in turn, the
+            seeds from 0.
+        reality: where they come from.
+
+    Raises:
+        ConfigError: with everything that is wrong in them.
+    """
+    kinds = reality.home_kinds()
+    if words.strip().isdecimal():
+        count = int(words)
+        if not 1 <= count <= MOST_HOMES:
+            text = f"{count} homes; from 1 to {MOST_HOMES} are taken"
+            raise ConfigError([Problem(text, "--homes", suggestion=HOW)])
+        return tuple(f"{kinds[i % len(kinds)]}:{i // len(kinds)}" for i in range(count))
+    names = [word.strip() for word in words.split(",") if word.strip()]
+    problems = [problem for name in names for problem in _wrong_in(name, kinds)]
+    problems += [
+        Problem(f"{name!r} stands there twice", "--homes", suggestion="name each home once")
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]
+    if not names:
+        problems.append(Problem("no home is named", "--homes", suggestion=HOW))
+    if problems:
+        raise ConfigError(problems)
+    return tuple(names)
+
+
+def _wrong_in(name: str, kinds: Sequence[str]) -> list[Problem]:
+    kind, _, seed = name.partition(":")
+    if kind not in kinds:
+        hint = config.nearest(kind, list(kinds))
+        return [Problem(f"unknown kind of home {kind!r}", "--homes", suggestion=hint)]
+    if not (seed.isascii() and seed.isdecimal() and int(seed) <= MOST_SEED):
+        text = f"{name!r} is no home"
+        return [Problem(text, "--homes", suggestion=f"{kind} and a seed: {kind}:7")]
+    return []
+
+
+def moved(
+    files: Sequence[Path], names: Sequence[str], settings: Settings, *, only: Container[str] = ()
+) -> Moved:
+    """Move the cases of campaigns into homes.
+
+    Args:
+        files: the campaigns.
+        names: of the homes, each `KIND:SEED`.
+        settings: where they are.
+        only: these cases; empty: all.
+
+    Raises:
+        ConfigError: a file is wrong where it is at home already.
+    """
+    cases: list[Case] = []
+    skipped: list[Skipped] = []
+    for path in files:
+        at_home = campaign.load(path, settings.reality, robot=settings.robot)
+        node = yaml_nodes.read(path).get("cases")
+        written = list(zip(at_home, node.items if node else (), strict=True))
+        for name in names:
+            kind, _, seed = name.partition(":")
+            cast = settings.reality.cast(kind, seed=int(seed))
+            for case, entry in written:
+                if only and case.name not in only:
+                    continue
+                one = _moved(case, entry, name, cast, settings)
+                if isinstance(one, Case):
+                    cases.append(one)
+                else:
+                    skipped.append(Skipped(home=name, fault=case.name, why=one))
+    campaign.check_names(cases)
+    return Moved(cases=tuple(cases), skipped=tuple(skipped))
+
+
+def _moved(case: Case, entry: Node, name: str, cast: Cast, settings: Settings) -> Case | str:
+    """A case in a home, or why it makes no sense there."""
+    needed = roles.used(entry)
+    if not needed or case.world:
+        return AT_HOME_ONLY
+    for role in needed:
+        if role not in cast.roles:
+            return cast.vacant.get(role, f"nobody plays the role {role!r} there")
+    filled = config.convert(_alone(roles.filled(entry, cast.roles)), Campaign).cases[0]
+    there = msgspec.structs.replace(
+        filled, name=f"{case.name} in {name}", world=name, origin=case.name
+    )
+    problems = campaign.problems_of(there, settings)
+    return problems[0] if problems else there
+
+
+def _alone(entry: Node) -> Node:
+    """A campaign of one case."""
+    root = Node("map", entry.file, entry.line, entry.column)
+    cases = Node("list", entry.file, entry.line, entry.column)
+    cases.items = [entry]
+    root.entries["cases"] = (yaml_nodes.text_node("cases", entry), cases)
+    return root
