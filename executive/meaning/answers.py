@@ -17,15 +17,15 @@ from intents.numbers import Noun
 from robot.messages import Place, Track
 
 
-def is_held(ids: frozenset[str]) -> Predicate:
-    """Whether one of the objects is in a hand."""
-    return lambda board: bool(ids & set(board.read(HELD).values()))
+def is_held(ids: frozenset[str], *, least: int = 1) -> Predicate:
+    """Whether so many of the objects at least are in a hand."""
+    return lambda board: len(ids & set(board.read(HELD).values())) >= least
 
 
-def is_there(ids: frozenset[str], places: Iterable[Place]) -> Predicate:
-    """Whether one of the objects is believed to be there (on one of the places, if any)."""
+def is_there(ids: frozenset[str], places: Iterable[Place], *, least: int = 1) -> Predicate:
+    """Whether so many of the objects at least are believed to be there (on a place, if any)."""
     surfaces = tuple(places)
-    return lambda board: bool(_seen(board, ids, surfaces))
+    return lambda board: len(_seen(board, ids, surfaces)) >= least
 
 
 def gone(knowledge: Knowledge) -> Callable[[Blackboard, Mapping[str, str]], list[str]]:

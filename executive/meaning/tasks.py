@@ -16,10 +16,11 @@ import msgspec
 from executive.behaviours.conditions import Predicate
 from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
-from executive.meaning.handlers.settling import settle
+from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
+from intents.grounding import describe
 from robot.messages import ObjectInfo
 
 MAX_TIMES, MAX_STEPS = 50, 500
@@ -185,15 +186,24 @@ def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
     if isinstance(condition, goals.State) or condition.object is None:
         raise cannot("unsupported", "this robot cannot find that out yet",
                      suggestion="ask whether an object is there, or held")  # fmt: skip
+    if condition.object.superlative is not None:
+        raise cannot("unsupported", f"which is the {describe(condition.object)} is not known yet",
+                     suggestion="name it by its colour")  # fmt: skip
     ids = frozenset(info.id for info in scene.fitting(condition.object))
     at = condition.object.at
     places = steps.to_look_over(scene.places(at), scene) if at else ()
     holding = isinstance(condition, goals.Holding)
-    known = answers.is_held(ids) if holding else answers.is_there(ids, places)
+    least = len(ids) if condition.object.count == "all" else condition.object.count or 1
+    if condition.object.relation is not None and not holding:
+        _, number_of = counted(condition.object, scene)
+        return lambda board: (number_of(board) >= least) != condition.negated
+    known = (
+        answers.is_held(ids, least=least) if holding else answers.is_there(ids, places, least=least)
+    )
     return (lambda board: not known(board)) if condition.negated else known
 
 
-def look_of(condition: goals.Condition, scene: Scene) -> tuple[Errand, ...]:
+def look_of(condition: goals.Condition, scene: Scene) -> tuple[Part, ...]:
     """What has to be looked at to decide a condition, if anything has.
 
     That nothing was seen where nobody looked is no reason for the other branch.
@@ -202,10 +212,15 @@ def look_of(condition: goals.Condition, scene: Scene) -> tuple[Errand, ...]:
         return ()
     at, ids = condition.object.at, [info.id for info in scene.fitting(condition.object)]
     name = f"look over the {at}" if at else "look around"
+    if condition.object.relation is not None:
+        looks, _ = counted(condition.object, scene)
+        return looks
+    if steps.many(condition.object):  # the first that is seen decides nothing
+        return steps.inspect(name, at, scene)
     return steps.inspect(name, at, scene, ids=ids) if ids else ()
 
 
-def in_turn(looks: tuple[Errand, ...]) -> Part | None:
+def in_turn(looks: tuple[Part, ...]) -> Part | None:
     """Looks one after the other; None if there are none."""
     if len(looks) < 2:
         return looks[0] if looks else None

@@ -311,9 +311,9 @@ class Compiler:
         self._hands = _common(before, self._hands)
         if finding is None:
             return None
-        looks = tuple(
-            look for look in finding.looks if look.object_name
-        )  # of places that are named
+        looks = tuple(  # of places that are named
+            look for look in finding.looks if not isinstance(look, p.Errand) or look.object_name
+        )
         loop = p.Loop(
             name=f"while {finding.text}",
             bodies=tuple(_and_then(body, looks) for body in bodies),
@@ -383,7 +383,7 @@ def _items(node: Node | None) -> list[Node]:
     return node.items if node is not None and node.kind == "list" else []
 
 
-def _and_then(body: p.Series, looks: tuple[p.Errand, ...]) -> p.Series:
+def _and_then(body: p.Series, looks: tuple[p.Part, ...]) -> p.Series:
     """A round that ends with the looks that decide on the next one."""
     return replace(body, parts=(*body.parts, *looks))
 

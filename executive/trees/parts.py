@@ -169,7 +169,7 @@ class Finding(msgspec.Struct, frozen=True, kw_only=True):
     text: str
     question: Predicate
     found: Words | None = None
-    looks: tuple[Errand, ...] = ()
+    looks: tuple[Part, ...] = ()
 
 
 class Expect(msgspec.Struct, frozen=True, kw_only=True):

@@ -6,6 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from benchmarks.intents.endpoint import Reply, serving
+from executive.blackboard import WORLD, Blackboard
 from executive.meaning.handlers.steps import to_look_over
 from executive.meaning.identify import Scene
 from executive.meaning.knowledge import Knowledge
@@ -16,6 +17,7 @@ from executive.skills.place import PlaceParams
 from executive.trees.parts import Branch, errands
 from intents.language_model import Endpoint, LanguageModel
 from intents.outcomes import Question
+from robot.messages import Track, WorldState
 from robot.se3 import SE3
 from tests.fakes.worlds import WHERE, world_map
 
@@ -291,3 +293,49 @@ def test_nor_where_nobody_can_be_asked():
         outcome = request("tidy up a bit", WHERE, fallback=model)
     assert isinstance(outcome, Refused)
     assert outcome.outcome == "question"
+
+
+def with_things_on_the_table(aside_m: dict[str, float]) -> Blackboard:
+    """A board on which things were seen on the table, so far from its middle."""
+    x, y, z = world_map().place("table").X_WP.p
+    tracks = tuple(
+        Track(id=name, X_WO=SE3((x, y + off, z + 0.05)), seen_s=0.0)
+        for name, off in aside_m.items()
+    )
+    board = Blackboard()
+    world = WorldState(stamp_s=0.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=tracks)
+    board.claim(WORLD.writer).set(WORLD, world)
+    return board
+
+
+@pytest.mark.parametrize(
+    ("text", "seen", "so"),
+    [
+        ("if there is a cup on the table, wave", ["cup_red"], True),
+        ("if there are two cups on the table, wave", ["cup_red"], False),
+        ("if there are two cups on the table, wave", ["cup_red", "cup_blue"], True),
+        ("if there are three cups on the table, wave", ["cup_red", "cup_blue"], False),
+        ("if both cups are on the table, wave", ["cup_blue"], False),
+        ("if all cups are on the table, wave", ["cup_red"], False),
+        ("if all cups are on the table, wave", ["cup_red", "cup_blue"], True),
+    ],
+)
+def test_a_condition_counts_what_it_says(text, seen, so):
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Understood)
+    branch = next(part for part in outcome.task.parts if isinstance(part, Branch))
+    board = with_things_on_the_table({name: 0.1 * i for i, name in enumerate(seen)})
+    assert branch.question(board) is so
+
+
+def test_a_condition_about_the_largest_of_several_is_refused():
+    assert "largest cup" in refusal("if the biggest cup is on the table, wave").reason
+
+
+def test_a_condition_about_what_stands_beside_another_is_about_both():
+    outcome = request("if the red cup is next to the blue cup, wave", WHERE)
+    assert isinstance(outcome, Understood)
+    branch = next(part for part in outcome.task.parts if isinstance(part, Branch))
+    for away_m, so in ((0.2, True), (0.9, False)):
+        board = with_things_on_the_table({"cup_red": 0.0, "cup_blue": away_m})
+        assert branch.question(board) is so
