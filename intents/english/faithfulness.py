@@ -192,6 +192,8 @@ def _quantity_carried(text: Text, at: int, told: _Told) -> bool:
         pair = word == "both" and (2 in told.numbers or len(told.goals) > 1)
         fixed = text.word(at + 1) in ("the", "right", "in", "of")
         return told.several() or pair or fixed or not _before_noun(text, at + 1)
+    if word in ("except", "besides"):
+        return "'except':" in str(to_builtins(told.goals))
     if word == "none":
         return told.has(If)
     return word == "most" and bool(told.words & _SUPERLATIVE_WORDS)
@@ -222,7 +224,9 @@ def _whole_of(text: Text, at: int, end: int, told: _Told) -> bool:
     match = text.name_at(at)
     if match is None or not match.of("place", "room"):
         return False
-    before = at - 1
+    before = at - 1 - (text.word(at - 1) in lexicon.DETERMINERS)
+    if not match.of("room") and text.word(before) in ("in", "into"):
+        return False  # on the sofa in the wardrobe: one of them is where to
     while before >= 0 and text.word(before) in _LINKS:
         before -= 1
     if told.name(*(n.name for n in text.index.partial(text.word(before)))):

@@ -106,3 +106,19 @@ def _goals(said: str) -> object:
     outcome = parse(said, HOME)
     assert isinstance(outcome, Goals), outcome
     return outcome.goals
+
+
+@pytest.mark.parametrize(
+    ("said", "offered"),
+    [
+        ("I'm cold", "blanket"),
+        ("Leo is thirsty", "bottle"),
+        ("we are out of bottles", "bottle"),
+        ("it's dark in here", "switch on"),
+    ],
+)
+def test_what_would_help_is_offered(said: str, offered: str) -> None:
+    outcome = parse(said, HOME)
+    assert isinstance(outcome, Question), outcome
+    assert outcome.kind == "confirmation"
+    assert offered in outcome.question
