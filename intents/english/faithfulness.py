@@ -100,8 +100,9 @@ class _Told:
 
     def __init__(self, goals: tuple[Goal, ...]) -> None:
         self.goals = goals
-        self.values = {value.lower() for value in _strings(to_builtins(goals))}
-        self.numbers = [abs(n) for n in _numbers(to_builtins(goals))]
+        plain_goals = to_builtins(goals)
+        self.values = {value.lower() for value in _strings(plain_goals)}
+        self.numbers = [abs(n) for n in _numbers(plain_goals)]
         plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
         self.words = {*plain, *map(singular, plain)}
         self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
@@ -151,9 +152,13 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
         return verb, True
     if word in _CARRYING:
         return at + 1, told.speaks or _word_carried(text, at, told)
-    known = lexicon.LISTED | GRAMMAR_WORDS
-    plain = word in known or base_form(word) in known or participle_base(word) in known
-    return at + 1, plain or told.speaks
+    return at + 1, told.speaks or _is_listed(word)
+
+
+def _is_listed(word: str) -> bool:
+    """Whether the grammar knows a word, in whatever form."""
+    forms = (word, base_form(word), participle_base(word))
+    return any(form in lexicon.LISTED or form in GRAMMAR_WORDS for form in forms)
 
 
 def _word_carried(text: Text, at: int, told: _Told) -> bool:
