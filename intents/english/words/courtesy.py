@@ -65,6 +65,7 @@ _TAILS = lexicon.phrases(
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
+_SAYING = lexicon.words("say tell announce shout whisper repeat answer ask sing")
 _SMALL = lexicon.phrases(
     "exactly,at least,at most,up to,no more than,not more than,about,roughly,around,approximately,"
     "for about,precisely"
@@ -87,6 +88,8 @@ _LONGEST = 20
 
 def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
     """Where a courtesy ends that begins at a word; ``kept`` are the words kept before it."""
+    if not _SAYING.isdisjoint(kept):
+        return None  # say thank you: that is what is to be said
     begins = not kept or kept[-1] in (*_SIGNS, "and", "so", "well", "then")
     return (
         _gracious(words, at)

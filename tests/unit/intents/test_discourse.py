@@ -122,3 +122,10 @@ def test_what_would_help_is_offered(said: str, offered: str) -> None:
     assert isinstance(outcome, Question), outcome
     assert outcome.kind == "confirmation"
     assert offered in outcome.question
+
+
+@pytest.mark.parametrize("words", ["thank you", "no, thanks", "that is all", "okay, love"])
+def test_what_is_to_be_said_is_said_whole(words: str) -> None:
+    outcome = parse(f"say {words}", HOME)
+    assert isinstance(outcome, Goals), outcome
+    assert words.split(",")[0].split()[-1] in str(outcome.goals)
