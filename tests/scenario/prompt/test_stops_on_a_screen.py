@@ -120,7 +120,7 @@ def test_the_emergency_stop_is_more_than_a_stop(evening: Evening, walks: bool):
     evening.press(f"estop{ENTER}")
     assert evening.shows("Emergency stop. `estop release`"), evening.text
     evening.press(f"status{ENTER}")
-    assert evening.shows("The emergency stop is on"), evening.text
+    assert evening.shows("the operator pressed the emergency stop"), evening.text
     evening.press(f"estop release{ENTER}")
     assert evening.shows("Released; `estop reset`"), evening.text
     evening.press(f"estop reset{ENTER}")
