@@ -128,4 +128,4 @@ def test_what_would_help_is_offered(said: str, offered: str) -> None:
 def test_what_is_to_be_said_is_said_whole(words: str) -> None:
     outcome = parse(f"say {words}", HOME)
     assert isinstance(outcome, Goals), outcome
-    assert words.split(",")[0].split()[-1] in str(outcome.goals)
+    assert words.split(",", maxsplit=1)[0].rsplit(maxsplit=1)[-1] in str(outcome.goals)
