@@ -72,6 +72,10 @@ class UnmappedObstacles:
                 rows.append((X_WS.p[0], X_WS.p[1], math.cos(yaw), math.sin(yaw), *half))
         self._boxes = np.array(rows, dtype=np.float64).reshape(-1, 6)
 
+    def forget(self) -> None:
+        """Take back all that was seen: it was placed by a pose that was wrong."""
+        self._clusters.clear()
+
     def see(self, scan: LidarScan, X_WLidar: SE3) -> None:
         """Take one scan from a lidar at X_WLidar."""
         self._take(self._unexplained(scan, X_WLidar), scan.stamp_s)

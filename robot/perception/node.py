@@ -119,7 +119,7 @@ class PerceptionNode(Closing):
 
     def _take(self, message: Message) -> None:
         if isinstance(message, PoseFix):
-            self._localiser.add(message)
+            self._locate(message)
         elif isinstance(message, DepthImage):
             self._depth = message
             self._look_out(message)
@@ -133,6 +133,14 @@ class PerceptionNode(Closing):
             X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
             if X_WLidar is not None:
                 self._unmapped.see(message, X_WLidar)
+
+    def _locate(self, fix: PoseFix) -> None:
+        """Take a fix; what stands in the way was seen from elsewhere if the pose is thrown over."""
+        jumps = self._localiser.jumps
+        self._localiser.add(fix)
+        if self._localiser.jumps > jumps:
+            self._unmapped.forget()
+            self._in_view.forget()
 
     def _look_out(self, image: DepthImage) -> None:
         """Find in a depth image what stands in the way, and what it shows of the surfaces.

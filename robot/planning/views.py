@@ -103,9 +103,10 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
 def _past(things: Screens, points: Array, shown: Mask, eyes_W: Array) -> Mask:
     """Which of the lines of sight from points to eyes, shape (points, eyes), pass the things."""
     passed = np.zeros_like(shown)
-    for point, row, left in zip(points, shown, passed, strict=True):
-        eyes = np.flatnonzero(row)
-        left[eyes] = things.in_sight(point + np.array([0.0, 0.0, ABOVE_M]), eyes_W[eyes])
+    for number in np.flatnonzero(shown.any(axis=1)).tolist():
+        eyes = np.flatnonzero(shown[number])
+        above = points[number] + np.array([0.0, 0.0, ABOVE_M])
+        passed[number, eyes] = things.in_sight(above, eyes_W[eyes])
     return passed
 
 
@@ -192,8 +193,10 @@ class _Atlas:
 
     def shown_at(self, points: Array, at: tuple[float, float]) -> Mask:
         """Which points are seen from one place, shape (points,)."""
-        here = np.array([at])
-        return np.array([self._sees(point, here)[0] for point in points], dtype=bool)
+        here, seen = np.array([at]), np.zeros(len(points), dtype=bool)
+        for number in np.flatnonzero((np.abs(points[:, :2] - here) < NEAR_M).all(axis=1)).tolist():
+            seen[number] = self._sees(points[number], here)[0]
+        return seen
 
     def eyes_W(self, cells: Array) -> Array:
         """The eyes of one who stands on each of some places, shape (n, 3)."""
@@ -206,13 +209,15 @@ class _Atlas:
 
     def _sees(self, point: Array, cells: Array) -> Mask:
         off = cells - point[:2]
-        aside_m, above_m = np.hypot(off[:, 0], off[:, 1]), self._eye_m - point[2]
+        near = np.flatnonzero((np.abs(off) < NEAR_M).all(axis=1))  # little of a large home
+        aside_m, above_m = np.hypot(off[near, 0], off[near, 1]), self._eye_m - point[2]
         slope = np.arctan2(above_m, aside_m)
-        seen = (np.hypot(aside_m, above_m) < NEAR_M) & (slope < STEEP_RAD)
-        seen &= (slope > GRAZING_RAD) | (above_m < 0.0)
-        rows = np.flatnonzero(seen)
+        fine = (np.hypot(aside_m, above_m) < NEAR_M) & (slope < STEEP_RAD)
+        fine &= (slope > GRAZING_RAD) | (above_m < 0.0)
         above = point + np.array([0.0, 0.0, ABOVE_M])
-        seen[rows] = self._screens.in_sight(above, self.eyes_W(cells[rows]))
+        fine[fine] = self._screens.in_sight(above, self.eyes_W(cells[near[fine]]))
+        seen: Mask = np.zeros(len(cells), dtype=bool)
+        seen[near] = fine
         return seen
 
 

@@ -63,12 +63,11 @@ def check(kind: HomeKind, name: str, count: int) -> None:
 def _forms(kind: HomeKind, count: int) -> tuple[Form, ...]:
     """In which so many rooms can lie, each once."""
     is_large = count > kind.count[1]
-    kinds = len([room for room in kind.rooms if room.role != "hall"])
-    most = min(MOST_ROOMS, kinds * (len(AGAIN) + 1))
-    found = [
+    found: list[Form] = [
         form
         for form in dict.fromkeys(kind.forms)
-        if len(_needed(kind, form)) <= count <= (MOST_IN_A_ROW if form == "enfilade" else most)
+        if len(_needed(kind, form)) <= count
+        and count <= (MOST_IN_A_ROW if form == "enfilade" else MOST_ROOMS)
         and (form in LARGE or not is_large)
     ]
     return tuple(found)

@@ -72,6 +72,13 @@ def test_it_is_forgotten_when_it_is_gone(unmapped):
     assert look(unmapped, [], begin_s=0.5 + FORGET_S, scans=1) == ()
 
 
+def test_it_is_forgotten_when_it_was_seen_from_a_wrong_pose(unmapped):
+    assert look(unmapped, [(1.0, 1.5, 0.25)])
+    unmapped.forget()
+    assert unmapped.obstacles() == ()
+    assert look(unmapped, [(1.0, 1.5, 0.25)], begin_s=1.0)
+
+
 def test_someone_who_walks_stays_one_obstacle(unmapped):
     X_WL = SE3.from_xy_yaw(0.0, 0.0, 0.0, z_m=0.6)
     for k in range(20):

@@ -114,6 +114,32 @@ def test_a_sensor_that_is_ahead_of_the_body_waits_for_it(node, robot):
     assert worlds.latest.X_WN.yaw_rad == pytest.approx(X_WN.yaw_rad)
 
 
+def test_a_pose_that_is_thrown_over_takes_what_stood_in_the_way_with_it(node, robot):
+    """It was placed by that pose; a robot that believed in it stood in the middle of it."""
+    bus, perception, worlds = node
+    bus.publish(topics.ORACLE_MAP, world_map())
+    q = tuple(joints(robot).tolist())
+    wrong = SE3.from_xy_yaw(0.6, 0.4, 0.0) @ X_WN @ X_NB
+    for k in range(1, 40):
+        ahead = tuple(1.2 if abs(n - 90) < 6 else 9.0 for n in range(180))
+        turn = 2.0 * math.pi / 180
+        scan = LidarScan(
+            stamp_s=0.1 * k, angle_min_rad=-math.pi, angle_step_rad=turn, ranges_m=ahead
+        )
+        bus.publish(emulated(topics.LIDAR), scan)
+        bus.publish(topics.BODY_STATE, body_state(0.1 * k, X_NB, q_rad=q))
+        pose = X_WN @ X_NB if k < 20 else wrong
+        bus.publish(topics.ORACLE_FIX, PoseFix(stamp_s=0.1 * k, X_WB=pose, source="oracle"))
+        perception.step()
+        state = worlds.latest
+        if state is not None and state.jumps:
+            break
+        before = state.unmapped if state is not None else ()
+    assert before
+    assert state.jumps == 1
+    assert state.unmapped == ()
+
+
 def test_without_fixes_the_age_grows_and_the_rest_goes_on(node, robot):
     bus, perception, worlds = node
     publish(bus, robot, 0.1)

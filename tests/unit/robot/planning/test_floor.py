@@ -57,3 +57,34 @@ def test_one_and_many_points_agree() -> None:
 def test_the_nearest_is_named() -> None:
     assert Floor((box(),), BOUNDS).nearest(0.4, 0.0) == ("box", pytest.approx(0.1))
     assert Floor((), BOUNDS).nearest(2.5, 0.0)[0] == "the edge of the map"
+
+
+def test_what_lies_on_a_table_changes_nothing() -> None:
+    cup = Solid(
+        id="cup", kind="cylinder", size_m=(0.08, 0.08, 0.1), X_WG=SE3((1.1, 0.05, 0.65))
+    )  # fmt: skip
+    bare, laid = Floor((box(0.4),), BOUNDS), Floor((box(0.4), cup), BOUNDS)
+    assert np.array_equal(bare.field, laid.field)
+    assert laid.solids == (box(0.4), cup)
+
+
+def test_distances_are_those_to_the_nearest_of_all_solids() -> None:
+    """Whatever is left out or measured in part only: large and small, within others, outside."""
+    rng = np.random.default_rng(3)
+
+    def solid(number: int) -> Solid:
+        sides = (2.5, 1.8, 0.5, 0.1)[number % 4] * rng.uniform(0.6, 1.0, 2)
+        x, y, yaw = rng.uniform(-3.5, 3.5, 3).tolist()
+        return Solid(
+            id=str(number), kind="cylinder" if number % 5 == 0 else "box",
+            size_m=(*sides.tolist(), 0.4), X_WG=SE3.from_xy_yaw(x, y, yaw, z_m=0.4),
+        )  # fmt: skip
+
+    cells = np.array([[0, 0], [70, 3], [75, 75], [20, 140], [150, 150], [100, 40]])
+    for _ in range(5):
+        solids = tuple(solid(number) for number in range(12))
+        floor = Floor(solids, BOUNDS)
+        for cell, (x, y) in zip(cells.tolist(), floor.points(cells).tolist(), strict=True):
+            edge = min(x + 3.0, 3.0 - x, y + 3.0, 3.0 - y)
+            nearest = min([edge, *(Floor.distance_m(one, x, y) for one in solids)])
+            assert floor.field[*cell] == pytest.approx(nearest, abs=1e-9)
