@@ -18,7 +18,7 @@ from executive.skills.motions.obstructions import in_the_way
 from executive.skills.motions.path_follower import Follower, Velocity, turn_towards
 from executive.skills.motions.personal_space import in_the_path, somebody_near
 from executive.skills.motions.planning import ask, pose_of, stance_of
-from executive.skills.motions.script import Script, give_up
+from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.support import surroundings
 from robot.messages import Obstacle, Stand, Walk
 from robot.model.gait import Walking
@@ -54,6 +54,10 @@ MOVING_M_S = 0.03
 LET_PASS_S = 6.0
 BESIDE_M = 0.3
 """What stands as near as this to where somebody is seen is taken to be them."""
+BESIDE_PEOPLE_M = 0.12
+"""A way keeps the body's middle 0.43 m from what stands about, where there is room; a person who is
+within 0.5 m ahead stops it. Without that it was planned past the same person again and again."""
+NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 EXCUSE = "Excuse me."
 """What somebody who stands in the way is told, before a way around them is planned."""
 
@@ -108,10 +112,29 @@ def path_request(body: Body, goal: Stance) -> BasePathRequest:
 
 
 def plan_path(body: Body, goal: Stance) -> Script[BasePath]:
-    """Ask for a way from here."""
+    """Ask for a way from here, wide around people where there is one."""
     request = path_request(body, goal)
-    path = yield from ask(body, request, BasePath)
+    try:
+        path = yield from ask(body, _around_people(body, request), BasePath)
+    except GaveUp as end:
+        if end.failure.code not in NO_ROOM:
+            raise
+        path = yield from ask(body, request, BasePath)
     return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
+
+
+def _around_people(body: Body, request: BasePathRequest) -> BasePathRequest:
+    """The same, keeping so clear of people that they do not stop the walk."""
+    world_map = request.around.map
+    people = tuple(
+        person
+        if person.id == body.companion
+        else msgspec.structs.replace(person, radius_m=person.radius_m + BESIDE_PEOPLE_M)
+        for person in world_map.people
+    )
+    wider = msgspec.structs.replace(world_map, people=people)
+    around = msgspec.structs.replace(request.around, map=wider)
+    return msgspec.structs.replace(request, around=around)
 
 
 def facing_the_way(start: Stance, path: BasePath, *, free_m: float) -> BasePath:

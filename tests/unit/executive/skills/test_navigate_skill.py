@@ -97,7 +97,8 @@ def test_what_is_beside_the_path_does_not_block(stage):
 
 
 def test_the_planners_failure_is_the_skills(stage):
-    stage.planner.failures[BasePathRequest] = [failure("goal_in_collision", "inside the table")]
+    inside = failure("goal_in_collision", "inside the table")
+    stage.planner.failures[BasePathRequest] = [inside, inside]
     report = stage.run(to(2.0, 0.0, 0.0))
     assert report.failure.code == "goal_in_collision"
     assert stage.commands(Walk) == []
@@ -149,12 +150,28 @@ def test_steps_are_relative_to_here(stage, step, goal):
 
 def test_a_short_step_frees_a_robot_that_touches_something(stage):
     touching = failure("start_in_collision", "its hand touches the table")
-    stage.planner.failures[BasePathRequest] = [touching]
+    stage.planner.failures[BasePathRequest] = [touching, touching]
     assert stage.run(NavigateParams(by=Step(forward_m=-0.3))).status == "succeeded"
     assert stage.puppet.X_WS.p[0] == pytest.approx(-0.3, abs=0.03)
-    stage.planner.failures[BasePathRequest] = [touching]
+    stage.planner.failures[BasePathRequest] = [touching, touching]
     report = stage.run(NavigateParams(by=Step(forward_m=1.0)))
     assert report.failure.code == "start_in_collision"
+
+
+def test_a_way_is_wide_around_people_unless_there_is_none_so_wide(stage):
+    asked, plan = [], stage.planner._path
+
+    def path(request):
+        asked.append(request.around.map.people[0].radius_m)
+        return plan(request)
+
+    stage.planner._path = path
+    own_m = stage.puppet.world_map.people[0].radius_m
+    assert stage.run(to(1.0, 0.0, 0.0)).status == "succeeded"
+    assert min(asked) > own_m
+    stage.planner.failures[BasePathRequest] = [failure("no_path", "somebody stands there")]
+    assert stage.run(to(0.0, 0.0, 0.0)).status == "succeeded"
+    assert asked[-1] == own_m
 
 
 def test_a_step_back_does_not_turn_around(stage):
