@@ -82,8 +82,9 @@ HALTS = {
     "dutch": "wacht,wacht even,pas op,voorzichtig,nee,genoeg,kijk uit,niet doen,niet dat,rustig",
     "filipino": "teka,teka lang,sandali,sandali lang,hintay,ingat,huwag,tama na,wag",
     "finnish": "odota,odottakaa,varo,varovasti,ei,riittää,riittaa,älä,ala tee,hetkinen",
-    "french": "attends,attendez,attention,fais attention,faites attention,doucement,non,"
-    "ça suffit,assez,un instant,un moment,une seconde,pas ça,pas celui-là,pas là,prudence,gare,"
+    "french": "pas si vite,attends,attendez,attention,fais attention,faites attention,doucement,"
+    "non,ça suffit,assez,un instant,un moment,une seconde,pas ça,pas celui-là,pas là,"
+    "prudence,gare,"
     "non non,touche pas,ne touche pas,laisse,laisse ça",
     "german": "warte,warten sie,wart mal,warte mal,moment,moment mal,einen moment,augenblick,"
     "vorsicht,vorsichtig,achtung,pass auf,passen sie auf,aufpassen,nein,nee,nö,genug,es reicht,"
@@ -99,7 +100,8 @@ HALTS = {
     "hungarian": "várj,várjon,várj egy kicsit,vigyázz,vigyázat,óvatosan,nem,elég,ne,ne azt",
     "indonesian and malay": "tunggu,tunggu sebentar,sebentar,awas,hati-hati,hati hati,tidak,tak,"
     "jangan,cukup,bukan itu,pelan-pelan",
-    "italian": "aspetta,aspetti,aspettate,attento,attenta,attenzione,fai attenzione,no,"
+    "italian": "piano piano,non così veloce,aspetta,aspetti,aspettate,attento,attenta,"
+    "attenzione,fai attenzione,no,"
     "un attimo,un momento,un secondo,non quello,non quella,non lì,non toccare,non farlo,occhio,"
     "calma,così no,lascia,lascia stare",
     "japanese": "待って,待ってください,待て,ちょっと待って,まって,危ない,あぶない,気をつけて,"
@@ -111,7 +113,8 @@ HALTS = {
     "persian": "صبر کن,مواظب باش,مراقب باش,نه,کافیه,بسه,نکن,sabr kon,movazeb bash,na,basse,nakon",
     "polish": "czekaj,poczekaj,zaczekaj,chwila,chwileczkę,uważaj,ostrożnie,uwaga,nie,dość,"
     "wystarczy,nie to,nie tam,zostaw,zostaw to",
-    "portuguese": "espera,espere,esperem,espera aí,espere aí,calma,cuidado,atenção,devagar,não,"
+    "portuguese": "não tão rápido,espera,espere,esperem,espera aí,espere aí,calma,cuidado,"
+    "atenção,devagar,não,"
     "nao,chega,já chega,um momento,um segundo,um instante,isso não,esse não,aí não,não faça isso,"
     "larga,deixa,não mexe,não toque,basta",
     "romanian": "așteaptă,asteapta,așteptați,stai puțin,stai putin,ai grijă,ai grija,atenție,"
@@ -119,8 +122,9 @@ HALTS = {
     "russian": "подожди,подождите,погоди,жди,осторожно,аккуратно,внимание,нет,не надо,не то,"
     "не туда,не трогай,хватит,достаточно,берегись,минутку,тише,podozhdi,pogodi,ostorozhno,"
     "ne nado,khvatit,hvatit,beregis,tishe",
-    "spanish": "espera,espere,esperen,espérate,aguarda,cuidado,ten cuidado,tenga cuidado,ojo,"
-    "atención,despacio,tranquilo,no,ya basta,suficiente,ya está,un momento,un segundo,momento,"
+    "spanish": "no tan rápido,espera,espere,esperen,espérate,aguarda,cuidado,ten cuidado,"
+    "tenga cuidado,ojo,atención,despacio,tranquilo,no,ya basta,suficiente,ya está,"
+    "un momento,un segundo,momento,"
     "eso no,ese no,así no,ahí no,no toques,no toques eso,no hagas eso,déjalo,suelta,no no",
     "swahili": "ngoja,subiri,subiri kidogo,angalia,tahadhari,hapana,inatosha,usifanye,polepole",
     "swedish": "vänta,vänta lite,akta,akta dig,se upp,försiktigt,nej,nog,det räcker,inte det,"
@@ -140,6 +144,7 @@ HALTS = {
 """What halts a robot that moves: wait, careful, no, enough, not that."""
 
 AROUND = (
+    "bhai,bhaiya,ji,yaar,arre,um pouco,un poco,un peu,un po',kurz,dulu,amigo,roboter,robô,"
     "please,now,robot,hey,oh,ah,ya,ahora,ya mismo,por favor,señor,oye,ey,agora,já,ja,jetzt,"
     "sofort,bitte,mal,doch,schon,maintenant,tout de suite,s'il te plaît,s'il vous plaît,svp,là,"
     "subito,ora,adesso,per favore,per piacere,nu,nå,nu direct,alsjeblieft,alstublieft,snälla,"

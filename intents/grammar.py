@@ -8,12 +8,13 @@ from typing import NamedTuple
 
 from intents.english.faithfulness import left_out, strings
 from intents.english.joining import carried
+from intents.english.offers import would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
 from intents.english.readings.asides import somebody_else
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Partly, Unclear, listing
+from intents.english.trouble import NotUnderstood, Offered, Partly, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.text import Text
 from intents.goals import (
@@ -70,6 +71,9 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
     goals = carried(goals)
+    help_ = None if goals or sentence.notes.forbidden else would_help(sentence)
+    if help_:
+        raise Offered(text.raw(0, len(text)), (help_,))
     if text.word(len(text) - 1) in _DANGLING and _acts(goals[-1:]):
         raise Unclear(f"“... {text.word(len(text) - 1)}” what?")
     if end < len(text):

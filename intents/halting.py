@@ -53,7 +53,7 @@ _PATTERNS = (
     r"wait (?!(?:for|in|at|by|near|next|outside|inside|behind|beside|on|over|with|and|then|about|"
     r"around|under|until|till|(?:a|an) (?:hour|quarter)|half|\d+|one|two|three|four|five|six|"
     r"seven|eight|nine|ten|fifteen|twenty|thirty|forty|sixty)\b).*",
-    rf"(?:(?:hold|hang) on|hang about|(?:just |only |give me |in )?(?:a|one|half a) {_SHORT_TIME})"
+    rf"(?:(?:hold|hang) on|hang about|(?:just |only |give me )?(?:a|one|half a) {_SHORT_TIME})"
     r"(?: (?:please|wait|i|you|that|there|no|not|stop|what|let|robot|before|we|it|now|a|just|one"
     r"|for)\b.*)?",
     r"(?:hold|stand) (?:fast|by|down|clear)|hold|stp|sto|stap|stahp|sotp",
@@ -74,7 +74,8 @@ _PATTERNS = (
     r"be (?:shy|late|afraid|long|slow)|give up|you (?:have|know|see|want|need)|let me down)\b)"
     r".*)?",
     # not that; "not at all", "not bad" are answers
-    r"not(?: (?!at all|bad|too bad|a problem|sure|only|much|just|everyone|everybody|enough)\b.*)?",
+    r"not(?: (?!.* but |at all|far |bad|too bad|a problem|sure|only|much|just|everyone|everybody|"
+    r"enough)\b.*)?",
     # that is wrong, that is enough
     r"(?:that|this|it|thats|its)(?: s| is)? (?:not (?!enough|bad|far|all)|(?:the )?wrong|enough|"
     r"too|dangerous|no good|mine\b|hot|bad|incorrect|a mistake|far enough|close enough).*",
@@ -95,6 +96,9 @@ _PATTERNS = (
     r"(?:watch|look) (?:out|it)(?: (?!(?:of|the window|through|a window|at|over)\b).*)?",
     r"(?:watch|mind|beware of|beware)(?: (?:yourself|out|(?:the|my|your|his|her|their|that|those|"
     r"this|these|our) \w+(?: \w+)?))?",
+    r"(?:watch|look|mind) where .*|eyes open|nobody move.*|do nothing|bear with me|gently does it|"
+    r"pause(?: (?:for )?(?:a|one) .*)?|i (?:have )?changed my mind",
+    r"i (?:do not|dont|did not|didnt) .*",
     r"heads up|(?:behind|above|below|beside|in front of) you|on your (?:left|right)",
     r"(?:back off|(?:get|stay|keep|stand) (?:off|away|back|clear))(?: (?:from|of) .*)?",
     # what is about to happen, and what has
@@ -105,6 +109,10 @@ _PATTERNS = (
     r"blocking|pushing|not supposed|not allowed).*",
     r"there(?:s| is| are| s)? .*(?:in front of|behind|beneath|below|under|next to|beside|near|over)"
     r" you",
+    r"(?:you|youre)(?: are| re)? \w+ing (?:on|my|me|it|him|her|too|into|over|against) ?.*",
+    r"(?:you|youve|you have|you ve) (?:got the wrong|missed|forgot|dropped|broke|hit|hurt)\b.*",
+    r"(?:that|it|this) hurts.*",
+    r"(?:the|my) \w+ is right (?:there|here|behind|in front|next|beside).*",
     rf"there(?:s| is| s)? (?:(?:a|an|the|my|some) )?{_SIGHTS}\b.*",
     r"(?:ouch|ow+|oops|oopsie|whoops|yikes|ahh+|aah+|argh+|eek|uh oh|oh no+|oh god|my god|"
     r"oh my god|oh shit|oh dear|danger|dangerous|fire|attention|sos|hazard|collision|help help|yo)"

@@ -13,7 +13,7 @@ from intents.allowed import excess
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
-from intents.english.trouble import Partly, ReadingError, Unclear
+from intents.english.trouble import Offered, Partly, ReadingError, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.names import index_of
@@ -197,9 +197,10 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
 
 
 def _partly(text: str, partly: Partly) -> Question:
-    """Ask whether to do what was understood."""
+    """Ask whether to do what was understood, or what would help."""
+    just = "" if isinstance(partly, Offered) else "just "
     return Question(
-        question=f"{_sentence(str(partly))}. Shall I just {in_words(partly.goals)}?",
+        question=f"{_sentence(str(partly))}. Shall I {just}{in_words(partly.goals)}?",
         choices=YES_OR_NO,
         goals=partly.goals,
         text=text,

@@ -64,7 +64,7 @@ _NOT_A_CRY = re.compile(
 _GOES_ON = words("and then to the a an next every each last first this that bus train tram")
 """Before a last word "stop" these make it a step of a plan, or a noun."""
 _ON_THE_WAY = re.compile(
-    r"^\s*(?:by|at|in|over|off|near|beside|outside|behind|next\s+to|in\s+front\s+of)\s+"
+    r"^\s*(?:by|at|in|over(?:\s+at)?|off|near|beside|outside|behind|next\s+to|in\s+front\s+of)\s+"
     r"(?:the|my|your|our|a|an|his|her)\b"
 )
 """Stop *by the kitchen* is an errand."""
@@ -76,9 +76,10 @@ _TO_THE_COLD = re.compile(r"^\s+(?:the|my|our|some|these|those)\s+(?!robot|motor
 _STAYING = (
     "stand still", "hold still", "keep still", "stay still", "be still", "stand there",
     "stand here", "stay there", "stay here", "stay put", "stay where you are", "stay right there",
-    "stay right here", "stand where you are", "stop where you are", "remain there", "remain here",
-    "remain where you are", "hold your position", "hold position", "don't go on", "do not go on",
-    "don't walk", "do not walk", "stay",
+    "stay right here", "stay right where you are", "stand where you are", "stop where you are",
+    "remain there", "remain here", "remain where you are", "hold your position", "hold position",
+    "don't go on",
+    "do not go on", "don't walk", "do not walk", "stay",
 )  # fmt: skip
 """Wishes that a robot stay where it is: a stop to one that moves, else a task."""
 _AROUND = _BEFORE | words("right there here then thanks thank that's it stay")

@@ -80,6 +80,8 @@ def undone(text: str, goals: tuple[Goal, ...], before: RobotState, now: RobotSta
         if isinstance(steps, str):
             return steps
         found += [step for step in steps if step not in found]
+    if _walked(goals) and before.view is None and not found:
+        return "I do not know where I stood before that."
     if not (found or walks):
         return "Nothing of that is left to undo."
     return (*found, *walks)
@@ -132,8 +134,11 @@ def _both(
 
 def _walk_back(goals: tuple[Goal, ...], before: RobotState) -> tuple[Goal, ...]:
     """To where the robot was, if it was sent somewhere."""
-    walked = any(isinstance(goal, GoTo | Follow | Guide) for goal in goals)
-    return _pose(before) if walked else ()
+    return _pose(before) if _walked(goals) else ()
+
+
+def _walked(goals: tuple[Goal, ...]) -> bool:
+    return any(isinstance(goal, GoTo | Follow | Guide) for goal in goals)
 
 
 def _pose(before: RobotState) -> tuple[Goal, ...]:

@@ -47,7 +47,7 @@ MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the object."""
 LEAST_LOAD = 0.3
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
-PICK_S = 14.0
+PICK_S = 11.0
 """Of a typical pick, the walk there left out: for the forecast."""
 
 

@@ -46,7 +46,7 @@ OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
-PLACE_S = 14.0
+PLACE_S = 12.0
 """Of putting down, the walk there left out: for the forecast."""
 
 

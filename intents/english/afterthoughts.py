@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
 from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
 from intents.english.clauses.wishes import asks_end
+from intents.english.corrections import retraction_end
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
@@ -18,16 +19,13 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
 
-_RETRACTS = lexicon.phrases("leave it,leave that,leave them,leave it be,leave it alone,let it be")
-
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Pick up the cup, no, *leave it*: what was asked last is not to be done."""
     text = sentence.text
-    end = text.phrase_end(_RETRACTS, at)
-    closed = end is not None and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
+    end = retraction_end(text, at)
     apart = text.word(at - 1) in (COMMA, FULL_STOP, "no")
-    return ([], end) if end and closed and apart and last else None
+    return ([], end) if end and apart and last else None
 
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -35,6 +35,15 @@ def _marker_end(text: Text, at: int) -> int | None:
     return end if end < len(text) else None
 
 
+_RETRACTS = phrases("leave it,leave that,leave them,leave it be,leave it alone,let it be")
+
+
+def retraction_end(text: Text, at: int) -> int | None:
+    """Where a clause ends that leaves what was asked undone: "leave it"."""
+    end = text.phrase_end(_RETRACTS, at)
+    return end if end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)) else None
+
+
 def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """The red cup, *no the blue one*: looked for before "no" is passed over as an opening."""
     text = sentence.text
@@ -59,6 +68,9 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     end = _marker_end(text, at) or _told_apart(text, at, scope.object) or _meant(text, at)
     if end is None:
         return None
+    undone = retraction_end(text, end)
+    if undone:
+        return [], undone
     if verbs_at(text.words, end):
         return clause_by_itself(sentence, end)
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)

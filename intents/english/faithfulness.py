@@ -100,8 +100,9 @@ class _Told:
 
     def __init__(self, goals: tuple[Goal, ...]) -> None:
         self.goals = goals
-        self.values = {value.lower() for value in _strings(to_builtins(goals))}
-        self.numbers = [abs(n) for n in _numbers(to_builtins(goals))]
+        plain_goals = to_builtins(goals)
+        self.values = {value.lower() for value in _strings(plain_goals)}
+        self.numbers = [abs(n) for n in _numbers(plain_goals)]
         plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
         self.words = {*plain, *map(singular, plain)}
         self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
@@ -151,9 +152,13 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
         return verb, True
     if word in _CARRYING:
         return at + 1, told.speaks or _word_carried(text, at, told)
-    known = lexicon.LISTED | GRAMMAR_WORDS
-    plain = word in known or base_form(word) in known or participle_base(word) in known
-    return at + 1, plain or told.speaks
+    return at + 1, told.speaks or _is_listed(word)
+
+
+def _is_listed(word: str) -> bool:
+    """Whether the grammar knows a word, in whatever form."""
+    forms = (word, base_form(word), participle_base(word))
+    return any(form in lexicon.LISTED or form in GRAMMAR_WORDS for form in forms)
 
 
 def _word_carried(text: Text, at: int, told: _Told) -> bool:
@@ -192,6 +197,8 @@ def _quantity_carried(text: Text, at: int, told: _Told) -> bool:
         pair = word == "both" and (2 in told.numbers or len(told.goals) > 1)
         fixed = text.word(at + 1) in ("the", "right", "in", "of")
         return told.several() or pair or fixed or not _before_noun(text, at + 1)
+    if word in ("except", "besides"):
+        return "'except':" in str(to_builtins(told.goals))
     if word == "none":
         return told.has(If)
     return word == "most" and bool(told.words & _SUPERLATIVE_WORDS)
@@ -222,7 +229,9 @@ def _whole_of(text: Text, at: int, end: int, told: _Told) -> bool:
     match = text.name_at(at)
     if match is None or not match.of("place", "room"):
         return False
-    before = at - 1
+    before = at - 1 - (text.word(at - 1) in lexicon.DETERMINERS)
+    if not match.of("room") and text.word(before) in ("in", "into"):
+        return False  # on the sofa in the wardrobe: one of them is where to
     while before >= 0 and text.word(before) in _LINKS:
         before -= 1
     if told.name(*(n.name for n in text.index.partial(text.word(before)))):

@@ -5,6 +5,7 @@ Trouble
 ├── NotUnderstood  understood well enough to know that it cannot be done
 └── Unclear        could be done if one thing were known
     ├── Partly     some of it is understood and some is not
+    │   └── Offered    it only tells something that something can be done about
     └── Doubtful   a name that is not known is like one that is
 """
 
@@ -60,6 +61,10 @@ class Partly(Unclear):
     def __init__(self, reason: str, goals: tuple[Goal, ...]) -> None:
         super().__init__(reason)
         self.goals = goals
+
+
+class Offered(Partly):
+    """Nothing was asked for, and something could be done about what was told."""
 
 
 class Doubtful(Unclear):

@@ -329,15 +329,16 @@ class _Steering:
 
     def estop(self, rest: str) -> None:
         latch = self._shell.robot.executive.estop
-        if rest == "release":
+        if rest in ("release", "reset") and not latch.latched:
+            self._shell.out("The emergency stop is not on; the robot may move.")
+        elif rest == "release":
             latch.release()
             self._shell.out("Released; `estop reset` lets the robot move again.")
         elif rest == "reset":
             latch.reset()
             self._shell.out("The robot may move again.")
         else:
-            self._shell.speech.hush()
-            latch.press("the operator pressed the emergency stop")
+            self._shell.press()
             self._shell.out("Emergency stop. `estop release`, then `estop reset`, undo it.")
 
     def cancel(self, rest: str) -> None:

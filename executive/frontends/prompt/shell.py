@@ -103,7 +103,7 @@ class Shell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
-        text = bare(without_sequences(text)).strip()
+        text = _plain(text)
         if text.startswith("estop"):
             self.commands["estop"].run(text.removeprefix("estop").strip())
             return True
@@ -111,6 +111,20 @@ class Shell:
             return False
         self.stop("the operator said stop")
         return True
+
+    def is_emergency(self, text: str) -> bool:
+        """Whether a line is about the emergency stop; unless it undoes that, it is pressed here."""
+        name, *rest = _plain(text).split(maxsplit=1) or [""]
+        if not name.startswith("estop"):
+            return False
+        if rest not in (["release"], ["reset"]):
+            self.press()
+        return True
+
+    def press(self) -> None:
+        """Press the emergency stop; from any thread."""
+        self.speech.hush()
+        self.robot.executive.estop.press("the operator pressed the emergency stop")
 
     @property
     def asks(self) -> bool:
@@ -465,3 +479,8 @@ def number_of(text: str) -> int:
     if not (text.isdecimal() and len(text) <= MOST_DIGITS):
         raise JobError(f"{shown(text)} is no job's number; `goals` shows them")
     return int(text)
+
+
+def _plain(text: str) -> str:
+    """A line without what cannot be seen."""
+    return bare(without_sequences(text)).strip()

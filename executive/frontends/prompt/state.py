@@ -11,6 +11,7 @@ from executive.journal import failures
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.meaning.tasks import SKILLS
+from intents.relations import Viewpoint
 from intents.state import RobotState
 from robot.link import BodyLink
 
@@ -22,8 +23,12 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
     over = [job for job in jobs if job.state in OVER]
     power = link.power()
     state = state_of(executive.board, knowledge, skills=SKILLS)
+    start = knowledge.map.start_X_WS
+    x_m, y_m, _ = start.p
     return replace(
         state,
+        # before the first tick nothing is known yet of where it stands but that
+        view=state.view or Viewpoint(x_m=x_m, y_m=y_m, yaw_rad=start.yaw_rad),
         doing=under_way[0].text if under_way else "",
         worked_s=_worked_s(under_way[0], executive.board.read(NOW)) if under_way else None,
         step=state.step if under_way else "",

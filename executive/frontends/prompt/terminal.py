@@ -209,8 +209,10 @@ class Terminal:
     def _is_cry(self, line: str) -> bool:
         """Whether a line is to stop something, for all that the prompt has not read it yet.
 
-        One to halt is heeded here; what it says besides is read as any line is.
+        One to halt is heeded here, as the emergency stop is; what they say is told as of any line.
         """
+        if self._shell.is_emergency(line):
+            return False
         if self._busy and (self._shell.is_cry(line) or is_stay(line)):
             return True
         self._shell.halt_at_once(line, busy=self._busy)

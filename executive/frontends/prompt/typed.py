@@ -13,6 +13,10 @@ KEPT = 4096
 """Bytes of a line that are kept: a cry stands at its beginning or its end."""
 
 
+_REPORT = re.compile(rb"\x1b\[\d+;\d+R")
+"""Where the cursor is, as the terminal answers the library, in between what people type."""
+
+
 class Typed:
     """Follows what is typed, byte by byte, and says which lines were entered.
 
@@ -34,7 +38,7 @@ class Typed:
         A line with keys in it that are no letters is several: what follows an escape may be meant
         as text or not, and what follows the last such key may be meant by itself.
         """
-        *ended, rest = re.split(rb"[\r\n]", self._line + data)
+        *ended, rest = re.split(rb"[\r\n]", _REPORT.sub(b"", self._line + data))
         self._line = rest if len(rest) <= KEPT else rest[: KEPT // 2] + rest[-KEPT // 2 :]
         return [text for line in ended for text in _readings(line)]
 

@@ -44,11 +44,12 @@ class Committed:
         """The stance X_WS as it will be when what is told now reaches it."""
         while self._told and self._told[0][0] < now_s - self._lag_s:
             self._told.popleft()
+        ahead = X_WS
         ends_s = [*(since_s for since_s, _ in self._told), now_s][1:]
-        for (since_s, twist), end_s in zip(self._told, ends_s, strict=False):
+        for (since_s, twist), end_s in zip(self._told, ends_s, strict=True):
             dt_s = end_s - since_s
-            X_WS = X_WS @ SE3.from_xy_yaw(*(rate * dt_s for rate in twist))
-        return X_WS
+            ahead = ahead @ SE3.from_xy_yaw(*(rate * dt_s for rate in twist))
+        return ahead
 
 
 def _near(before: float, wanted: float, most: float) -> float:

@@ -136,12 +136,13 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
     follower = Follower(stance_of(body.X_WS), path.waypoints, walking=gait, speeds_m_s=speeds_m_s)
     committed = Committed(gait)
     watch = _Watch(body, follower.total_m)
-    X_WS = body.X_WS
-    while not is_there(X_WS, follower, path.waypoints[-1]):
+    while not is_there(
+        ahead := committed.ahead(body.X_WS, now_s=body.now_s), follower, path.waypoints[-1]
+    ):
         check_grips(body)
-        twist = follower.twist(X_WS)
+        twist = follower.twist(ahead)
         if follower.done:
-            twist = turn_towards(wrap_angle(path.waypoints[-1][2] - X_WS.yaw_rad), gait)
+            twist = turn_towards(wrap_angle(path.waypoints[-1][2] - ahead.yaw_rad), gait)
         committed.told(_walk(body, twist), now_s=body.now_s)
         body.progress = 1.0 - follower.remaining_m / follower.total_m
         watch.look_ahead(follower)
@@ -150,7 +151,6 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
         if blocker is not None:
             return blocker
         yield
-        X_WS = committed.ahead(body.X_WS, now_s=body.now_s)
     return None
 
 

@@ -32,7 +32,7 @@ _PASTS = lexicon.words(
     "said told took went got left put came saw made gave found thought knew bought brought lost "
     "broke fell forgot kept ran sat stood sold sent spoke spent wrote ate drank slept felt held "
     "heard met paid read shut hurt cut let set rang began became began stole spilt spilled threw "
-    "tore woke won wore hid drove flew drew grew blew used meant"
+    "died froze stuck tore woke won wore hid drove flew drew grew blew used meant"
 )
 _SAME_IN_PAST = lexicon.words("put set let shut cut read hit spread cast hurt quit")
 """Verbs whose past is no other word: "I took the cup, put it down, ..." goes on telling."""
@@ -75,9 +75,12 @@ def _verb_of(text: Text, at: int) -> int | None:
             return None
     if not (word in _OWNERS or word in _SUBJECTS or text.name_at(at) or _is_subject(text, at)):
         return None
-    for n in range(at + 1, min(at + _REACH, len(text))):
+    named = word in _OWNERS or word in _SUBJECTS or text.name_at(at) is not None
+    for n in range(at + 1, min(at + (_REACH if named else 3), len(text))):
         if text.word(n) in (COMMA, FULL_STOP, QUOTE):
             return None
+        if text.word(n) in _OWNERS and text.word(n - 1) not in lexicon.FUNCTION_WORDS:
+            return None  # water the plants
         m = _past_adverbs(text, n)
         if _states(text, m) and not _owns(text, m):
             return m

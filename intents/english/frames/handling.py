@@ -220,6 +220,8 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     where = bare.phrases[-1].places[-1:] if bare else []
     wishes = clause.verb.startswith(_WISHES) and not clause.with_role("for", "from")
     on = bool(where) and where[0].how in ("on", "in") and where[0].of.is_spot
+    if where and where[0].how is None and where[0].of.name("place"):
+        return wishes  # I need a screwdriver at the workbench
     definite = bare is not None and all(
         one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
     )

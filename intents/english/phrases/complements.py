@@ -135,7 +135,7 @@ def ends_clause(text: Text, at: int) -> bool:
         return True
     if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
         return True
-    if word in ("except", "excluding") or (word == "without" and text.word(at + 1).endswith("ing")):
+    if word == "without" and text.word(at + 1).endswith("ing"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
 

@@ -8,7 +8,7 @@ is for; `referents.py` turns it into an object, a person or a place.
 
 from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
-from intents.english.phrases.phrase import Locative, NounPhrase, is_content
+from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
@@ -40,6 +40,10 @@ _LYING_AROUND = lexicon.words(
 
 _BOARDS = lexicon.words("board shelf level tier compartment rack row")
 """What a piece of furniture has one above the other."""
+_EXCEPT = lexicon.phrases(
+    "except,except for,apart from,other than,excluding,save for,aside from,"
+    "with the exception of,not counting,leaving out"
+)
 _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
 
@@ -199,11 +203,8 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most:
         phrase.superlative, end = most
         return end
-    aside = (
-        _color_behind(text, phrase, at)
-        or _aside(text, phrase, at)
-        or _at_its_side(text, phrase, at)
-    )
+    behind = (_color_behind, _except, _aside, _at_its_side)
+    aside = next((end for read in behind if (end := read(text, phrase, at))), None)
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
@@ -217,6 +218,22 @@ def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     phrase.color = text.index.colors[text.word(at)]
     return at + 1
+
+
+def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """All pens *except the red ones*; every dish *but the bowl*."""
+    start = text.phrase_end(_EXCEPT, at)
+    whatever = phrase.count == "all" or phrase.said in SOMETHING
+    if start is None and text.word(at) == "but" and whatever:
+        start = at + 1
+    thing = phrase.noun == "object" or phrase.name("object", "category")
+    inner = bare_phrase(text, start) if start and thing else None
+    if inner and start and inner.noun == "one" and not (inner.color or inner.size):
+        inner = noun_phrase(text, start)  # apart from the one on the desk
+    if inner is None or inner.is_person or inner.is_spot:
+        return None
+    phrase.without = inner
+    return inner.end
 
 
 def _equipped(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -50,6 +50,7 @@ class NounPhrase:
         places: Where it is, in the order said.
         other: It is the one that was not spoken of.
         part: Which part of it is meant: "the other end of the table".
+        without: What of it is not meant: "all cups except the red one".
         where: What was said, if the phrase is a place by what is there: "where the cup is".
     """
 
@@ -74,6 +75,7 @@ class NounPhrase:
     other: bool = False
     where: str = ""
     part: Part | None = None
+    without: "NounPhrase | None" = None
 
     @property
     def is_person(self) -> bool:
@@ -117,7 +119,7 @@ _NO_NOUN = (
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "twice thrice closed opened need needs belong belongs only ends lands winds "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
-                    "moved brought lie know too went using instead rather")
+                    "moved brought lie know too went using instead rather except excluding apart")
 )  # fmt: skip
 
 

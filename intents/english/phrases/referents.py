@@ -137,10 +137,17 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         count=phrase.count or (1 if _is_any(phrase) else None),
         at=at,
         relation=relation,
+        except_=_without(phrase.without, scope) if phrase.without else None,
     )
     if relation and name and relation.how in ("in", "on") and relation.of.name == name:
         raise NotUnderstood(f"I do not know what is in the {name}")
     return _other(query, phrase.said, scope) if phrase.other else query
+
+
+def _without(phrase: NounPhrase, scope: Scope) -> ObjectQuery:
+    """What is not meant; "the red ones" are told by their colour alone."""
+    query = replace(to_object(phrase, scope), count=None)
+    return replace(query, name=None, category=None) if phrase.noun == "one" else query
 
 
 def _other(query: ObjectQuery, said: str, scope: Scope) -> ObjectQuery:

@@ -54,7 +54,8 @@ _TAILS = lexicon.phrases(
     "already,pronto,chop chop,sharpish,on the double,stat,quick smart,this instant,this minute,"
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
     "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
-    "and hurry up,and be quick,and be quick about it,and step on it,and quick,and quickly,"
+    "and hurry up,and nothing else,and nothing more,and be quick,and be quick about it,"
+    "and step on it,and quick,and quickly,"
     "there is a good chap,there is a good lad,there is a good girl,there is a good boy,"
     "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
@@ -64,7 +65,11 @@ _TAILS = lexicon.phrases(
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
-_SMALL = lexicon.phrases("exactly,at least,at most,up to,no more than,not more than,precisely")
+_SAYING = lexicon.words("say tell announce shout whisper repeat answer ask sing")
+_SMALL = lexicon.phrases(
+    "exactly,at least,at most,up to,no more than,not more than,about,roughly,around,approximately,"
+    "for about,precisely"
+)
 _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
@@ -83,6 +88,8 @@ _LONGEST = 20
 
 def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
     """Where a courtesy ends that begins at a word; ``kept`` are the words kept before it."""
+    if not _SAYING.isdisjoint(kept):
+        return None  # say thank you: that is what is to be said
     begins = not kept or kept[-1] in (*_SIGNS, "and", "so", "well", "then")
     return (
         _gracious(words, at)

@@ -216,7 +216,8 @@ FILLERS = phrases(
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 _OPENINGS = phrases(
-    "can you,could you,would you,will you,can you please,would you mind,do you mind,"
+    "can somebody,can someone,could somebody,could someone,can anyone,could anyone,would someone,"
+    "would somebody,can you,could you,would you,will you,can you please,would you mind,do you mind,"
     "would you be able to,are you able to,is it possible for you to,is it possible to,"
     "would it be possible to,would it be possible for you to,i want you to,i would like you to,"
     "i need you to,i would love you to,i would love for you to,i would like for you to,"

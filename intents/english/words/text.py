@@ -130,11 +130,13 @@ def _without_name(tokens: list[Token], index: NameIndex) -> list[Token]:
 def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     words = [t.text for t in tokens]
     kept: list[Token] = []
+    said: list[str] = []
     at = 0
     while at < len(tokens):
+        said += [token.text for token in kept[len(said) :]]
         end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
-        end = max(end or 0, courtesy_end(words, at, kept=[t.text for t in kept]) or 0) or None
-        if end is None or index.match(words, at):
+        end = max(end or 0, courtesy_end(words, at, kept=said) or 0) or None
+        if end is None or index.match(words, at) or said[-1:] == ["say"]:
             kept.append(tokens[at])
             at += 1
             continue

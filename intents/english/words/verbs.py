@@ -76,7 +76,7 @@ SPELLINGS: dict[str, str] = {
         "i could murder,i would kill for,i am after,i am wanting,i am needing,"
         "could i trouble you for,can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
-        "i am in need of,do you have,i like,i crave,me want,me need"
+        "i am in need of,do you have,have you got,i like,i crave,me want,me need"
     ),
     "follow": (
         "follow,go after,come after,go behind,come behind,go along with,go with,come with,"

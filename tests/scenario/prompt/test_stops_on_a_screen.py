@@ -113,6 +113,20 @@ def test_the_late_end_of_a_paste_is_no_text(evening: Evening):
     evening.press(CTRL_U)
 
 
+@pytest.mark.parametrize("walks", [True, False])
+def test_the_emergency_stop_is_more_than_a_stop(evening: Evening, walks: bool):
+    if walks:
+        evening.walk()
+    evening.press(f"estop{ENTER}")
+    assert evening.shows("Emergency stop. `estop release`"), evening.text
+    evening.press(f"status{ENTER}")
+    assert evening.shows("the operator pressed the emergency stop"), evening.text
+    evening.press(f"estop release{ENTER}")
+    assert evening.shows("Released; `estop reset`"), evening.text
+    evening.press(f"estop reset{ENTER}")
+    assert evening.shows("The robot may move again."), evening.text
+
+
 def test_it_leaves_last(evening: Evening):
     evening.press(CTRL_D)
     assert eventually(lambda: evening.process.poll() is not None)

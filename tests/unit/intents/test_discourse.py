@@ -106,3 +106,26 @@ def _goals(said: str) -> object:
     outcome = parse(said, HOME)
     assert isinstance(outcome, Goals), outcome
     return outcome.goals
+
+
+@pytest.mark.parametrize(
+    ("said", "offered"),
+    [
+        ("I'm cold", "blanket"),
+        ("Leo is thirsty", "bottle"),
+        ("we are out of bottles", "bottle"),
+        ("it's dark in here", "switch on"),
+    ],
+)
+def test_what_would_help_is_offered(said: str, offered: str) -> None:
+    outcome = parse(said, HOME)
+    assert isinstance(outcome, Question), outcome
+    assert outcome.kind == "confirmation"
+    assert offered in outcome.question
+
+
+@pytest.mark.parametrize("words", ["thank you", "no, thanks", "that is all", "okay, love"])
+def test_what_is_to_be_said_is_said_whole(words: str) -> None:
+    outcome = parse(f"say {words}", HOME)
+    assert isinstance(outcome, Goals), outcome
+    assert words.split(",", maxsplit=1)[0].rsplit(maxsplit=1)[-1] in str(outcome.goals)

@@ -23,12 +23,16 @@ CRIES = (
     "look out!", "watch your step", "mind the cat!", "watch the vase", "behind you!", "back off",
     "stay away from the baby", "get back", "you're going to fall!", "the lamp is about to tip over",
     "you're dropping it", "there's a child in front of you", "ouch", "oh no", "help!", "danger",
+    "gently does it", "you've got the wrong one", "that hurts", "you're stepping on my foot",
+    "watch where you're going", "the dog is right there", "I changed my mind", "nobody move",
+    "stay right where you are", "ruko bhai", "espere um pouco", "pas si vite", "un momento",
     "wiat", "carefull", "enogh", "Juno, wait", "juno wait", "hey robot, careful",
 )  # fmt: skip
 ERRANDS = (
     "hold the cup", "hold the tray with both hands", "hold out your hand", "hold hands with me",
     "wait for me at the door", "wait in the kitchen", "wait ten seconds",
     "wait five seconds and then go to the table", "no rush, bring me the book",
+    "not far from the table there is a ball, bring it", "stop over at the counter and wave",
     "no problem, take the green one", "no cups on the shelf, look on the table",
     "don't forget the box", "don't worry", "don't stop", "never stop", "not bad", "not at all",
     "watch me", "look out of the window", "watch over the baby", "stay in the kitchen",
