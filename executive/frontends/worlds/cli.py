@@ -37,11 +37,12 @@ def new(
     ],
     seed: Seed = 0,
     rooms: Annotated[
-        int | None, typer.Option("--rooms", help="How many rooms, up to 16 (default: as usual).")
+        int | None,
+        typer.Option("--rooms", min=2, max=16, help="How many rooms (default: as usual)."),
     ] = None,
     things: Annotated[
         int | None,
-        typer.Option("--things", help="How many things, 9 to 400 (default: as usual)."),
+        typer.Option("--things", min=9, max=400, help="How many things (default: as usual)."),
     ] = None,
     output: Annotated[
         Path | None,
