@@ -21,6 +21,9 @@ from robot.yaml_nodes import Node
 
 MOST_HOMES = 1000
 MOST_SEED = 999_999_999
+SEARCH_S = 30.0
+"""Of robot time for each surface: who looks for what is gone looks on all of them, and in an office
+with 32 was not through after 420 s."""
 HOW = "--homes flat:7,office:8, or a number of homes"
 AT_HOME_ONLY = "it is written for one home: it names no role (docs/evaluation.md)"
 
@@ -127,8 +130,13 @@ def _moved(case: Case, entry: Node, name: str, cast: Cast, settings: Settings) -
         if role not in cast.roles:
             return cast.vacant.get(role, f"nobody plays the role {role!r} there")
     filled = config.convert(_alone(roles.filled(entry, cast.roles)), Campaign).cases[0]
+    surfaces = sum(not place.floor for place in settings.of(name).world_map.places)
     there = msgspec.structs.replace(
-        filled, name=f"{case.name} in {name}", world=name, origin=case.name
+        filled,
+        name=f"{case.name} in {name}",
+        world=name,
+        origin=case.name,
+        limit_s=max(filled.limit_s, SEARCH_S * surfaces),
     )
     problems = campaign.problems_of(there, settings)
     return problems[0] if problems else there

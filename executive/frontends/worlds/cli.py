@@ -38,7 +38,7 @@ def new(
     seed: Seed = 0,
     rooms: Annotated[
         int | None,
-        typer.Option("--rooms", min=1, max=16, help="How many rooms (default: as usual)."),
+        typer.Option("--rooms", min=2, max=16, help="How many rooms (default: as usual)."),
     ] = None,
     things: Annotated[
         int | None,

@@ -106,6 +106,7 @@ def test_every_fault_finds_its_roles_in_an_office():
         assert case.name == f"{before.name} in {OFFICE}"
         assert (case.world, case.expect, case.why) == (OFFICE, before.expect, before.why)
         assert case.start is not None
+        assert case.limit_s > before.limit_s  # of an office one may look at all surfaces
         assert "red cup" not in case.mission
 
 
