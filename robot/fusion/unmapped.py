@@ -7,13 +7,14 @@ scan of its own: the nearest strange thing in each column.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robot.messages import DepthImage, LidarScan, Obstacle, Shape
-from robot.se3 import SE3, Array
+from robot.se3 import SE3, Array, Vector3
 
 NEAR_MAP_M = 0.10
 NEAR_MAP_SHARE = 0.03
@@ -31,6 +32,8 @@ LOW_M, HIGH_M = 0.12, 1.4
 NEAR_SELF_M = 0.62
 """Nearer to the middle of the body, the camera may see the robot's own arms and what they hold."""
 DEPTH_RANGE_M = 2.5
+ARM_M = 0.2
+"""About an arm and a hand: half of a held bottle or box, and the lag of the pose."""
 
 
 @dataclass
@@ -60,6 +63,7 @@ class UnmappedObstacles:
         self._boxes: Array = np.zeros((0, 6))
         self._clusters: list[_Cluster] = []
         self._count = 0
+        self._arms: Array = np.zeros((0, 2, 2))
 
     def know(self, obstacles: tuple[Obstacle, ...]) -> None:
         """Take the map: footprints of every shape, as (x, y, cos, sin, half x, half y)."""
@@ -71,6 +75,14 @@ class UnmappedObstacles:
                 half = (0.5 * shape.size_m[0], 0.5 * shape.size_m[1])
                 rows.append((X_WS.p[0], X_WS.p[1], math.cos(yaw), math.sin(yaw), *half))
         self._boxes = np.array(rows, dtype=np.float64).reshape(-1, 6)
+
+    def feel(self, X_WB: SE3, hands_W: Iterable[Vector3]) -> None:
+        """Take where the robot's arms are: about the lines on the floor from the body to the hands.
+
+        An arm that is stretched out, and what it holds, is seen beyond the body; taken for somebody
+        else's, the held thing touched itself wherever it went.
+        """
+        self._arms = np.array([[X_WB.p[:2], p_W[:2]] for p_W in hands_W]).reshape(-1, 2, 2)
 
     def forget(self) -> None:
         """Take back all that was seen: it was placed by a pose that was wrong."""
@@ -94,7 +106,7 @@ class UnmappedObstacles:
 
     def _take(self, points: Array, stamp_s: float) -> None:
         """Group strange hits, shape (k, 2), into clusters; forget what was not seen for long."""
-        for group in _groups(points):
+        for group in _groups(points[~self._is_own(points)]):
             self._merge(group.min(axis=0), group.max(axis=0), stamp_s)
         self._clusters = [one for one in self._clusters if stamp_s - one.seen_s < self._forget_s]
 
@@ -120,6 +132,15 @@ class UnmappedObstacles:
         keep = (points[:, 2] > MIN_HEIGHT_M) & (points[:, 2] < MAX_HEIGHT_M)
         keep &= self._strange(points, NEAR_MAP_M + NEAR_MAP_SHARE * ranges)
         return points[keep, :2]
+
+    def _is_own(self, points: Array) -> NDArray[np.bool_]:
+        """Which points, shape (k, 2), are of the robot's arms or of what its hands hold."""
+        own = np.zeros(len(points), dtype=bool)
+        for begin, end in self._arms:
+            line = end - begin
+            along = np.clip((points - begin) @ line / max(float(line @ line), 1e-9), 0.0, 1.0)
+            own |= np.linalg.norm(points - begin - along[:, None] * line, axis=1) < ARM_M
+        return own
 
     def _strange(self, points: Array, margin_m: Array) -> NDArray[np.bool_]:
         """Which points lie in or near no footprint of the map, shape (k,)."""

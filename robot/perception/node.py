@@ -132,6 +132,7 @@ class PerceptionNode(Closing):
         elif isinstance(message, LidarScan) and self._known is not None:
             X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
             if X_WLidar is not None:
+                self._feel(self._unmapped)
                 self._unmapped.see(message, X_WLidar)
 
     def _locate(self, fix: PoseFix) -> None:
@@ -152,8 +153,16 @@ class PerceptionNode(Closing):
         X_WC, X_NB = self._site_in_world(self._camera, image.stamp_s), self._history.newest
         if X_WC is not None and X_NB is not None and self._known is not None:
             self._looked_s = image.stamp_s
+            self._feel(self._in_view)
             self._in_view.see_depth(image, X_WC, self._localiser.X_WN @ X_NB.X_NB)
             self._looked.see(image, X_WC)
+
+    def _feel(self, obstacles: UnmappedObstacles) -> None:
+        """Tell where the robot's own arms are, which the sensors see as well."""
+        if (newest := self._history.newest) is not None:
+            X_WN = self._localiser.X_WN
+            hands_W = [(X_WN @ hand.X_NG).p for hand in newest.hands.values()]
+            obstacles.feel(X_WN @ newest.X_NB, hands_W)
 
     def _depth_at(self, stamp_s: float) -> DepthImage | None:
         depth = self._depth

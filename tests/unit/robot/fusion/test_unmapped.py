@@ -109,6 +109,15 @@ def test_the_robots_own_hands_are_not_obstacles(unmapped):
     assert look(unmapped, [(0.28, 0.1, 0.04)], scans=5) == ()
 
 
+def test_an_arm_that_is_stretched_out_and_what_it_holds_is_no_obstacle(unmapped):
+    out = [(0.55, 0.15, 0.06)]
+    assert look(unmapped, out)
+    unmapped.forget()
+    unmapped.feel(SE3(), [(0.5, 0.15, 0.9), (0.2, -0.2, 0.8)])
+    assert look(unmapped, out, begin_s=1.0, scans=5) == ()
+    assert look(unmapped, [*out, (0.6, -0.6, 0.25)], begin_s=2.0)  # somebody beside the arm is one
+
+
 def test_an_empty_scan_and_an_empty_map_are_fine():
     unmapped = UnmappedObstacles(body_radius_m=0.27)
     assert look(unmapped, []) == ()
