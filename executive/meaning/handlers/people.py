@@ -53,7 +53,9 @@ def greet(goal: goals.Greet, scene: Scene) -> Part:
     if goal.person == goals.Person():
         return Errand(name="say hello", params=SayParams(text="Hello."))
     found = scene.person(goal.person)
+    way = (go_to_person(goal.person, scene),) if goal.person.name is not None else ()
     parts = (
+        *way,
         Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id)),
         Errand(name="say hello", params=SayParams(text=f"Hello, {found.name}.")),
     )
@@ -62,6 +64,8 @@ def greet(goal: goals.Greet, scene: Scene) -> Part:
 
 def meet(goal: goals.Meet, scene: Scene) -> Part:
     """Walk up to somebody and say hello."""
+    if goal.person.name is not None:
+        return greet(goals.Greet(person=goal.person), scene)
     approach = go_to_person(goal.person, scene)
     hello = greet(goals.Greet(person=goal.person), scene)
     return Series(name="meet somebody", parts=(approach, hello))

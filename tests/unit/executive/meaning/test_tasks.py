@@ -56,7 +56,7 @@ def refusal(text: str) -> Refused:
         ("look to your right, then up", ["look right", "look up"]),
         ("look down and then straight ahead", ["look down", "look ahead"]),
         ("look behind you", ["turn around", "look ahead"]),
-        ("say hello to ann", ["look at Ann", "say hello"]),
+        ("say hello to ann", ["go to Ann", "look at Ann", "say hello"]),
         (
             "tell ann that dinner is ready",
             ["go to Ann", "look at Ann", "say 'dinner is ready'"],
