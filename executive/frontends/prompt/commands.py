@@ -349,6 +349,8 @@ class _Steering:
             self._shell.give_up_halted()
         elif under_way:
             self._shell.robot.executive.cancel(under_way[0].number)
+        elif self._shell.robot.executive.pause_wanted:
+            self._shell.answer("Nothing is under way; the robot is paused: `resume` ends that.")
         else:
             self._shell.answer("Nothing is under way.")
 

@@ -347,6 +347,8 @@ class Shell:
         ]
         if before and not urgent:
             self.answer(f"Queued as {number}, with {len(before)} before it.")
+        if self.robot.executive.pause_wanted and not self.halt.on:
+            self.answer("The robot is paused: `resume` lets it begin.")
 
     def _make_room(self, text: str, *, urgent: bool) -> None:
         """End what a task takes the place of: what was halted for it, or what it corrects."""

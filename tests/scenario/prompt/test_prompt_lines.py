@@ -277,6 +277,18 @@ def test_an_emergency_stop_stays_until_it_is_released_and_reset(shell: Shell):
     assert shell.robot.executive.jobs[-1].state == "done"
 
 
+def test_what_is_asked_of_a_paused_robot_is_told_to_wait(shell: Shell):
+    shell.line("squat for 30 seconds")
+    shell.line("pause")
+    shell.line("cancel")
+    eventually(lambda: not shell.under_way())
+    shell.line("squat for one second")
+    assert "paused: `resume` lets it begin" in shell.out.text
+    shell.line("resume")
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+
+
 def test_a_mission_is_one_job(shell: Shell, tmp_path: Path):
     path = tmp_path / "words.yaml"
     path.write_text(
