@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from executive.frontends.new_files import put, refuse_taken
 from executive.frontends.output import say, write
 from executive.frontends.reality import REALITY
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
 
 PRINTED = "-"
 
@@ -55,9 +55,9 @@ def new(
     if output is None:
         write(home.world)
         return ExitStatus.DONE
-    _put(output, home.world)
+    put(output, home.world)
     if tasks is not None:
-        _put(tasks, home.tasks)
+        put(tasks, home.tasks)
     return ExitStatus.DONE
 
 
@@ -77,14 +77,4 @@ def _check(path: Path) -> None:
     if path.suffix not in (".yaml", ".yml"):
         cure = f"call it {path.name or 'home'}.yaml: worlds are known by that"
         raise ConfigError([Problem("this is no name of a YAML file", str(path), suggestion=cure)])
-    if os.path.lexists(path):
-        cure = "choose another name, or remove it first"
-        raise ConfigError([Problem("the file is there already", str(path), suggestion=cure)])
-
-
-def _put(path: Path, text: str) -> None:
-    try:
-        write_ordinary(path, text.encode(), anew=True)
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
-    say(f"Done: {path}")
+    refuse_taken(path)
