@@ -269,7 +269,8 @@ def test_a_step_out_of_the_map_is_refused_before_anything_moves(stage, step):
     report = stage.run(NavigateParams(by=step))
     assert report.failure.code == "invalid_goal"
     assert report.failure.suggestion == "x from -2.94 to 3.94 m, y from -2.94 to 3.94 m"
-    assert not stage.puppet.sent
+    for kind in (Walk, WalkTo, MoveArm):
+        assert not stage.commands(kind)
 
 
 def test_who_is_out_of_the_map_may_step_back_into_it(stage):
