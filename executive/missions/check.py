@@ -59,6 +59,7 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
         values: of the parameters.
         faults: what goes wrong on purpose.
         files: the mission's own and those that it calls.
+        notes: words that are misspelt, and what they were taken for.
     """
 
     mission: Mission
@@ -68,6 +69,7 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     values: Mapping[str, Bound]
     faults: tuple[FaultPlan, ...]
     files: tuple[Path, ...]
+    notes: tuple[Problem, ...] = ()
 
 
 def check(
@@ -143,6 +145,7 @@ def _check(
         values=values,
         faults=plans,
         files=(mission.path, *compiler.calls.files),
+        notes=names.notes,
     )
 
 

@@ -14,7 +14,7 @@ from executive.frontends.output import say, write, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
-from executive.missions.check import Options, check
+from executive.missions.check import Checked, Options, check
 from executive.missions.plan import forecast, lines
 from executive.missions.schema import json_schema
 from executive.missions.template import template
@@ -63,6 +63,7 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
         try:
             checked = check(path, REALITY, options)
             record["steps"] = sum(1 for _ in errands(checked.task))
+            record["notes"] = [msgspec.to_builtins(note) for note in checked.notes]
         except ConfigError as error:
             record["problems"] = [msgspec.to_builtins(problem) for problem in error.problems]
         found.append(record)
@@ -82,13 +83,22 @@ def _say_checked(record: dict[str, Any]) -> None:
     if not problems:
         count = record["steps"]
         say(f"{record['file']}: all is well, {count} {'step' if count == 1 else 'steps'}")
+    for note in record.get("notes", ()):
+        say(str(msgspec.convert(note, Problem)), err=True)
     for problem in problems:
         say(str(problem), err=True)
+
+
+def say_notes(checked: Checked) -> None:
+    """Say which words were taken for others."""
+    for note in checked.notes:
+        say(str(note), err=True)
 
 
 def plan(name: str, options: Options, *, as_json: bool) -> int:
     """Show a dry run. Raises ConfigError with what is wrong in the file."""
     checked = check(load.find(name), REALITY, options)
+    say_notes(checked)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
         write_json(made)

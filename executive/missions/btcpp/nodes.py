@@ -22,8 +22,9 @@ from executive.missions.btcpp.steps import (
     with_option,
 )
 from executive.missions.btcpp.xml import Element
-from executive.missions.compiling import MAX_ROUNDS, MAX_STEPS, MAX_TRIES
+from executive.missions.compiling import MAX_STEPS
 from executive.missions.problems import Enough, Problems
+from executive.missions.schema import MAX_ROUNDS, MAX_TRIES
 from robot.config import nearest
 from robot.errors import ConfigError
 
