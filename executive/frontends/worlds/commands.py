@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from executive.frontends.new_files import put, refuse_taken
-from executive.frontends.output import say, write
+from executive.frontends.output import say, write, write_json
 from executive.frontends.reality import REALITY
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -14,8 +14,12 @@ from robot.exit_status import ExitStatus
 PRINTED = "-"
 
 
-def list_all() -> int:
+def list_all(*, as_json: bool = False) -> int:
     """Say what is in the shipped worlds, and which homes can be made."""
+    if as_json:
+        worlds = [_record(name) for name in REALITY.names()]
+        write_json({"worlds": worlds, "kinds": list(REALITY.home_kinds())})
+        return ExitStatus.DONE
     for name in REALITY.names():
         world_map = REALITY.world(name).map
         objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
@@ -25,6 +29,19 @@ def list_all() -> int:
     kinds = ", ".join(REALITY.home_kinds())
     say(f"Or have one made: humanoid worlds new --kind KIND --seed N ({kinds}).")
     return ExitStatus.DONE
+
+
+def _record(name: str) -> dict[str, object]:
+    """What is in a shipped world."""
+    world_map = REALITY.world(name).map
+    return {
+        "name": name,
+        "objects": [
+            {"id": o.id, "name": o.full_name.removeprefix("the ")} for o in world_map.objects
+        ],
+        "places": [{"id": place.id, "name": place.name} for place in world_map.places],
+        "people": [{"id": person.id, "name": person.name} for person in world_map.people],
+    }
 
 
 def new(
