@@ -113,6 +113,20 @@ def text_node(text: str, like: Node, *, plain: bool = False) -> Node:
     return node
 
 
+def of_data(data: object, like: Node) -> Node:
+    """Plain data (dicts, lists, scalars) in the place of another node."""
+    if isinstance(data, list):
+        made = Node("list", like.file, like.line, like.column)
+        made.items = [of_data(item, like) for item in cast("list[object]", data)]
+        return made
+    if isinstance(data, dict):
+        made = Node("map", like.file, like.line, like.column)
+        entries = cast("dict[str, object]", data).items()
+        made.entries = {key: (text_node(key, like), of_data(one, like)) for key, one in entries}
+        return made
+    return text_node("" if data is None else str(data), like, plain=not isinstance(data, str))
+
+
 def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
     """A text file, if it can be meant to be one.
 

@@ -42,7 +42,7 @@ class JudgedPlant(Plant):
         return judge.judge(self, checks, self._witness or Witness(self))
 
     def save_picture(self, path: Path) -> None:
-        """Write a picture of all of it as PNG. Raises ConfigError, or OSError for the file."""
+        """Write a picture, PNG or JPEG by its name. Raises ConfigError, or OSError for the file."""
         render.snapshot(self, path)
 
     def show(self) -> None:

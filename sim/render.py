@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import struct
-import zlib
+import io
 from pathlib import Path
 from typing import Any, Self
 
@@ -22,6 +21,7 @@ from sim.world_schema import World
 
 PACKAGES = "libegl1 libgl1-mesa-dri libopengl0"
 Image = NDArray[np.uint8]
+JPEG = (".jpg", ".jpeg")
 
 
 class View(msgspec.Struct, frozen=True, kw_only=True):
@@ -123,13 +123,13 @@ def snapshot(
     width: int = 1280,
     height: int = 720,
 ) -> None:
-    """Save a picture of the plant as it is now (the whole world by default) as PNG.
+    """Save a picture of the plant as it is now (by default the whole world): PNG or JPEG.
 
     Raises:
         ConfigError: if EGL is not installed, naming the packages.
     """
     with Renderer(plant.model, width=width, height=height) as renderer:
-        save_png(path, renderer.image(plant.data, view or overview(plant.world)))
+        save_picture(path, renderer.image(plant.data, view or overview(plant.world)))
 
 
 def show(plant: Plant) -> None:
@@ -145,24 +145,14 @@ def show(plant: Plant) -> None:
     launch(plant.model, plant.data)
 
 
-def save_png(path: Path | str, image: Image) -> None:
-    """Write an image, shape (height, width, 3), as PNG (ISO/IEC 15948)."""
-    height, width, _ = image.shape
-    rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)  # each row begins with filter 0
-    rows[:, 1:] = image.reshape(height, 3 * width)
+def save_picture(path: Path | str, image: Image) -> None:
+    """Write an image, shape (height, width, 3), as PNG, or as JPEG where its name says so."""
+    from PIL import Image as Picture
 
-    def chunk(kind: bytes, body: bytes) -> bytes:
-        check = zlib.crc32(kind + body)
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", check)
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    parts = (
-        b"\x89PNG\r\n\x1a\n",
-        chunk(b"IHDR", header),
-        chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)),
-        chunk(b"IEND", b""),
-    )
-    write_ordinary(path, b"".join(parts))
+    kind = "JPEG" if Path(path).suffix.lower() in JPEG else "PNG"
+    data = io.BytesIO()
+    Picture.fromarray(image).save(data, kind)
+    write_ordinary(path, data.getvalue())
 
 
 def _context(width: int, height: int) -> Any:

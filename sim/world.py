@@ -5,9 +5,9 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from robot import config, yaml_nodes
+from robot import config
 from robot.errors import ConfigError, Problem
-from sim import world_checks
+from sim import world_reading
 from sim.world_schema import Room, World
 
 
@@ -28,15 +28,7 @@ def load(name_or_path: str) -> World:
         if not path.exists():
             hint = config.nearest(name_or_path, available())
             raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
-    node = yaml_nodes.read(path)
-    world = config.convert(node, World)
-    problems = [
-        config.place(node, found.where).problem(found.message, found.suggestion)
-        for found in world_checks.check(world)
-    ]
-    if problems:
-        raise ConfigError(sorted(problems, key=lambda problem: problem.line or 0))
-    return world
+    return world_reading.read(path)
 
 
 def empty() -> World:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
@@ -32,11 +32,29 @@ class Finding(msgspec.Struct, frozen=True):
 
 def check(world: World) -> list[Finding]:
     """What is wrong, shallow first: geometry is only looked at when names are right."""
-    found = list(islice(_words(world), MOST_PROBLEMS))
-    if not found:
-        geometry = itertools.chain(_rooms(world), _standing(world), _objects(world))
-        found = list(islice(geometry, MOST_PROBLEMS))
-    return found
+    return names(world) or geometry(world)
+
+
+def names(world: World, *, unsure: Collection[str] | None = frozenset()) -> list[Finding]:
+    """What is wrong with the words: ids, kinds, colours, and places that things are on.
+
+    Args:
+        world: types and ranges of all that is in it are right.
+        unsure: ids of what has mistakes of its own: what is on it is not judged; None: nothing is.
+    """
+    return list(islice(itertools.chain(_words(world), _on(world, unsure)), MOST_PROBLEMS))
+
+
+def geometry(world: World, *, whole: bool = True) -> list[Finding]:
+    """What does not fit where it is.
+
+    Args:
+        world: its words are right.
+        whole: whether all its rooms are in it; else nobody knows what is outside of them.
+    """
+    rooms = _rooms(world)
+    standing = _standing(world, whole=whole) if world.rooms else iter(())
+    return list(islice(itertools.chain(rooms, standing, _objects(world)), MOST_PROBLEMS))
 
 
 def _entries(world: World) -> Iterator[tuple[str, Any]]:
@@ -61,7 +79,7 @@ def _words(world: World) -> Iterator[Finding]:
         where = f"$.furniture[{index}]"
         yield from _known(f"{where}.kind", "kind", item.kind, furniture.KINDS)
         yield from _known(f"{where}.color", "color", item.color or "gray", COLORS)
-        if item.boards_m and item.kind != "shelf":
+        if item.boards_m and item.kind in furniture.KINDS and item.kind != "shelf":
             yield Finding(f"{where}.boards_m", "only a shelf has boards")
     for index, item in enumerate(world.objects):
         where = f"$.objects[{index}]"
@@ -79,6 +97,20 @@ def _known(where: str, what: str, name: str, valid: Iterable[str]) -> Iterator[F
     names = list(valid)
     if name not in names:
         yield Finding(where, f"unknown {what} {name!r}", nearest(name, names))
+
+
+def _on(world: World, unsure: Collection[str] | None) -> Iterator[Finding]:
+    """Places that things are on."""
+    sound = tuple(item for item in world.furniture if item.kind in furniture.KINDS)
+    doubted = {item.id for item in world.furniture} - {item.id for item in sound}
+    places = atlas.places(msgspec.structs.replace(world, furniture=sound))
+    doubted.update(unsure or ())
+    for index, item in enumerate(world.objects):
+        known = item.on in places or unsure is None
+        if known or any(item.on == id_ or item.on.startswith(f"{id_}_") for id_ in doubted):
+            continue
+        text = f"{item.title} is on unknown place {item.on!r}"
+        yield Finding(f"$.objects[{index}].on", text, nearest(item.on, list(places)))
 
 
 def _rooms(world: World) -> Iterator[Finding]:
@@ -105,7 +137,7 @@ def _doors(room: Room, where: str) -> Iterator[Finding]:
                 yield Finding(f"{here}.at_m", "the door overlaps another door of the same wall")
 
 
-def _standing(world: World) -> Iterator[Finding]:
+def _standing(world: World, *, whole: bool) -> Iterator[Finding]:
     """Furniture, people, spots and the start are on the floor of a room, and apart."""
     x_min, y_min, x_max, y_max = world.bounds_m
     half = ((x_max - x_min) / 2, (y_max - y_min) / 2)
@@ -113,7 +145,7 @@ def _standing(world: World) -> Iterator[Finding]:
     limits = f"x {x_min:g} to {x_max:g}, y {y_min:g} to {y_max:g} m"
     for index, item in enumerate(world.furniture):
         where, own = f"$.furniture[{index}]", atlas.footprint(item)
-        if not bounds.contains(own):
+        if whole and not bounds.contains(own):
             yield Finding(f"{where}.at_m", f"the {item.title} reaches outside the rooms", limits)
         yield from _boards(item, where)
     for index, other in overlapping([atlas.footprint(item) for item in world.furniture]):
@@ -123,11 +155,11 @@ def _standing(world: World) -> Iterator[Finding]:
     points += [(f"$.spots[{k}]", s.title, s.at_m, 0.0) for k, s in enumerate(world.spots)]
     bare = msgspec.structs.replace(world, people=())
     for where, name, at, radius in points:
-        if not atlas.room_at(world, at):
+        if whole and not atlas.room_at(world, at):
             yield Finding(f"{where}.at_m", f"{name} is outside every room", limits)
         elif blocker := clear_of(bare, at, radius):
             yield Finding(f"{where}.at_m", f"{name} overlaps {blocker}")
-    if not atlas.room_at(world, world.start.at_m):
+    if whole and not atlas.room_at(world, world.start.at_m):
         yield Finding("$.start.at_m", "the robot would start outside every room", limits)
     elif blocker := clear_of(world, world.start.at_m, ROBOT_M):
         yield Finding("$.start.at_m", f"the robot would start in {blocker}")
@@ -151,8 +183,6 @@ def _objects(world: World) -> Iterator[Finding]:
     for index, item in enumerate(world.objects):
         where = f"$.objects[{index}]"
         if item.on not in places:
-            hint = nearest(item.on, list(places))
-            yield Finding(f"{where}.on", f"{item.title} is on unknown place {item.on!r}", hint)
             continue
         yield from _fits(item, places[item.on], where)
         beside = there.setdefault(item.on, [])

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any
 
 from robot.config import nearest
 from robot.errors import ConfigError
-from robot.yaml_nodes import Node, text_node
+from robot.yaml_nodes import Node, of_data, text_node
 
 _ROLE = re.compile(r"\{([a-z]\w*)\}")
 
@@ -57,24 +57,10 @@ def _filled(node: Node, roles: Mapping[str, Any]) -> Node:
     if node.kind == "text":
         alone = _ROLE.fullmatch(node.text)
         if alone:
-            return _of_value(roles[alone[1]], node)
+            return of_data(roles[alone[1]], node)
         words = _ROLE.sub(lambda found: str(roles[found[1]]).replace("_", " "), node.text)
         return text_node(words, node, plain=node.plain)
     made = Node(node.kind, node.file, node.line, node.column)
     made.items = [_filled(item, roles) for item in node.items]
     made.entries = {key: (k, _filled(value, roles)) for key, (k, value) in node.entries.items()}
     return made
-
-
-def _of_value(value: object, like: Node) -> Node:
-    """Plain data in the place of a text."""
-    if isinstance(value, list):
-        made = Node("list", like.file, like.line, like.column)
-        made.items = [_of_value(item, like) for item in cast("list[object]", value)]
-        return made
-    if isinstance(value, dict):
-        made = Node("map", like.file, like.line, like.column)
-        entries = cast("dict[str, object]", value).items()
-        made.entries = {key: (text_node(key, like), _of_value(one, like)) for key, one in entries}
-        return made
-    return text_node(str(value), like, plain=not isinstance(value, str))

@@ -182,7 +182,8 @@ def view(
     robot: Robot = "juno",
     seed: Seed = 0,
     snapshot: Annotated[
-        Path | None, typer.Option("--snapshot", help="Render one picture into this PNG file.")
+        Path | None,
+        typer.Option("--snapshot", help="Render one picture into this file (.png, .jpg)."),
     ] = None,
 ) -> None:
     """Look at a world with the robot in it.

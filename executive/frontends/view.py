@@ -10,6 +10,8 @@ from executive.frontends.reality import REALITY
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
 
+PICTURES = (".png", ".jpg", ".jpeg")
+
 
 def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     """Render into a file, or open the viewer; returns the exit status.
@@ -20,6 +22,10 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     if snapshot is None and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         cure = "make a picture instead: humanoid view --snapshot out.png"
         raise ConfigError([Problem("there is no display", suggestion=cure)])
+    if snapshot is not None and snapshot.suffix.lower() not in PICTURES:
+        cure = f"call it {snapshot.stem or 'world'}.png"
+        text = f"pictures are written as {', '.join(PICTURES)}"
+        raise ConfigError([Problem(text, str(snapshot), suggestion=cure)])
     where = setting(REALITY, world, robot=robot)
     plant = where.world.plant(where.description, seed=seed)
     if snapshot is None:

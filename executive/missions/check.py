@@ -59,6 +59,7 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
         values: of the parameters.
         faults: what goes wrong on purpose.
         files: the mission's own and those that it calls.
+        notes: words that are misspelt, and what they were taken for.
     """
 
     mission: Mission
@@ -68,15 +69,19 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     values: Mapping[str, Bound]
     faults: tuple[FaultPlan, ...]
     files: tuple[Path, ...]
+    notes: tuple[Problem, ...] = ()
 
 
-def check(path: Path, reality: Reality, options: Options | None = None) -> Checked:
+def check(
+    path: Path, reality: Reality, options: Options | None = None, *, text: str | None = None
+) -> Checked:
     """Check a mission file whole.
 
     Args:
         path: of the file.
         reality: that its world is of.
         options: what is said beside the file.
+        text: what stands in it, where that is known.
 
     Raises:
         ConfigError: with every mistake, each with file, line, column and cure.
@@ -85,7 +90,9 @@ def check(path: Path, reality: Reality, options: Options | None = None) -> Check
     checked = None
     try:
         with _collector_at_rest():
-            checked = _check(path, reality, options or Options(), problems=problems)
+            mission = load(path, problems, text=text)
+            if mission is not None:
+                checked = _check(mission, reality, options or Options(), problems=problems)
     except Enough:
         pass
     except ConfigError as error:
@@ -114,10 +121,9 @@ def _merged(problems: Problems, error: ConfigError) -> list[Problem]:
     return [*problems.all, *(p for p in error.problems if str(p) not in found)]
 
 
-def _check(path: Path, reality: Reality, options: Options, *, problems: Problems) -> Checked | None:
-    mission = load(path, problems)
-    if mission is None:
-        return None
+def _check(
+    mission: Mission, reality: Reality, options: Options, *, problems: Problems
+) -> Checked | None:
     where = _setting(mission, reality, options, problems=problems)
     if where is None:
         return None
@@ -139,6 +145,7 @@ def _check(path: Path, reality: Reality, options: Options, *, problems: Problems
         values=values,
         faults=plans,
         files=(mission.path, *compiler.calls.files),
+        notes=names.notes,
     )
 
 

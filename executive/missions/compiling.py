@@ -31,8 +31,6 @@ from robot.model.description import RobotDescription
 from robot.yaml_nodes import Node, text_node
 
 MAX_STEPS = 20_000
-MAX_ROUNDS = 1000
-MAX_TRIES = 100
 
 CODES = [ANY, *(code for code in CATALOGUE if code != "cancelled")]
 
@@ -113,6 +111,9 @@ class Compiler:
             return None
         record = Reader(self.problems, scope.fill).record(node, s.STEPS[key])
         if record is None:
+            node = self._sound(node, s.STEPS[key], scope)
+            record = Reader(Problems(), scope.fill).record(node, s.STEPS[key])
+        if record is None:
             self._look_inside(node, scope)
             return None
         before = self._hands
@@ -139,8 +140,18 @@ class Compiler:
             return None
         return found[0]
 
+    def _sound(self, node: Node, kind: type[s.StepRecord], scope: Scope) -> Node:
+        """The keys of a step that can be read, so that what they mean is looked at all the same."""
+        reader = Reader(Problems(), scope.fill)
+        sound = Node("map", node.file, node.line, node.column)
+        sound.entries = {k: v for k, v in node.entries.items() if reader.fits(node, kind, k)}
+        return sound
+
     def _look_inside(self, node: Node, scope: Scope) -> None:
-        """Look for more mistakes in the steps inside a step that is wrong itself."""
+        """Look for more mistakes inside a step that is wrong itself: conditions, and steps."""
+        for key in ("if", "while"):
+            if key in node.entries:
+                self._conditions.read(node.entries[key][1], scope, self.scene)
         name = node.get("for_each")
         if name is not None:
             scope = scope.inside(name.text, None)
@@ -163,8 +174,7 @@ class Compiler:
         if record.name is not None:
             part = replace(part, name=name)
         if record.retry is not None:
-            times = self._within(record.retry, 1, MAX_TRIES, node, "retry")
-            part = p.Retry(name=name, part=part, attempts=times + 1)
+            part = p.Retry(name=name, part=part, attempts=int(record.retry) + 1)
         if record.timeout_s is not None:
             part = p.Timeout(name=name, part=part, limit_s=float(record.timeout_s))
         if handlers:
@@ -185,13 +195,6 @@ class Compiler:
             parts = self.steps(_items(steps), scope)
             found[code] = p.Series(name=f"on {code}", parts=parts)
         return tuple(sorted(found.items(), key=lambda item: item[0] == ANY))
-
-    def _within(self, value: s.Whole, least: int, most: int, node: Node, key: str) -> int:
-        number = int(value)
-        if not least <= number <= most:
-            text = f"{key} {number}: {least} to {most} are possible"
-            self.problems.add(node.entries[key][1], text)
-        return min(max(number, least), most)
 
     # --- goals ---
 
@@ -249,7 +252,7 @@ class Compiler:
             case s.IfStep():
                 return self._if(record, node, scope)
             case s.RepeatStep():
-                return self._repeat(record, node, scope)
+                return self._repeat(record, scope)
             case s.WhileStep():
                 return self._while(record, node, scope)
             case s.ForEachStep():
@@ -298,14 +301,14 @@ class Compiler:
             look=in_turn(finding.looks),
         )
 
-    def _repeat(self, record: s.RepeatStep, node: Node, scope: Scope) -> p.Part:
-        times = self._within(record.repeat, 1, MAX_ROUNDS, node, "repeat")
+    def _repeat(self, record: s.RepeatStep, scope: Scope) -> p.Part:
+        times = int(record.repeat)
         bodies = self._bodies(record.do, scope, times)
         return p.Loop(name="once" if times == 1 else f"{times} times", bodies=bodies, at_most=times)
 
     def _while(self, record: s.WhileStep, node: Node, scope: Scope) -> p.Part | None:
         finding = self._conditions.read(node.entries["while"][1], scope, self.scene)
-        at_most = self._within(record.at_most, 1, MAX_ROUNDS, node, "at_most")
+        at_most = int(record.at_most)
         before = self._hands
         bodies = self._bodies(record.do, scope, at_most)
         self._hands = _common(before, self._hands)

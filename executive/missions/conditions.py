@@ -72,12 +72,16 @@ class Conditions:
         if len(given) != 1:
             text = f"exactly one of {', '.join(kinds)} should stand here"
             self._problems.add(node, text, f"given: {', '.join(given) or 'none'}")
-            return None
-        (kind,) = given
-        value = node.entries[kind][1]
-        if record.on is not None and kind != "seen":
+        if record.on is not None and "seen" not in given:
             self._problems.add(node.key("on"), "'on' belongs to 'seen'", "leave it out")
-            return None
+        found = [self._of_kind(kind, record, node, scope, scene) for kind in given]
+        alone = len(given) == 1 and (record.on is None or "seen" in given)
+        return found[0] if alone else None
+
+    def _of_kind(
+        self, kind: str, record: s.ConditionRecord, node: Node, scope: Scope, scene: Scene
+    ) -> Finding | None:
+        value = node.entries[kind][1]
         match kind:
             case "seen":
                 return self._seen(record, node, scene)
@@ -93,13 +97,13 @@ class Conditions:
     def _seen(self, record: s.ConditionRecord, node: Node, scene: Scene) -> Finding | None:
         where = text_node(record.seen or "", node.entries["seen"][1])
         query = self._names.object(where, self._problems)
-        if query is None:
-            return None
-        text = f"the {record.seen} is seen"
+        place = ""
         if record.on is not None:
             place = self._names.place(text_node(record.on, node.entries["on"][1]), self._problems)
-            if place is None:
-                return None
+        if query is None or place is None:
+            return None
+        text = f"the {record.seen} is seen"
+        if place:
             query = goals.ObjectQuery(
                 name=query.name, category=query.category, color=query.color, size=query.size,
                 superlative=query.superlative, at=place, held=query.held,

@@ -10,7 +10,7 @@ import msgspec
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord, ParameterRecord
-from robot.yaml_nodes import Node, read, text_node
+from robot.yaml_nodes import Node, parse, read_text, text_node
 
 SUFFIX = ".yaml"
 _PACKED, _BESIDE = Path(__file__).with_name("samples"), Path(__file__).parents[2] / "missions"
@@ -51,13 +51,19 @@ def shipped() -> list[Path]:
     return sorted(FOLDER.glob(f"*{SUFFIX}"))
 
 
-def load(path: Path, problems: Problems) -> Mission | None:
+def load(path: Path, problems: Problems, *, text: str | None = None) -> Mission | None:
     """Read a mission file; None if nothing can be made of it, which is noted.
+
+    Args:
+        path: of the file.
+        problems: takes what is wrong.
+        text: what stands in it, where that is known.
 
     Raises:
         ConfigError: it cannot be read at all.
     """
-    node = read(path, begin_with="humanoid mission new NAME")
+    text = read_text(path) if text is None else text
+    node = parse(text, str(path), begin_with="humanoid mission new NAME")
     if node.kind != "map":
         problems.add(node, "a mission is a mapping", "begin with: name: ...")
         return None

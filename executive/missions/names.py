@@ -14,6 +14,7 @@ from intents import goals, parser
 from intents.context import Context
 from intents.outcomes import Goals, Question
 from robot.config import nearest
+from robot.errors import Problem
 from robot.yaml_nodes import Node
 
 T = TypeVar("T")
@@ -43,7 +44,14 @@ class Names:
         self._vocabulary = knowledge.vocabulary()
         self._context = Context(entities=knowledge.entities())
         self._known: dict[tuple[str, str], object] = {}
+        self._reasons: dict[str, str] = {}
+        self._notes: dict[Problem, None] = {}
         self._sentences = 0
+
+    @property
+    def notes(self) -> tuple[Problem, ...]:
+        """What was taken for something else than is written: words that are misspelt."""
+        return tuple(self._notes)
 
     def object(self, node: Node, problems: Problems) -> goals.ObjectQuery | None:
         """The description of an object (or of several)."""
@@ -106,6 +114,8 @@ class Names:
         if isinstance(found, Wrong):
             problems.add(node, found.message, found.cure)
             return None
+        if kind in ("sentence", "condition") and node.text in self._reasons:
+            self._notes[node.problem(self._reasons[node.text])] = None
         return found  # pyright: ignore[reportReturnType]
 
     def _object(self, text: str) -> goals.ObjectQuery:
@@ -150,6 +160,8 @@ class Names:
             raise Wrong(text, "use parameters, or split it into missions that call one another")
         outcome = parser.parse(text, self._vocabulary, context=self._context)
         if isinstance(outcome, Goals):
+            if outcome.reason:
+                self._reasons[text] = outcome.reason
             return outcome.goals
         if isinstance(outcome, Question):
             raise Wrong(f"this sentence leaves a question open: {outcome.question}", "say which")
@@ -158,7 +170,10 @@ class Names:
 
     def _condition(self, text: str) -> goals.Condition:
         said = " ".join(text.split()).removeprefix("if ").rstrip(".")
-        found = self._sentence(f"if {said}, say yes")
+        order = f"if {said}, squat"  # whatever needs no words of its own
+        found = self._sentence(order)
+        if order in self._reasons:
+            self._reasons[text] = self._reasons[order]
         if len(found) == 1 and isinstance(found[0], goals.If):
             return found[0].condition
         raise Wrong(f"{text!r} is no condition", "for example: the red cup is on the table")

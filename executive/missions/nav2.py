@@ -44,6 +44,8 @@ def mission_of(path: Path) -> str:
     root = read(path)
     problems = Problems()
     _check_frame(root, problems)
+    if root.get("waypoints") is not None and root.get("poses") is not None:
+        problems.add(root.key("poses"), "waypoints and poses: one list is read", "take one out")
     steps = [step for step in (_step(node, problems) for node in _points(root)) if step]
     if not steps and len(problems) == 0:
         problems.add(root, "there are no waypoints in it", "waypoints: or poses:")

@@ -21,7 +21,10 @@ Parameter: TypeAlias = Annotated[
     str, Meta(pattern=r"^\{\{ *[a-z][a-z0-9_]* *\}\}$", description="A parameter of the mission.")
 ]
 Number: TypeAlias = float | Parameter
-Whole: TypeAlias = int | Parameter
+MAX_ROUNDS = 1000
+MAX_TRIES = 100
+Rounds: TypeAlias = Annotated[int, Meta(ge=1, le=MAX_ROUNDS)]
+Tries: TypeAlias = Annotated[int, Meta(ge=1, le=MAX_TRIES)]
 DAY_S = 86_400.0
 Limit: TypeAlias = Annotated[float, Meta(gt=0.0, le=DAY_S)]
 """A longest time [s]."""
@@ -135,9 +138,10 @@ class StepRecord(Record, frozen=True, kw_only=True):
     """The options of every step."""
 
     name: Annotated[str, Meta(description="For people and the journal.")] | None = None
-    retry: Annotated[Whole, Meta(description="How often it is tried again if it fails.")] | None = (
-        None
-    )
+    retry: (
+        Annotated[Tries | Parameter, Meta(description="How often it is tried again if it fails.")]
+        | None
+    ) = None
     timeout_s: (
         Annotated[Limit | Parameter, Meta(description="Longest time, all its tries together [s].")]
         | None
@@ -338,7 +342,7 @@ class IfStep(StepRecord, frozen=True, kw_only=True):
 class RepeatStep(StepRecord, frozen=True, kw_only=True):
     """The same several times."""
 
-    repeat: Whole
+    repeat: Rounds | Parameter
     do: Annotated[Steps, Meta(min_length=1)]
 
 
@@ -346,7 +350,7 @@ class WhileStep(StepRecord, frozen=True, kw_only=True):
     """The same as long as a condition holds; it fails if that is so after `at_most` rounds."""
 
     while_: Condition
-    at_most: Whole
+    at_most: Rounds | Parameter
     do: Annotated[Steps, Meta(min_length=1)]
 
 

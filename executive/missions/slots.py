@@ -26,6 +26,10 @@ class Slots:
         """Look texts up in `names`; what is wrong goes to `problems`."""
         self._names = names
         self._problems = problems
+        self._looks: dict[str, Callable[[Node, Problems], object]] = {
+            "object": names.object, "person": names.person, "place": names.place,
+            "at": names.place, "on": names.place, "in_": names.place, "to": self._receiver,
+        }  # fmt: skip
 
     def goal(self, key: str, record: s.StepRecord, node: Node) -> goals.Goal | None:
         """The goal of a step that is known by `key`; None if a slot is wrong.
@@ -40,7 +44,19 @@ class Slots:
         try:
             return _GOALS[key](self, value, where)
         except Missing:
+            self._look_at_the_rest(value, where)
             return None
+
+    def _look_at_the_rest(self, value: object, where: Node) -> None:
+        """Look every name up in a step one of whose slots is wrong."""
+        for key, look_up in self._looks.items():
+            text = getattr(value, key, None)
+            if isinstance(text, str) and where.kind == "map":
+                look_up(_at(where, key.rstrip("_"), text), self._problems)
+
+    def _receiver(self, node: Node, problems: Problems) -> object:
+        is_person = self._names.is_person(node.text) and not self._names.is_place(node.text)
+        return None if is_person else self._names.place(node, problems)
 
     # --- looking up ---
 
@@ -64,8 +80,9 @@ class Slots:
     def _one_of(self, slots: s.Record, where: Node, *keys: str) -> str:
         given = [key for key in keys if getattr(slots, key) is not None]
         if len(given) != 1:
-            text = f"exactly one of {', '.join(keys)} should stand here"
-            self._problems.add(where, text, f"given: {', '.join(given) or 'none'}")
+            known, said = (", ".join(key.rstrip("_") for key in some) for some in (keys, given))
+            text = f"exactly one of {known} should stand here"
+            self._problems.add(where, text, f"given: {said or 'none'}")
             raise Missing
         return given[0]
 

@@ -11,6 +11,7 @@ from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.map_edge import beyond
 from executive.skills.motions.pacing import BEGIN_S, WALK_M_S, turning_s
 from executive.skills.motions.planning import pose_of, stance_of
 from executive.skills.motions.script import GaveUp, Script
@@ -86,16 +87,16 @@ class Navigate(ScriptedSkill[NavigateParams]):
     def refusal(
         cls, wanted: NavigateParams, world_map: WorldMap, robot: RobotDescription
     ) -> Failure | None:
-        """What lies outside the map."""
-        if wanted.pose is None:
-            return None
+        """What lies outside the map, and steps that lead out of it wherever they begin."""
+        if wanted.pose is not None:
+            return beyond(world_map, wanted.pose.x_m, wanted.pose.y_m)
         x_min, y_min, x_max, y_max = world_map.bounds_m
-        x_m, y_m = wanted.pose.x_m, wanted.pose.y_m
-        if x_min <= x_m <= x_max and y_min <= y_m <= y_max:
+        across_m = math.dist((x_min, y_min), (x_max, y_max))
+        if wanted.by is None or _length_m(wanted.by) < across_m:
             return None
-        text = f"({x_m:g}, {y_m:g}) is outside this world"
-        bounds = f"x from {x_min:g} to {x_max:g} m, y from {y_min:g} to {y_max:g} m"
-        return failure("invalid_goal", text, suggestion=bounds)
+        text = f"{_length_m(wanted.by):g} m from here is outside this world"
+        size = f"it is {x_max - x_min:g} by {y_max - y_min:g} m"
+        return failure("invalid_goal", text, suggestion=size)
 
     @classmethod
     def forecast(cls, wanted: NavigateParams, outlook: Outlook) -> Forecast:
@@ -120,6 +121,10 @@ class Navigate(ScriptedSkill[NavigateParams]):
     def script(self) -> Script[None]:
         """Tuck the arms in, then walk."""
         body, wanted = self.body, self.parameters
+        if wanted.by is not None:
+            outside = _leads_out(wanted.by, body.X_WS, body.map)
+            if outside is not None:
+                raise GaveUp(outside)
         yield from stow_arms(body)
         if wanted.by is not None:
             body.phase = "walking"
@@ -157,7 +162,7 @@ class Navigate(ScriptedSkill[NavigateParams]):
         goal = self._goal = stance_of(X_WS_turned @ SE3((step.forward_m, step.left_m, 0.0)))
         if abs(step.turn_rad) > 1e-6:
             yield from step_to(body, stance_of(X_WS_turned))
-        straight_m = math.hypot(step.forward_m, step.left_m)
+        straight_m = _length_m(step)
         if straight_m < 1e-6:
             return
         if (yield from _is_free(body, goal, straight_m)):
@@ -208,7 +213,27 @@ def _walk_straight(body: Body, goal: Stance) -> Script[None]:
     yield from step_to(body, goal)
 
 
+def _length_m(step: Step) -> float:
+    return math.hypot(step.forward_m, step.left_m)
+
+
+def _motion(step: Step) -> SE3:
+    """Where a step leads, relative to where it begins."""
+    turned = SE3.from_xy_yaw(0.0, 0.0, step.turn_rad)
+    return turned @ SE3((step.forward_m, step.left_m, 0.0))
+
+
+def _leads_out(step: Step, X_WS: SE3, world_map: WorldMap) -> Failure | None:
+    """Why a step leads nowhere, if it leads out of the map; out there it may lead anywhere."""
+    if _length_m(step) < 1e-6 or beyond(world_map, *X_WS.p[:2]) is not None:
+        return None
+    return beyond(world_map, *(X_WS @ _motion(step)).p[:2])
+
+
 def _forecast_step(by: Step, outlook: Outlook) -> Forecast:
-    outlook.move(SE3.from_xy_yaw(0.0, 0.0, by.turn_rad) @ SE3((by.forward_m, by.left_m, 0.0)))
-    walked_s = math.hypot(by.forward_m, by.left_m) / WALK_M_S
+    outside = _leads_out(by, outlook.X_WS, outlook.map)
+    if outside is not None:
+        return Forecast(BEGIN_S, outside.cause)
+    outlook.move(_motion(by))
+    walked_s = _length_m(by) / WALK_M_S
     return Forecast(BEGIN_S + walked_s + turning_s(by.turn_rad))

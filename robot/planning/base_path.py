@@ -17,7 +17,7 @@ from robot.planning import numerics
 from robot.planning.base_block import explain_no_path
 from robot.planning.floor import Floor, with_room
 from robot.planning.floor_ways import FloorWays
-from robot.planning.requests import BasePath, BasePathRequest, Stance
+from robot.planning.requests import NARROW_M, BasePath, BasePathRequest, Stance
 from robot.planning.robot_body import Body
 from robot.planning.solids import Solid, solids_of
 from robot.se3 import Array, wrap_angle
@@ -27,8 +27,6 @@ ESCAPE_M = 1.0
 SPACING_M = 0.25
 CUT_M = 0.35
 """Distance of waypoints, and most that is cut off a corner [m]."""
-NARROW_M = 0.06
-"""Least distance of a goal's middle to any outline [m]."""
 START_OVERLAP_M = 0.03
 """Where the robot stands it may seem to overlap things by this much [m]."""
 LEAST = 0.9

@@ -28,6 +28,8 @@ from robot.se3 import SE3, Vector3
 
 Stance: TypeAlias = tuple[float, float, float]
 Joints: TypeAlias = tuple[float, ...]
+NARROW_M = 0.06
+"""Least distance of the goal of a walk to any outline and to the edge of the map [m]."""
 WALK_COST_PER_M = 0.06
 """Ordinary cost of walking to a stance, in the score of picks and places."""
 

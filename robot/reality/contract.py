@@ -183,7 +183,7 @@ class Plant(SimulatedPlant, Protocol):
         ...
 
     def save_picture(self, path: Path) -> None:
-        """Write a picture of all of it as PNG.
+        """Write a picture of all of it as PNG, or as JPEG where its name says so.
 
         Raises:
             ConfigError: if nothing can be rendered here, with the cure.

@@ -25,6 +25,11 @@ def listen(options: Listen) -> None:
     """
     if options.as_json and not options.parse_only:
         raise typer.BadParameter("--json goes with --parse-only")
+    if options.parse_only:
+        for name, given in (("--yes", options.yes), ("--fast", options.fast),
+                            ("--run-dir", options.run_dir is not None)):  # fmt: skip
+            if given:
+                raise typer.BadParameter(f"{name} needs a robot, and --parse-only moves none")
     if options.recogniser is RecogniserName.WHISPER and options.whisper is None:
         raise typer.BadParameter("whisper needs --whisper FOLDER")
     if options.parse_only:

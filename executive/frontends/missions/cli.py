@@ -113,6 +113,9 @@ def import_(
 ) -> None:
     """Make a mission of another program's file; what has no equivalent is refused by name.
 
+    No file is overwritten. Exit status 2: nothing was made, or what was made names what the kitchen
+    has not: name its world in it.
+
     [bold]Example[/bold]
 
       humanoid mission import tree.xml -o tree.yaml

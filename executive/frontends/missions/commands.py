@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import Any
@@ -10,21 +9,23 @@ from typing import Any
 import msgspec
 
 from executive.frontends.missions.options import Beside
+from executive.frontends.new_files import put, refuse_taken
 from executive.frontends.output import say, write, write_json
 from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
-from executive.missions.check import Options, check
+from executive.missions.check import Checked, Options, check
 from executive.missions.plan import forecast, lines
 from executive.missions.schema import json_schema
 from executive.missions.template import template
 from executive.trees.parts import errands
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
 
 SCHEMA = load.FOLDER / "mission.schema.json"
 
+PRINTED = Path("the mission above")
+"""The name of a file that was printed, in what is wrong with it."""
 
 FILE_NAME = re.compile(r"\w[\w. -]{0,99}")
 """Of a new mission: a name that every file system and every message can take."""
@@ -62,6 +63,7 @@ def check_all(files: list[str], options: Options, *, as_json: bool) -> int:
         try:
             checked = check(path, REALITY, options)
             record["steps"] = sum(1 for _ in errands(checked.task))
+            record["notes"] = [msgspec.to_builtins(note) for note in checked.notes]
         except ConfigError as error:
             record["problems"] = [msgspec.to_builtins(problem) for problem in error.problems]
         found.append(record)
@@ -81,13 +83,22 @@ def _say_checked(record: dict[str, Any]) -> None:
     if not problems:
         count = record["steps"]
         say(f"{record['file']}: all is well, {count} {'step' if count == 1 else 'steps'}")
+    for note in record.get("notes", ()):
+        say(str(msgspec.convert(note, Problem)), err=True)
     for problem in problems:
         say(str(problem), err=True)
+
+
+def say_notes(checked: Checked) -> None:
+    """Say which words were taken for others."""
+    for note in checked.notes:
+        say(str(note), err=True)
 
 
 def plan(name: str, options: Options, *, as_json: bool) -> int:
     """Show a dry run. Raises ConfigError with what is wrong in the file."""
     checked = check(load.find(name), REALITY, options)
+    say_notes(checked)
     made = forecast(checked.task, checked.where, done=checked.done)
     if as_json:
         write_json(made)
@@ -125,19 +136,43 @@ def new(name: str) -> int:
         cure = "letters, digits, spaces, - and _, as in tidy_up: the file is made in this folder"
         raise ConfigError([Problem(f"{name[:60]!r} is no name of a mission", suggestion=cure)])
     path = Path(name if name.endswith(load.SUFFIX) else f"{name}{load.SUFFIX}")
-    if os.path.lexists(path):
-        raise ConfigError([Problem("the file is there already", str(path), suggestion="rename")])
+    refuse_taken(path)
     text = template(path.stem.replace("_", " "), file=str(path), schema=SCHEMA.as_uri())
     return _write(text, path)
 
 
 def import_file(file: Path, output: Path | None) -> int:
-    """Make a mission of a BehaviorTree.CPP or Nav2 file. Raises ConfigError if it cannot be."""
+    """Make a mission of a BehaviorTree.CPP or Nav2 file, and check it as `mission check` does.
+
+    What it names may be of another world than the one that missions begin with: it is written
+    then all the same, and what is wrong in it is said.
+
+    Raises:
+        ConfigError: it cannot be made or written; nothing is.
+    """
     from executive.missions import nav2
     from executive.missions.btcpp import importing
 
+    if output is not None:
+        refuse_taken(output)
     make = importing.mission_of if file.suffix.casefold() == ".xml" else nav2.mission_of
-    return _write(make(file), output)
+    text = make(file)
+    wrong: list[Problem] = []
+    try:
+        check(output or PRINTED, REALITY, text=text)
+    except ConfigError as error:
+        wrong = error.problems
+    _write(text, output, word="Written, and not to be run as it is" if wrong else "Done")
+    if output is not None:
+        for line in text.splitlines():
+            if line.startswith("# "):
+                say(line.removeprefix("# "), err=True)
+    for problem in wrong:
+        say(str(problem), err=True)
+    if wrong:
+        cure = "correct that in the mission, or name its world in it (world: FILE), then check it"
+        say("\n".join(failures.advice(cure)), err=True)
+    return ExitStatus.INVALID if wrong else ExitStatus.DONE
 
 
 def export_file(name: str, output: Path | None) -> int:
@@ -147,13 +182,9 @@ def export_file(name: str, output: Path | None) -> int:
     return _write(exporting.xml_of(load.find(name), REALITY), output)
 
 
-def _write(text: str, output: Path | None) -> int:
+def _write(text: str, output: Path | None, *, word: str = "Done") -> int:
     if output is None:
         write(text)
-        return ExitStatus.DONE
-    try:
-        write_ordinary(output, text.encode())
-    except OSError as error:
-        raise ConfigError(f"{output} cannot be written: {error.strerror}") from None
-    say(f"Done: {output}")
+    else:
+        put(output, text, word=word)
     return ExitStatus.DONE

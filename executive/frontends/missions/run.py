@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
 from executive.frontends.launching import folder_for, from_plain_options
-from executive.frontends.missions.commands import said
+from executive.frontends.missions.commands import said, say_notes
 from executive.frontends.missions.options import Run
 from executive.frontends.reality import REALITY
 from executive.missions import load
@@ -28,6 +28,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
         given = said(options, vary_seed=options.vary_seed)
         path = load.find(options.file)
         checked = check(path, REALITY, given)
+        say_notes(checked)
         folder = folder_for(options.run_dir, checked.mission.record.name, handle)
         mission_task.keep(checked, folder)
         return Prepared(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from executive.frontends.options import Seed
+from executive.frontends.options import AsJson, Seed
 
 app = typer.Typer(
     invoke_without_command=True,
@@ -21,12 +21,12 @@ def register(parent: typer.Typer) -> None:
 
 
 @app.callback()
-def worlds(context: typer.Context) -> None:
+def worlds(context: typer.Context, *, as_json: AsJson = False) -> None:
     """What is done without a command."""
     if context.invoked_subcommand is None:
         from executive.frontends.worlds import commands
 
-        raise typer.Exit(commands.list_all())
+        raise typer.Exit(commands.list_all(as_json=as_json))
 
 
 @app.command(no_args_is_help=True)

@@ -5,17 +5,21 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from executive.frontends.output import say, write
+from executive.frontends.new_files import put, refuse_taken
+from executive.frontends.output import say, write, write_json
 from executive.frontends.reality import REALITY
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
 
 PRINTED = "-"
 
 
-def list_all() -> int:
+def list_all(*, as_json: bool = False) -> int:
     """Say what is in the shipped worlds, and which homes can be made."""
+    if as_json:
+        worlds = [_record(name) for name in REALITY.names()]
+        write_json({"worlds": worlds, "kinds": list(REALITY.home_kinds())})
+        return ExitStatus.DONE
     for name in REALITY.names():
         world_map = REALITY.world(name).map
         objects = ", ".join(sorted(f"{o.color} {o.category}" for o in world_map.objects))
@@ -25,6 +29,19 @@ def list_all() -> int:
     kinds = ", ".join(REALITY.home_kinds())
     say(f"Or have one made: humanoid worlds new --kind KIND --seed N ({kinds}).")
     return ExitStatus.DONE
+
+
+def _record(name: str) -> dict[str, object]:
+    """What is in a shipped world."""
+    world_map = REALITY.world(name).map
+    return {
+        "name": name,
+        "objects": [
+            {"id": o.id, "name": o.full_name.removeprefix("the ")} for o in world_map.objects
+        ],
+        "places": [{"id": place.id, "name": place.name} for place in world_map.places],
+        "people": [{"id": person.id, "name": person.name} for person in world_map.people],
+    }
 
 
 def new(
@@ -55,9 +72,9 @@ def new(
     if output is None:
         write(home.world)
         return ExitStatus.DONE
-    _put(output, home.world)
+    put(output, home.world)
     if tasks is not None:
-        _put(tasks, home.tasks)
+        put(tasks, home.tasks)
     return ExitStatus.DONE
 
 
@@ -77,14 +94,4 @@ def _check(path: Path) -> None:
     if path.suffix not in (".yaml", ".yml"):
         cure = f"call it {path.name or 'home'}.yaml: worlds are known by that"
         raise ConfigError([Problem("this is no name of a YAML file", str(path), suggestion=cure)])
-    if os.path.lexists(path):
-        cure = "choose another name, or remove it first"
-        raise ConfigError([Problem("the file is there already", str(path), suggestion=cure)])
-
-
-def _put(path: Path, text: str) -> None:
-    try:
-        write_ordinary(path, text.encode(), anew=True)
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
-    say(f"Done: {path}")
+    refuse_taken(path)

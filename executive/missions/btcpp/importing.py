@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from executive.missions.btcpp import uncalled
 from executive.missions.btcpp.including import trees_of
 from executive.missions.btcpp.nodes import Importer
 from executive.missions.btcpp.steps import Step, fields, flat
@@ -68,11 +69,18 @@ def _mission(root: Element, file_name: str, problems: Problems, notes: list[str]
     if not trees:
         raise root.wrong("there is no <BehaviorTree> in it", "add one")
     own = [name for name, tree in trees.items() if tree.file == root.file] or [*trees]
+    if len(own) > 1 and "main_tree_to_execute" not in root.attributes:
+        text = f"there are {len(own)} trees, and nothing says which is the main one"
+        raise root.wrong(text, f'<root main_tree_to_execute="{own[0]}">')
     main = root.attributes.get("main_tree_to_execute", own[0])
     if main not in trees:
         raise root.wrong(f"there is no tree {main!r}", nearest(main, list(trees)))
     older = root.attributes.get("BTCPP_format", "3") == "3"
-    step = Importer(trees, problems, notes, older=older).tree(main, root, {})
+    importer = Importer(trees, problems, notes, older=older)
+    step = importer.tree(main, root, {})
+    for name in trees:
+        if name not in importer.called:
+            notes.append(uncalled.look_at(name, root, trees, problems, older=older))
     mission: dict[str, Any] = {"name": main or file_name}
     outside = fields(step)
     if "do" in outside and set(outside) <= {"do", "timeout_s", "always"}:
@@ -82,7 +90,7 @@ def _mission(root: Element, file_name: str, problems: Problems, notes: list[str]
             mission["always"] = outside["always"]
         step = {"do": outside["do"]}
     mission["steps"] = steps = flat(step)
-    expected = _expected(steps)
+    expected = _expected(steps, importer, problems)
     if expected:
         mission["expect"] = expected
     if not steps and len(problems) == 0:
@@ -90,9 +98,13 @@ def _mission(root: Element, file_name: str, problems: Problems, notes: list[str]
     return mission
 
 
-def _expected(steps: list[Step]) -> list[Any]:
-    """What the last steps expect; they become the mission's `expect`."""
-    found: list[Any] = []
+def _expected(steps: list[Step], importer: Importer, problems: Problems) -> list[Any]:
+    """What the last steps expect; they become the mission's `expect`, and stand nowhere else."""
+    found: list[Step] = []
     while steps and "expect" in fields(steps[-1]):
-        found.insert(0, steps.pop()["expect"])
-    return found
+        found.insert(0, steps.pop())
+    for element, step in importer.expected:
+        if not any(step is last for last in found):
+            text = "Expect belongs to the end of the main tree: it is asked when all is done"
+            problems.take_here(element.wrong(text, "use Check"))
+    return [step["expect"] for step in found]

@@ -24,12 +24,14 @@ class Leaf(msgspec.Struct, frozen=True, kw_only=True):
         step: its key.
         ports: the slot of each.
         defaults: what ports are taken to be that are not given.
+        negative: ports whose values count as negative, whatever their sign.
         left_out: ports that change nothing here, each with the reason where it is worth a word.
     """
 
     step: str
     ports: dict[str, str]
     defaults: dict[str, str] = {}
+    negative: tuple[str, ...] = ()
     left_out: dict[str, str] = {}
 
 
@@ -66,17 +68,34 @@ def step_of(element: Element, attributes: dict[str, str]) -> Any:
         cure = nearest(name, sorted(table()))
         raise element.wrong(f"the leaf {name!r} has no equivalent", cure)
     value: Any = {}
-    for port, text in {**leaf.defaults, **attributes}.items():
-        if port in ("ID", "name"):
-            continue
-        if port not in leaf.ports:
-            cure = nearest(port, sorted(leaf.ports))
-            raise element.wrong(f"the port {port!r} of {name!r} has no equivalent", cure)
+    for port, text in _given(leaf, name, element, attributes).items():
         value = _filled(value, leaf.ports[port], text, element)
+        if port in leaf.negative:
+            slots, slot = next(iter(value.values())), leaf.ports[port].rpartition(".")[2]
+            number = slots[slot]
+            slots[slot] = -abs(number) if isinstance(number, int | float) else number
     if leaf.step == "sentence":
         return value
     options = {"name": attributes["name"]} if "name" in attributes else {}
     return {leaf.step: value, **options}
+
+
+def _given(leaf: Leaf, name: str, element: Element, attributes: dict[str, str]) -> dict[str, str]:
+    """The ports that have a value, one for each slot."""
+    found = {port: text for port, text in attributes.items() if port not in ("ID", "name")}
+    taken: dict[str, str] = {}
+    for port in found:
+        if port not in leaf.ports:
+            cure = nearest(port, sorted(leaf.ports))
+            raise element.wrong(f"the port {port!r} of {name!r} has no equivalent", cure)
+        slot = leaf.ports[port].partition(" * ")[0]
+        other = taken.get(slot) or (next(iter(taken.values()), "") if not slot else taken.get(""))
+        if other:
+            text = f"the ports {other!r} and {port!r} of {name!r} say the same"
+            raise element.wrong(text, "leave one of them out")
+        taken[slot] = port
+    defaults = {k: v for k, v in leaf.defaults.items() if leaf.ports[k] not in taken}
+    return {**defaults, **found}
 
 
 def _filled(value: Any, slot: str, text: str, element: Element) -> Any:

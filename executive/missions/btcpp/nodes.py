@@ -6,9 +6,10 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from executive.missions.btcpp import leaves
+from executive.missions.btcpp import fitting, leaves
 from executive.missions.btcpp.poses import poses_of
 from executive.missions.btcpp.steps import (
+    NOTHING,
     Ports,
     Step,
     checked,
@@ -16,16 +17,17 @@ from executive.missions.btcpp.steps import (
     fields,
     flat,
     named,
+    number_in,
     whole,
     with_option,
 )
 from executive.missions.btcpp.xml import Element
-from executive.missions.compiling import MAX_STEPS, MAX_TRIES
+from executive.missions.compiling import MAX_STEPS
 from executive.missions.problems import Enough, Problems
+from executive.missions.schema import MAX_ROUNDS, MAX_TRIES
 from robot.config import nearest
 from robot.errors import ConfigError
 
-NOTHING: dict[str, Any] = {"do": []}
 MAX_RECOVERIES = 5
 """In one another; what is in them is written out two to that power times."""
 _AUTOREMAP = ("_autoremap", "__autoremap", "__shared_blackboard")
@@ -39,7 +41,7 @@ class Importer:
     def __init__(
         self, trees: dict[str, Element], problems: Problems, notes: list[str], *, older: bool
     ) -> None:
-        """Write nothing yet.
+        """Write nothing yet; `called` are the trees that were written, `expected` its Expects.
 
         Args:
             trees: by name, those that can be called.
@@ -51,6 +53,8 @@ class Importer:
         self._problems = problems
         self._notes = notes
         self._older = older
+        self.called: set[str] = set()
+        self.expected: list[tuple[Element, Step]] = []
         self._seen: set[int] = set()
         self._recoveries = 0
         self._calls: list[str] = []
@@ -65,6 +69,7 @@ class Importer:
         if len(tree.children) != 1:
             raise tree.wrong(f"the tree {name!r} has {len(tree.children)} roots", "it takes one")
         self._calls.append(name)
+        self.called.add(name)
         step = self.step(tree.children[0], ports)
         self._calls.pop()
         return step
@@ -88,17 +93,22 @@ class Importer:
                 element.wrong(f"more than {MAX_STEPS} nodes, SubTrees written out", "")
             )
             raise Enough
-        kind = element.attributes.get("ID", "") if element.tag in _KINDS else element.tag
-        kind = _OLDER.get(kind, kind) if self._older else kind
+        kind = element.attributes.get("ID", "") if element.tag in KINDS else element.tag
+        kind = OLDER.get(kind, kind) if self._older else kind
         if kind in leaves.refused():
             raise element.wrong(f"{kind} has no equivalent: {leaves.refused()[kind]}", "")
         attributes = self._attributes(element, ports, kind)
         make = NODES.get(kind)
+        before = len(self._problems)
         if make is not None:
-            return make(self, element, attributes, ports)
-        if element.children:
+            step = make(self, element, attributes, ports)
+        elif element.children:
             raise element.wrong(f"{kind} has no equivalent", nearest(kind, sorted(NODES)))
-        return leaves.step_of(element, attributes)
+        else:
+            step = leaves.step_of(element, attributes)
+        if step != NOTHING and len(self._problems) == before:
+            fitting.check(element, kind, attributes, step)
+        return step
 
     def _attributes(self, element: Element, ports: Ports, kind: str = "") -> dict[str, str]:
         """The attributes with the values of the ports in them."""
@@ -154,7 +164,7 @@ class Importer:
             raise element.wrong("Fallback without children", "add one")
         *others, step = [self.step(child, ports) for child in element.children]
         for other in reversed(others):
-            step = {"do": flat(other), "on_fail": {"any": flat(step)}}
+            step = with_option({"do": flat(other)}, "on_fail", {"any": flat(step)})
         return named(fields(step), attributes) if fields(step) else step
 
     def parallel(self, element: Element, attributes: Ports, ports: Ports) -> Step:
@@ -171,19 +181,23 @@ class Importer:
             flat(step) if set(fields(step)) == {"do"} else step
             for step in self.children(element, ports)
         ]
+        if len(branches) < 2:  # the others do nothing
+            return named({"do": flat(*branches)}, attributes) if branches else NOTHING
         return named({"parallel": branches}, attributes)
 
     def retry(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Again, until it succeeds."""
-        attempts = whole(element, attributes, "num_attempts")
+        attempts = whole(element, attributes, "num_attempts", most=MAX_TRIES + 1)
         step = self.only(element, ports)
         return step if attempts == 1 else with_option(step, "retry", attempts - 1)
 
     def repeat(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Again, so many times."""
-        cycles = whole(element, attributes, "num_cycles")
+        cycles = whole(element, attributes, "num_cycles", most=MAX_ROUNDS)
         step = self.only(element, ports)
-        return named({"repeat": cycles, "do": flat(step)}, attributes)
+        return (
+            NOTHING if step == NOTHING else named({"repeat": cycles, "do": flat(step)}, attributes)
+        )
 
     def timeout(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Not longer than that."""
@@ -193,7 +207,9 @@ class Importer:
     def delay(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """Some time later."""
         wait_s = whole(element, attributes, "delay_msec") / 1000.0
-        return {"do": [{"wait": wait_s}, self.only(element, ports)]}
+        wait = {"wait": wait_s}
+        fitting.check(element, "Delay", attributes, wait)
+        return {"do": [wait, *flat(self.only(element, ports))]}
 
     def force_success(self, element: Element, _attributes: Ports, ports: Ports) -> Step:
         """Whether it succeeds or not."""
@@ -253,6 +269,8 @@ class Importer:
         self._recoveries += 1
         first, second = (flat(self.step(child, ports)) for child in element.children)
         self._recoveries -= 1
+        if not first:
+            return NOTHING
         if tries == 1:
             return named({"do": first, "on_fail": {"any": [*second, *first]}}, attributes)
         again = {"fail": "recovered, to be tried again"}
@@ -267,14 +285,30 @@ class Importer:
         )
         port = "goals" if several else "goal"
         steps = [{"go_to": {"pose": pose}} for pose in poses_of(element, attributes.get(port, ""))]
+        for step in steps:
+            fitting.check(element, element.tag, attributes, step)
         if len(steps) > 1 and not several:
             raise element.wrong("NavigateToPose takes one pose", "use NavigateThroughPoses")
         return named(steps[0] if len(steps) == 1 else {"do": steps}, attributes)
 
+    def drive(self, element: Element, attributes: Ports, ports: Ports) -> Step:
+        """Nav2's: straight on or back; it fails there where distance and speed disagree."""
+        speed = self._attributes(element, ports).get("speed", _DRIVE_SPEED)
+        step = leaves.step_of(element, attributes)
+        (slots,) = fields(step)["go_to"].values()
+        forward_m = slots["forward_m"]
+        speed_m_s = number_in(element, "speed", speed)
+        if isinstance(forward_m, int | float) and (forward_m > 0) != (speed_m_s > 0):
+            text = f"Nav2 refuses {forward_m:g} m at {speed_m_s:g} m/s: their signs differ"
+            raise element.wrong(text, "both above zero (forwards), or both below (backwards)")
+        return step
+
     def check(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """A condition among actions: it fails where it does not hold."""
         if element.tag == "Expect":
-            return {"expect": self.condition(element, ports)}
+            step: Step = {"expect": self.condition(element, ports)}
+            self.expected.append((element, step))
+            return step
         return named(checked(self.condition(element, ports)), attributes)
 
     def nothing(self, _element: Element, _attributes: Ports, _ports: Ports) -> Step:
@@ -305,7 +339,7 @@ class Importer:
 
     def while_(self, element: Element, attributes: Ports, ports: Ports) -> Step:
         """As long as a condition holds."""
-        at_most = whole(element, attributes, "at_most")
+        at_most = whole(element, attributes, "at_most", most=MAX_ROUNDS)
         found = {"while": condition_in(element, attributes), "at_most": at_most}
         return named({**found, "do": flat(self.only(element, ports))}, attributes)
 
@@ -314,7 +348,7 @@ class Importer:
         attributes = self._attributes(element, ports)
         if element.tag == "Inverter" and len(element.children) == 1:
             return {"not": self.condition(element.children[0], ports)}
-        kind = attributes.get("ID", "") if element.tag in _KINDS else element.tag
+        kind = attributes.get("ID", "") if element.tag in KINDS else element.tag
         if kind not in _CONDITIONS:
             raise element.wrong(f"the condition {kind!r} has no equivalent",
                                 nearest(kind, sorted(_CONDITIONS)))  # fmt: skip
@@ -323,7 +357,10 @@ class Importer:
 
 Make = Callable[[Importer, Element, Ports, Ports], Step]
 
-_KINDS = ("Action", "Condition", "Control", "Decorator")
+KINDS = ("Action", "Condition", "Control", "Decorator")
+"""Tags that name their node in ID."""
+_DRIVE_SPEED = "0.025"
+"""Nav2's default of DriveOnHeading [m/s]."""
 NODES: dict[str, Make] = {
     "Sequence": Importer.sequence,
     "SequenceWithMemory": Importer.sequence,
@@ -343,6 +380,7 @@ NODES: dict[str, Make] = {
     "RecoveryNode": Importer.recovery,
     "NavigateToPose": Importer.navigate,
     "NavigateThroughPoses": Importer.navigate,
+    "DriveOnHeading": Importer.drive,
     "OnFail": Importer.on_fail,
     "Always": Importer.always,
     "While": Importer.while_,
@@ -359,7 +397,7 @@ _CONDITIONS: dict[str, Callable[[Element, Ports], Any]] = {
     "IsHolding": lambda _, ports: {"holding": ports.get("object", True)},
     "IsAt": lambda _, ports: {"robot_at": ports.get("place", "")},
 }
-_OLDER: dict[str, str] = {
+OLDER: dict[str, str] = {
     "SequenceStar": "SequenceWithMemory",
     "RetryUntilSuccesful": "RetryUntilSuccessful",
     "SubTreePlus": "SubTree",

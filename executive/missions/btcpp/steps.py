@@ -10,28 +10,42 @@ import msgspec
 
 from executive.missions.btcpp.xml import Element
 from robot import plain_data
+from robot.yaml_nodes import resolve
 
 Step: TypeAlias = Any
 Ports: TypeAlias = dict[str, str]
 JSON = "json:"
 """Before a condition that is no sentence; a brace alone would be a blackboard entry."""
+NOTHING: dict[str, Any] = {"do": []}
 OPTIONS = ("retry", "timeout_s", "on_fail", "always")
 MAX_NESTING = 50
 """Of a condition in JSON; the reader of missions takes 60 levels."""
 _NESTING = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
-def whole(element: Element, attributes: Ports, key: str) -> int:
+def whole(element: Element, attributes: Ports, key: str, *, most: int = 10**9) -> int:
     """The whole number in a port, from 1. Raises ConfigError."""
     text = attributes.get(key, "")
     if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) == 0:
-        message = f"{element.tag} with {key}={text!r} has no equivalent"
+        message = f"{element.tag} with {key}={text[:40]!r} has no equivalent"
         raise element.wrong(message, "a whole number from 1: nothing here is without an end")
+    if int(text) > most:
+        raise element.wrong(f"{element.tag} with {key}={text!r}: at most {most} are possible")
     return int(text)
 
 
+def number_in(element: Element, port: str, text: str) -> float:
+    """The number in a port. Raises ConfigError."""
+    found = resolve(text.strip()) if text.strip() else None
+    if isinstance(found, bool) or not isinstance(found, int | float):
+        raise element.wrong(f"{port}: {text[:40]!r} where a number should be")
+    return float(found)
+
+
 def named(step: dict[str, Any], attributes: Ports) -> Step:
-    """A step with the name of its element."""
+    """A step with the name of its element; what does nothing has none."""
+    if step == NOTHING:
+        return step
     return {**step, "name": attributes["name"]} if "name" in attributes else step
 
 
@@ -47,7 +61,12 @@ def fields(step: Step) -> dict[str, Any]:
 
 
 def with_option(step: Step, option: str, value: Any) -> Step:
-    """A step with one more option; options have their order, so it may have to be wrapped."""
+    """A step with one more option; options have their order, so it may have to be wrapped.
+
+    What does nothing neither fails nor takes time.
+    """
+    if step == NOTHING and option != "always":
+        return step
     order = OPTIONS.index(option)
     inside = fields(step)
     plain = inside and not any(key in inside for key in OPTIONS[order:])

@@ -103,6 +103,77 @@ def test_all_mistakes_are_named_at_once(read):
     assert [problem.line for problem in caught.value.problems] == [6, 12]
 
 
+MISTAKES = """\
+name: test
+rooms:
+  - {id: study, at_m: [0, 0], size_m: [6, 6], walls: [north], floor: wod}
+  - {id: hall, at_m: [4, 0], size_m: [4, 4]}
+furniture:
+  - {id: desk, kind: table, at_m: [1.0, 0.0]}
+  - {id: rack, kind: shelv, at_m: [-1.8, 0], boards_m: [0.6, 0.9]}
+  - {id: desk, kind: table, at_m: [1.2, 0.0], mass_kg: heavy}
+objects:
+  - {id: Mug, category: cup, color: rad, shape: box, size_m: [0.1, 0.1, 0.1], mass_kg: -1, on: dsk}
+  - {id: pen, category: pen, color: blue, shape: box, size_m: [0.02, 0.1], mass_kg: 1, on: rack_low}
+  - {id: box, category: box, color: blue, shape: box, size_m: [0.1, 0.1, 0.1], mass_kg: 1, on: desk,
+     at_m: [3, 0], weight: 3}
+  - {id: tin, category: box, color: blue, shape: box, size_m: [0.1, 0.1, 0.1], mass_kg: 1, on: desk,
+     at_m: [3, 0]}
+people:
+  - {id: bob, at_m: [0, 15], color: gren}
+start: {at_m: [50, 0], yaw: 3}
+"""
+
+
+def test_mistakes_of_all_kinds_are_named_at_once_without_what_only_follows(read):
+    with pytest.raises(ConfigError) as caught:
+        read(MISTAKES)
+    found = [(problem.line, problem.message) for problem in caught.value.problems]
+    wanted = [
+        (3, "unknown floor 'wod'"),
+        (4, "hall overlaps study"),
+        (7, "unknown kind 'shelv'"),
+        (8, "id 'desk' is taken"),
+        (8, "the desk overlaps the desk"),
+        (8, "furniture[2].mass_kg is 'heavy'"),
+        (10, "'Mug' cannot be an id"),
+        (10, "unknown color 'rad'"),
+        (10, "objects[0].mass_kg is -1"),
+        (10, "Mug is on unknown place 'dsk'"),
+        (11, "objects[1].size_m has 2 values"),
+        (13, "unknown key 'weight'"),
+        (15, "tin does not fit there on the desk"),
+        (17, "bob is outside every room"),
+        (17, "unknown color 'gren'"),
+        (18, "unknown key 'yaw'"),
+    ]
+    for (line, message), (wanted_line, words) in zip(found, wanted, strict=True):
+        assert line == wanted_line
+        assert words in message
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("at_m: [1.0, 0.0]", "at_m: here"),
+        ("kind: table", "kind: [1]"),
+        ("boards_m: [0.6, 0.9]", "boards_m: high"),
+        ("size_m: [4, 4]", "size_m: [4]"),
+        ("walls: [north]", "walls: [nort], doors: [{wall: north}]"),
+        ("start: {at_m: [-0.5, -1.0]", "start: {at_m: [9]"),
+        ("id: desk", "id: 3"),
+        ("id: desk", "ids: desk"),
+        ("furniture:", "furnitures:"),
+        ("name: test", "named: test"),
+    ],
+)
+def test_one_mistake_is_one_problem_though_others_depend_on_it(read, old, new):
+    assert GOOD.count(old) == 1
+    with pytest.raises(ConfigError) as caught:
+        read(GOOD.replace(old, new))
+    assert len(caught.value.problems) == 1
+
+
 def test_two_objects_in_one_spot_are_a_mistake(read):
     line = "  - {id: jug, category: cup, color: red, shape: box, size_m: [0.1, 0.1, 0.1],\n"
     text = GOOD.replace("people:", line + "     mass_kg: 1, on: desk, at_m: [0.05, 0]}\npeople:")

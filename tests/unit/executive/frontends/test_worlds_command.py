@@ -1,5 +1,6 @@
 """`humanoid worlds new`: a home on the screen or in files that were not there."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -70,3 +71,14 @@ def test_the_list_says_what_can_be_made(capsys):
     said = capsys.readouterr().out
     assert "kitchen" in said
     assert all(kind in said for kind in REALITY.home_kinds())
+
+
+def test_the_worlds_are_listed_for_programs_too(capsys):
+    assert commands.list_all(as_json=True) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [world["name"] for world in found["worlds"]] == list(REALITY.names())
+    kitchen = next(world for world in found["worlds"] if world["name"] == "kitchen")
+    assert {"id": "red_cup", "name": "red cup"} in kitchen["objects"]
+    assert {"id": "anna", "name": "anna"} in kitchen["people"]
+    assert "table" in [place["id"] for place in kitchen["places"]]
+    assert found["kinds"] == list(REALITY.home_kinds())

@@ -168,16 +168,16 @@ WRONG = [
     ('  - for_each: cup\n    in: all cups\n    do: ["look at the {cup}"]\n',
      "where a parameter has two (a parameter is {{cup}})"),
     ('  - if: "the {cup} is on the table"\n    then: [say: x]\n', "'{cup}' has one brace"),
-    ("  - {say: x, retry: many}\n", ":3:21: retry: 'many' where a whole number should be"),
-    ("  - {repeat: 0, do: [say: x]}\n", ":3:14: repeat 0: 1 to 1000 are possible"),
-    ("  - {repeat: many, do: [say: x]}\n", ":3:14: repeat: 'many' where a whole number should be"),
+    ("  - {say: x, retry: many}\n", ":3:21: retry: 'many' where a whole number from 1 to"),
+    ("  - {repeat: 0, do: [say: x]}\n", ":3:14: repeat: 0 where a whole number from 1 to 1000"),
+    ("  - {repeat: many, do: [say: x]}\n", ":3:14: repeat: 'many' where a whole number from 1"),
     ("  - say: {{words}}\n", 'a parameter stands in quotes: "{{name}}"'),
     ("  - frobnicate the cup\n", "this sentence was not understood"),
     ("  - pick: cup\n", "'cup' is not clear (Which cup"),
     ("  - wait: long\n", ":3:11:"),
     ("  - wait: -1\n", "a number from 0 to 600"),
     ("  - balance: {mode: stand, duration_s: soon}\n", ":3:40:"),
-    ("  - say: x\n    retry: 1000\n", "retry 1000: 1 to 100 are possible"),
+    ("  - say: x\n    retry: 1000\n", "retry: 1000 where a whole number from 1 to 100"),
     ("  - say: x\n    timeout_s: 0\n", "timeout_s: 0 where a number above 0 and up to 86400"),
     ("  - {repeat: 2}\n", "the key 'do' is missing"),
     ("  - {say: x, pick: red cup}\n", "a step does one thing: 'pick'"),
@@ -194,6 +194,8 @@ WRONG = [
     ("  - for_each: X\n    in: [red cup]\n    do: [say: x]\n", "'X' is no name"),
     ("  - for_each: x\n    in: [red cupp]\n    do: [say: x]\n", "did you mean 'red cup'"),
     ("  - go_to: {pose: {x_m: 99, y_m: 0}}\n", "outside this world"),
+    ("  - move 3 1\n", "(3, 1) is at the very edge of this world (x from -2.94 to 2.94 m"),
+    ("  - walk forward 15 m\n", "15 m from here is outside this world (it is 6 by 5 m)"),
     ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: x_m: '.inf' where a number should be"),
     ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "x_m: 1e300 where a number of less"),
 ]  # fmt: skip
@@ -231,6 +233,36 @@ def test_all_mistakes_are_found_at_once(write):
     found = problems(write(text))
     assert len(found) >= len(WRONG) - 5
     assert found == sorted(found, key=lambda text: [int(n) for n in text.split(":")[1:3]])
+
+
+def test_a_mistake_in_a_step_hides_no_other_one_in_it(write):
+    found = problems(write(mission(
+        "  - if: {robot_at: moon, seen: red cupp, on: sun}\n"
+        "  - {pick: red cupp, retry: -1}\n"
+        "  - place: {object: cap, on: tabel, in: bin}\n    retry: -1\n"
+        "  - {pick: moon rock, retyr: 3, timeout_s: -3}\n"
+        "  - bring: {object: unicorn, to: mars}\n"
+        "  - {while: {seen: unicorn, on: mars}, at_most: 0, do: [fly to mars]}\n"
+    )))  # fmt: skip
+    wanted = [
+        (3, "'then' is missing"), (3, "exactly one of seen"), (3, "'moon'"), (3, "'red cupp'"),
+        (3, "'sun'"), (4, "'red cupp'"), (4, "retry: -1"), (5, "exactly one of on, in should"),
+        (5, "'cap'"), (5, "'tabel'"), (5, "'bin'"), (6, "retry: -1"), (7, "'moon rock'"),
+        (7, "'retyr'"), (7, "timeout_s: -3"), (8, "'unicorn'"), (8, "'mars'"), (9, "'unicorn'"),
+        (9, "'mars'"), (9, "at_most: 0"), (9, "fly to mars"),
+    ]  # fmt: skip
+    for said, (line, words) in zip(found, wanted, strict=True):
+        assert said.startswith(f":{line}:")
+        assert words in said
+
+
+def test_words_that_are_misspelt_are_told(write):
+    path = write(
+        mission("  - go to the tabel\n  - if: the red cup is on the tabel\n    then: []\n")
+    )
+    notes = [str(note).removeprefix(str(path)) for note in check(path).notes]
+    assert notes == [":3:5: I took “tabel” for “table”.", ":4:9: I took “tabel” for “table”."]
+    assert check(write(mission("  - go to the table\n"))).notes == ()
 
 
 def test_a_step_to_begin_at_has_to_be_there(write):

@@ -56,6 +56,25 @@ WRONG = [
     ('<ComputePathToPose goal="{goal}"/>', "use NavigateToPose with a pose"),
     ('<RecoveryNode number_of_retries="-1"><Say text="a"/><Say text="b"/></RecoveryNode>',
      "number_of_retries='-1'"),
+    ('<Wait wait_duration="abc"/>', "Wait: wait_duration: 'abc' where a number"),
+    ('<Wait wait_duration="-1"/>', "wait_duration: -1 where a number from 0"),
+    ('<Wait wait_duration="1" duration_s="2"/>', "say the same"),
+    ('<Sleep/>', "the port 'msec' is missing"),
+    ('<Spin spin_dist="nan"/>', "spin_dist: 'nan' where a number"),
+    ('<BackUp backup_dist="far"/>', "backup_dist: 'far' where a number"),
+    ('<BackUp backup_dist="90"/>', "backup_dist: -90 where a number"),
+    ('<GoTo target="table" place="shelf"/>', "'target' and 'place' of 'GoTo' say the same"),
+    ('<Pick/>', "Pick: the port 'object' is missing"),
+    ('<Balance mode="handstand"/>', "mode: 'handstand'"),
+    ('<Delay delay_msec="9000000"><Say text="a"/></Delay>', "wait: 9000"),
+    ('<NavigateThroughPoses goals="0;map;1;2;0;0;0;0;1;0;map;1e10;2;0;0;0;0;1"/>',
+     "x_m: 10000000000"),
+    ('<Timeout msec="99999999"><Say text="a"/></Timeout>', "timeout_s: 99"),
+    ('<RetryUntilSuccessful num_attempts="102"><Say text="a"/></RetryUntilSuccessful>',
+     "at most 101"),
+    ('<Repeat num_cycles="1001"><Say text="a"/></Repeat>', "at most 1000"),
+    ('<Check condition="json:{&quot;holdin&quot;: true}"/>', "did you mean 'holding'"),
+    ('<Sequence><Expect condition="holding"/><Say text="a"/></Sequence>', "use Check"),
 ]  # fmt: skip
 
 
@@ -118,6 +137,72 @@ def test_trees_of_included_files_are_called_and_files_may_include_one_another(tm
     assert made["steps"] == [{"do": [{"say": "hello"}]}]
 
 
+# --- several trees ------------------------------------------------------------------------------
+
+SEVERAL = """<root BTCPP_format="4"{main}>
+<BehaviorTree ID="A"><Say text="a"/></BehaviorTree>
+<BehaviorTree ID="B"><SubTree ID="C"/></BehaviorTree>
+<BehaviorTree ID="C">{inside}</BehaviorTree></root>"""
+
+
+def several(inside: str = '<Say text="c"/>', *, main: str = "") -> str:
+    name = f' main_tree_to_execute="{main}"' if main else ""
+    return SEVERAL.format(main=name, inside=inside)
+
+
+def test_of_several_trees_the_file_says_which_is_the_main_one(problems):
+    (said,) = problems(several())
+    assert "tree.xml:1: there are 3 trees" in said
+    assert "main_tree_to_execute" in said
+
+
+def test_trees_that_nothing_calls_are_named_and_looked_at(problems, tmp_path):
+    path = tmp_path / "tree.xml"
+    path.write_text(several(main="B"))
+    text = importing.mission_of(path)
+    assert "# left out: line 2, the tree 'A', which nothing calls\n" in text
+    assert "'C'" not in text.partition("name:")[0]
+    inside = "<Sequence><RateController><Say text='{x}'/></RateController></Sequence>"
+    path.write_text(several(inside, main="A"))
+    assert "'C', which nothing calls; in it, without equivalent: RateController" in (
+        importing.mission_of(path)
+    )
+    for inside, words in (
+        ("<Sequence><Sayy text='a'/></Sequence>", "did you mean 'Say'"),
+        ("<Sequnce><Say text='a'/></Sequnce>", "did you mean 'Sequence'"),
+        ("<SubTree ID='D'/>", "there is no tree 'D'"),
+    ):
+        (said,) = problems(several(inside, main="A"))
+        assert said.startswith("tree.xml:4: ")
+        assert words in said
+
+
+# --- what does nothing --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<Repeat num_cycles="2"><AlwaysSuccess/></Repeat>',
+        '<RetryUntilSuccessful num_attempts="2"><AlwaysSuccess name="a"/></RetryUntilSuccessful>',
+        '<Timeout msec="500"><AlwaysSuccess/></Timeout>',
+        '<ForceSuccess><Sequence name="a"><AlwaysSuccess/></Sequence></ForceSuccess>',
+        '<Fallback><AlwaysSuccess/><Say text="b"/></Fallback>',
+        '<RecoveryNode><AlwaysSuccess/><Say text="b"/></RecoveryNode>',
+        "<Parallel><AlwaysSuccess/><AlwaysSuccess/></Parallel>",
+    ],
+)
+def test_what_does_nothing_leaves_nothing_behind(inside):
+    assert steps_of(f'{inside}<Say text="a"/>') == [{"say": "a"}]
+
+
+def test_beside_what_does_nothing_one_branch_is_no_parallel():
+    assert steps_of('<Parallel><AlwaysSuccess/><Say text="a"/></Parallel>') == [
+        {"do": [{"say": "a"}]}
+    ]
+    assert steps_of('<Delay delay_msec="500"><AlwaysSuccess/></Delay>') == [{"do": [{"wait": 0.5}]}]
+
+
 # --- Nav2 ---------------------------------------------------------------------------------------
 
 
@@ -128,7 +213,9 @@ def test_nodes_of_nav2_that_have_a_meaning_become_steps_with_its_defaults():
       <Spin is_recovery="true"/>
       <BackUp backup_dist="0.3" error_msg="{m}"/>
       <DriveOnHeading dist_to_travel="0.2" speed="0.1"/>
-      <Wait wait_duration="5" server_timeout="10"/>""") == [
+      <Wait wait_duration="5" server_timeout="10"/>
+      <Wait/>
+      <DriveOnHeading/>""") == [
         {"go_to": {"pose": {"x_m": 1.5, "y_m": -2.0, "yaw_rad": 1.570796}}},
         {"do": [
             {"go_to": {"pose": {"x_m": 1.0, "y_m": 0.0, "yaw_rad": 0.0}}},
@@ -138,7 +225,34 @@ def test_nodes_of_nav2_that_have_a_meaning_become_steps_with_its_defaults():
         {"go_to": {"by": {"forward_m": -0.3}}},
         {"go_to": {"by": {"forward_m": 0.2}}},
         {"wait": {"duration_s": 5}},
+        {"wait": {"duration_s": 1.0}},
+        {"go_to": {"by": {"forward_m": 0.15}}},
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "ports",
+    ['backup_dist="0.3"', 'backup_dist="-0.3"', 'backup_dist="-0.3" backup_speed="-0.05"',
+     'backup_dist="0.30" backup_speed="-0.05"'],
+)  # fmt: skip
+def test_backing_up_goes_backwards_whatever_the_signs_are(ports):
+    assert steps_of(f"<BackUp {ports}/>") == [{"go_to": {"by": {"forward_m": -0.3}}}]
+
+
+def test_driving_on_goes_where_distance_and_speed_agree(problems):
+    assert steps_of('<DriveOnHeading dist_to_travel="-0.3" speed="-0.05"/>') == [
+        {"go_to": {"by": {"forward_m": -0.3}}}
+    ]
+    for ports in (
+        'dist_to_travel="-0.3" speed="0.05"',
+        'dist_to_travel="-0.3"',
+        'speed="-0.1"',
+        'dist_to_travel="0" speed="0.1"',
+    ):
+        (said,) = problems(tree(f"<DriveOnHeading {ports}/>"))
+        assert "tree.xml:3: Nav2 refuses" in said
+    (said,) = problems(tree('<DriveOnHeading dist_to_travel="1" speed="fast"/>'))
+    assert "speed: 'fast' where a number should be" in said
 
 
 def test_a_recovery_node_recovers_and_tries_again_so_often():
@@ -187,6 +301,8 @@ def test_format_3_is_read_with_its_names_and_its_subtrees():
     [
         ("poses:\n  - header: {frame_id: odom}\n    pose: {position: {x: 1, y: 0, z: 0}}\n",
          "w.yaml:2:24: poses in the frame 'odom'"),
+        ("poses: [{position: {x: 1, y: 0, z: 0}}]\nwaypoints: [{pose: [1, 0, 0]}]\n",
+         "w.yaml:1:1: waypoints and poses: one list is read"),
         ("header: {frame_id: base_link}\nposes:\n  - {position: {x: 1, y: 0, z: 0}}\n",
          "w.yaml:1:20: poses in the frame 'base_link'"),
         ("frame_id: odom\nposes:\n  - {position: {x: 1, y: 0, z: 0}}\n", "w.yaml:1:11:"),

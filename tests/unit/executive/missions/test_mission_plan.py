@@ -12,6 +12,8 @@ from executive.missions.rehearsal import Rehearsal
 from executive.skills.catalogue import skill_of
 from executive.skills.gesture import Gesture, GestureKind, GestureParams
 from executive.skills.motions.pacing import walking_s
+from executive.skills.navigate import NavigateParams, Step
+from executive.trees import parts as p
 from executive.trees.parts import errands
 from robot.model.description import load
 from robot.planning.requests import BasePath
@@ -117,3 +119,11 @@ def test_what_takes_a_moment_is_not_said_to_take_no_time():
                       total_s=0.1, problems=0))  # fmt: skip
     assert "under 1 s" in told[0]
     assert " 0 s" not in told[0]
+
+
+def test_a_step_out_of_the_map_is_told_and_the_rest_goes_on_from_where_it_began():
+    there = p.Errand(name="out", params=NavigateParams(by=Step(forward_m=7.0)))
+    back = p.Errand(name="in", params=NavigateParams(by=Step(forward_m=0.5)))
+    out, on = forecast(p.Series(name="all", parts=(there, back)), KITCHEN).rows
+    assert "outside this world" in out.problem
+    assert on.problem == ""

@@ -8,13 +8,13 @@ import pytest
 from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.reach import posture_rad
-from executive.skills.navigate import FloorPose, NavigateParams, Step
+from executive.skills.navigate import FloorPose, Navigate, NavigateParams, Step
 from robot.failures import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
 from robot.planning.requests import BasePathRequest
 from robot.se3 import SE3, wrap_angle
 from tests.fakes.puppet import Thing
-from tests.fakes.stage import Stage
+from tests.fakes.stage import DESCRIPTION, Stage
 
 
 @pytest.fixture
@@ -278,3 +278,39 @@ def test_an_interrupted_turn_turns_what_is_left_of_it(stage, after):
     stage.stop()
     assert stage.run(rest).status == "succeeded"
     assert stage.puppet.turned_rad == pytest.approx(whole_rad, abs=0.15)
+
+
+@pytest.mark.parametrize("step", [Step(forward_m=9.0), Step(turn_rad=math.pi, forward_m=3.1),
+                                  Step(left_m=-2.96)])  # fmt: skip
+def test_a_step_out_of_the_map_is_refused_before_anything_moves(stage, step):
+    report = stage.run(NavigateParams(by=step))
+    assert report.failure.code == "invalid_goal"
+    assert report.failure.suggestion == "x from -2.94 to 3.94 m, y from -2.94 to 3.94 m"
+    for kind in (Walk, WalkTo, MoveArm):
+        assert not stage.commands(kind)
+
+
+def test_who_is_out_of_the_map_may_step_back_into_it(stage):
+    stage.puppet.X_WS = SE3.from_xy_yaw(-3.2, 0.0, 0.0)
+    assert stage.run(NavigateParams(by=Step(forward_m=0.2))).status == "succeeded"
+
+
+@pytest.mark.parametrize(
+    ("wanted", "words"),
+    [
+        (to(4.0, 1.0), "at the very edge of this world"),
+        (to(3.97, 1.0), "at the very edge of this world"),
+        (to(9.0, 1.0), "outside this world"),
+        (NavigateParams(by=Step(forward_m=10.5)), "10.5 m from here is outside this world"),
+    ],
+)
+def test_what_lies_beyond_the_map_is_refused_wherever_the_robot_stands(stage, wanted, words):
+    refusal = Navigate.refusal(wanted, stage.puppet.map(), DESCRIPTION)
+    assert refusal is not None
+    assert words in refusal.cause
+    assert " m" in refusal.suggestion
+
+
+def test_what_lies_in_the_map_is_not_refused(stage):
+    for wanted in (to(3.9, 2.9), to(-2.94, 0.0), NavigateParams(by=Step(forward_m=9.0))):
+        assert Navigate.refusal(wanted, stage.puppet.map(), DESCRIPTION) is None
