@@ -211,6 +211,8 @@ class Reader:
             self.run.tasks.append(Task())
             del self.run.tasks[:-MOST_TASKS]
             self._steps.begin_task()
+        if self._only is not None:  # what was asked before was asked of others
+            self.run.task.notes.clear()
         self.run.task.text = told.text or before.text
         self.run.task.began_s = t_s
         self._job = told.job

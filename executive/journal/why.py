@@ -111,8 +111,8 @@ def _stopped(run: Run) -> Explanation:
     cause = task.reason.cause if task.reason else "stopped on request"
     lines = _doing(run)
     asked = [note for note in task.notes if note.kind in ("stop", "cancel", "abort")]
-    if asked and run.end_s > asked[0].t_s:
-        lines.append(f"It came to rest in {run.end_s - asked[0].t_s:.1f} s.")
+    if asked and run.end_s > asked[-1].t_s:
+        lines.append(f"It came to rest in {run.end_s - asked[-1].t_s:.1f} s.")
     lines += _happened(task.notes, "What happened:")
     lines += _before(task, None)
     return _explained("stopped", f"Stopped{_after(run)}: {cause}.", run, lines)

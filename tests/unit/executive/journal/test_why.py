@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from executive.journal import words
 from executive.journal.journal import Event
+from executive.journal.reader import Reader
 from executive.journal.reader import told as run_of
 from executive.journal.why import Explanation, why
 
@@ -176,6 +177,29 @@ def test_of_several_jobs_the_newest_is_explained():
     assert told.status == "done"
     assert told.text.startswith("Done after 5.0 s.\nAsked for: squat")
     assert "red cup" not in told.text
+
+
+def test_what_was_asked_before_a_job_began_is_none_of_its_own():
+    def state(number: int, text: str, told: str) -> dict[str, object]:
+        return {"job": number, "text": text, "state": told, "urgent": False}
+
+    reader = Reader(job=2)
+    for n, (t_s, kind, data) in enumerate(
+        [
+            (1.0, "job", state(1, "walk", "running")),
+            (5.0, "pause", {"why": "paused on request"}),
+            (8.0, "stop", {"why": "the first stop"}),
+            (9.0, "job", state(1, "walk", "cancelled")),
+            (20.0, "job", state(2, "squat", "running")),
+            (28.0, "stop", {"why": "the second stop"}),
+            (29.5, "job", state(2, "squat", "cancelled")),
+        ]
+    ):
+        reader.event(Event(n, t_s, kind, data))
+    text = why(reader.run).text
+    assert "It came to rest in 1.5 s." in text
+    assert "the first stop" not in text
+    assert "paused" not in text
 
 
 def test_lost_events_are_told():
