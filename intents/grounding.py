@@ -36,6 +36,7 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
         id: What the executive calls it.
         size_m: Extents in x, y, z [m].
         at: Place it is at, or empty. With neither place nor room it may be anywhere.
+        of: Piece of furniture that the place is a part of ("shelf" of its boards), or empty.
         room: Room it is in, or empty.
         p_WO: Position in the world [m].
         held: It is in the robot's hand.
@@ -48,6 +49,7 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
     size_m: tuple[float, float, float] | None = None
     mass_kg: float | None = None
     at: str = ""
+    of: str = ""
     room: str = ""
     p_WO: tuple[float, float, float] | None = None
     held: bool = False
@@ -161,7 +163,12 @@ _BY_PLACE = frozenset({"leftmost", "rightmost", "nearest", "farthest", "highest"
 def _fits(entity: Entity, query: ObjectQuery) -> bool:
     """Whether an entity is as described, leaving aside comparisons with others."""
     unplaced = not (entity.at or entity.room)
-    near = query.at is None or unplaced or query.at in (entity.at, entity.room) or entity.held
+    near = (
+        query.at is None
+        or unplaced
+        or query.at in (entity.at, entity.of, entity.room)
+        or entity.held
+    )
     return (
         (query.name is None or _alike(entity.name, query.name))
         and (query.category is None or _alike(entity.category, query.category))
@@ -186,7 +193,10 @@ def _related(
 def _stands_so(
     entity: Entity, relation: Relation, others: list[Entity], view: Viewpoint | None
 ) -> bool:
-    if relation.how in ("on", "in", "near") and _alike(entity.at, relation.of.name or ""):
+    name = relation.of.name or ""
+    if relation.how in ("on", "in", "near") and (
+        _alike(entity.at, name) or _alike(entity.of, name)
+    ):
         return True
     body = _body(entity)
     placed = [b for o in others if o.id != entity.id and (b := _body(o))]

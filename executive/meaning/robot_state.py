@@ -82,4 +82,10 @@ def _entities(knowledge: Knowledge, world: WorldState | None, held: frozenset[st
 
 
 def _standing(entity: Entity, at: Place | None, p_WO: Vector3, knowledge: Knowledge) -> Entity:
-    return replace(entity, at=at.name if at else "", room=knowledge.room_at(p_WO), p_WO=p_WO)
+    return replace(
+        entity,
+        at=at.name if at else "",
+        of=at.of.replace("_", " ") if at else "",
+        room=knowledge.room_at(p_WO),
+        p_WO=p_WO,
+    )

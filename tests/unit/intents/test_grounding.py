@@ -34,6 +34,15 @@ def test_twins_are_told_apart_by_where_they_are() -> None:
     assert found.labels == ("the one at the table", "the one at the sink")
 
 
+def test_what_stands_on_a_board_stands_on_its_shelf() -> None:
+    high = Entity(id="c4", name="cup", color="red", at="upper shelf", of="shelf")
+    low = Entity(id="c5", name="cup", color="red", at="table", of="table")
+    for at in ("shelf", "upper shelf"):
+        found = ground(ObjectQuery(name="cup", at=at), [low, high])
+        assert isinstance(found, Grounded)
+        assert found.ids == ("c4",)
+
+
 def test_superlatives_compare_sizes_and_masses() -> None:
     for superlative, wanted in (("largest", "b1"), ("smallest", "c2"), ("heaviest", "b1"),
                                 ("lightest", "c1"), ("tallest", "b1")):  # fmt: skip
