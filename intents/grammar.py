@@ -4,6 +4,7 @@ A sentence is a sequence of clauses (:mod:`intents.english.sequences`). Each is 
 a list of readings that makes sense of it (:mod:`intents.english.order`).
 """
 
+import re
 from typing import NamedTuple
 
 from intents.english.faithfulness import left_out, strings
@@ -39,6 +40,10 @@ _HELLO = lexicon.phrases(
 )
 _DANGLING = lexicon.words("to into onto from with towards the a an of")
 """Words that no command ends with."""
+
+
+_KEPT = re.compile(r"\b(let(ting)? go|releas(e|ing)|put(ting)? (it|them|that) down)\b")
+"""What is to stay in the hand, and cannot where it is handed on or put somewhere."""
 
 
 class Understood(NamedTuple):
@@ -78,6 +83,7 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
         raise Unclear(f"“... {text.word(len(text) - 1)}” what?")
     if end < len(text):
         raise not_understood(text, end)
+    _never_onto_itself(goals)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
     remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals))
@@ -95,6 +101,9 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
         raise NotUnderstood("All right, I shall not")
     known = " ".join(strings(goals))
     for said, names, away in sentence.notes.forbidden:
+        kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
+        if kept:
+            raise Partly(f"I cannot promise “{said}”", tuple(goals))
         spots = away and any(n.kind in ("place", "room") for n in names)
         asked = any(n.name.lower() in known for n in names if n.kind != "person")
         if spots or (asked and not away):
@@ -118,6 +127,19 @@ def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
         said = listing([f"“{word}”" for word in grave], "and")
         raise Partly(f"I cannot take account of {said}", tuple(goals))
     return [f"I pay no attention to “{one.said}”" for one in dropped]
+
+
+def _never_onto_itself(goals: list[Goal]) -> None:
+    """Refuse to put a thing on, into or to itself, or on another of its kind.
+
+    Raises:
+        NotUnderstood: That is asked for.
+    """
+    for goal in each(goals):
+        name = goal.object.name if isinstance(goal, (Place, Bring)) else None
+        spots = (goal.on, goal.in_) if isinstance(goal, Place) else (getattr(goal, "to", None),)
+        if name and name in spots:
+            raise NotUnderstood(f"I cannot put one {name} on, into or to another, or itself")
 
 
 def _must_choose(text: Text, goals: list[Goal]) -> None:

@@ -10,10 +10,11 @@ from intents.english.clauses.conditions import IF, as_soon_as, condition, mentio
 from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import retraction_end
+from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
-from intents.english.trouble import ReadingError
+from intents.english.trouble import Partly, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
@@ -82,6 +83,24 @@ def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | No
         return None
     other, end = clause_by_itself(sentence, skip_openings(sentence.text, at + 1))
     return ([*other, *last] if word == "after" else [*last, *other]), end
+
+
+def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Lay the table *before the guests come*: now; wave *until Ada comes*: that is asked about.
+
+    Raises:
+        Partly: The robot cannot tell when that is.
+    """
+    text = sentence.text
+    if not (tells_when(text, at) and last):
+        return None
+    end = at
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        end += 1
+    if text.word(at) != "before":
+        raise Partly(f"I cannot tell when that is, “{text.raw(at, end)}”", tuple(sentence.before))
+    sentence.notes.passed.append((at, end))
+    return last, end
 
 
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -1,13 +1,13 @@
 """Taking back what was just said: "the red cup, no wait, the blue one"."""
 
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import is_person, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.substitution import substitute
 from intents.english.trouble import Misfit
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.english.words.lexicon import GOALWARDS, LOCATIVES, phrases
+from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Goal, ObjectQuery
@@ -76,6 +76,13 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
     if phrase is None:
         return None
+    source = text.phrase_end(SOURCEWARDS, phrase.end + 1)
+    spot = noun_phrase(text, source) if source and text.word(phrase.end) == COMMA else None
+    source = source if spot else text.phrase_end(SOURCEWARDS, phrase.end)
+    spot = spot or (noun_phrase(text, source) if source else None)
+    if spot is not None and spot.is_spot and not phrase.is_spot:
+        phrase.places.append(Locative(None, spot))  # two gloves, from the cabinet
+        phrase.end = spot.end
     old = scope.person if is_person(phrase, scope) else scope.object
     if phrase.is_spot:
         old, new = scope.place, to_place(phrase, scope)

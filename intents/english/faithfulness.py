@@ -33,6 +33,7 @@ from intents.goals import (
     Repeat,
     Report,
     Say,
+    Wait,
     each,
     to_builtins,
 )
@@ -183,6 +184,8 @@ def _word_carried(text: Text, at: int, told: _Told) -> bool:
         return not _before_noun(text, at + 1)
     if word in _WAYS:
         return told.walks_by
+    if word == "longer":
+        return told.has(Wait, Balance) and not _before_noun(text, at + 1)
     if word in _ORDINALS:
         return not _before_noun(text, at + 1) and not text.lookup(lexicon.SUPERLATIVES, at + 1)
     if word in _BOARDS:

@@ -59,13 +59,20 @@ def carried(goals: list[Goal]) -> list[Goal]:
     More than two cannot be held at once, and need not be.
     """
     picks = [goal for goal in goals if isinstance(goal, Pick)]
-    if (
+    several = any(goal.object.count == "all" for goal in picks)
+    if not several and (
         sum(goal.object.count if isinstance(goal.object.count, int) else 1 for goal in picks)
         <= _HANDS
     ):
         return goals
     kept = list(goals)
     for pick in picks:
+        each_one = next((g for g in kept if _is_of(g, pick)), None)
+        if isinstance(each_one, ForEach):
+            thing = replace(pick.object, count=None)
+            kept[kept.index(each_one)] = replace(each_one, object=thing)
+            kept.remove(pick)
+            continue
         later = [g for g in kept[kept.index(pick) :] if isinstance(g, Place | Bring | Give)]
         fate = next((g for g in later if _bare(g.object) == _bare(pick.object)), None)
         if fate is not None:
@@ -73,6 +80,13 @@ def carried(goals: list[Goal]) -> list[Goal]:
             kept[kept.index(fate)] = replace(fate, object=thing)
             kept.remove(pick)
     return kept
+
+
+def _is_of(goal: Goal, pick: Pick) -> bool:
+    """Whether what is picked up all together is put away one by one."""
+    if not isinstance(goal, ForEach) or pick.object.count != "all":
+        return False
+    return _bare(goal.object) == _bare(replace(pick.object, count=None))
 
 
 def same_object(wanted: Goal, found: list[Goal]) -> bool:

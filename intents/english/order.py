@@ -35,6 +35,7 @@ from intents.english.readings import (
     remarks,
     repetition,
     time_clauses,
+    trying,
     verb,
     without_verb,
 )
@@ -74,6 +75,7 @@ RULES = Rules(
         movements.to_and_fro,
         movements.patrol,
         verb.tidied_by,
+        trying.tried,
         questions.whether,
         questions.seen,
         without_verb.fist,
@@ -115,6 +117,7 @@ RULES = Rules(
         exclusions.excluded,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
+        afterthoughts.in_time,
         afterthoughts.so_often,
         afterthoughts.who_asks,
     ),

@@ -43,7 +43,7 @@ def read_on(text: Text, phrase: NounPhrase) -> int:
 _IS_THERE = lexicon.phrases(
     "have you seen,did you see,is there,are there,do you see,can you see,there is,there are,is,are"
 )
-_HERE = lexicon.words("here there around home present")
+_HERE = lexicon.words("here there around home present about in")
 _KINDS: dict[str, str] = dict.fromkeys(lexicon.GENDERS, "gender") | dict.fromkeys(
     (word for phrase in lexicon.POSTURES for word in phrase), "posture"
 )

@@ -92,7 +92,8 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                r"|are you|you are able to"
                r"|are you able to) (?:can |currently )?(?:see|seeing|looking at|look at"
                r"|perceive|detect|observe|recognize)"
-               r"(?: around you| in front of you| from there)?"),
+               r"(?: around you| in front of you| from there| (?:from )?over there| from here"
+               r"| from where you (?:are|stand))?"),
     ("seeing", r"what is (?:in front of you|around you|in (?:your )?view|in sight|before you)"),
     ("location", r"(?:in |at )?(?:where|which (?:room|place|spot)|what (?:room|place"
                  r"|spot))\b(?: \w+)?"

@@ -21,6 +21,11 @@ _CAUSES = lexicon.phrases(
     "seeing that,now that,so that,in case,for fear,considering,although,though,even though,"
     "by the way,fyi,just so you know,for your information"
 )
+_SUBJECTLESS = lexicon.phrases(
+    "can not,could not,does not matter,do not matter,will not be,did not,has not,have not,"
+    "trying to,been"
+)
+"""How a statement begins whose subject goes without saying: "can't talk, ..."."""
 _STATES = lexicon.words(
     "is are am was were 's has had have can could will would do does did may might keeps seems "
     "looks feels smells sounds needs wants likes loves hates says means thinks knows works hurts "
@@ -50,6 +55,9 @@ _REACH = 6
 
 def told_end(text: Text, at: int) -> int | None:
     """Where a clause ends that only tells something, if one begins at a word."""
+    subjectless = text.phrase_end(_SUBJECTLESS, at)
+    if subjectless and text.word(subjectless) not in ("you", "we"):
+        return _end(text, subjectless, past=False, being=False)
     cause = text.phrase_end(_CAUSES, at)
     if cause is not None and (text.word(cause - 1) not in ("as", "since") or _verb_of(text, cause)):
         return _end(text, cause, past=False, being=True)
@@ -154,6 +162,7 @@ def _begins_command(text: Text, at: int, *, past: bool, being: bool) -> bool:
             bool(text.phrase_end(lexicon.OPENERS, after)) and "you" in text.words[after : after + 3]
         )
         bare = bool(verbs_at(text.words, after)) and base_form(text.word(after)) == text.word(after)
-        return polite or (bare and (word in ("so", "then") or being) and not past)
+        due = word == "so" and text.word(after) not in _SAME_IN_PAST
+        return polite or (bare and (word in ("so", "then") or being) and (due or not past))
     handed = verbs_at(text.words, at) and base_form(word) == word
     return bool(handed) and not past and text.word(at + 1) in ("me", "us") and being

@@ -172,7 +172,9 @@ def _unknown_receiver(goal: Complement, scope: Scope) -> str:
 
 def _there(slots: Slots) -> str | None:
     """Bring the cup *there*, to the place spoken of."""
-    there = next((c for c in slots.rest if c.phrases and c.phrase.noun == "there"), None)
+    there = next(
+        (c for c in slots.rest if c.phrases and c.phrase.noun == "there" and c.role != "from"), None
+    )
     if there is None or slots.scope.place is None:
         return None
     slots.rest.remove(there)
@@ -325,7 +327,7 @@ def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:
 
 
 def _throws(clause: Clause) -> bool:
-    return clause.verb.split()[0].startswith(_THROW) or "rid" in clause.verb
+    return clause.verb.startswith(_THROW) or "rid" in clause.verb
 
 
 def _disposes(clause: Clause) -> bool:

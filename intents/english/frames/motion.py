@@ -8,7 +8,7 @@ from intents.english.frames.slots import Slots, need
 from intents.english.phrases.complements import Clause, Complement
 from intents.english.phrases.phrase import SAID_HOW, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Offered, Unclear
 from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
@@ -178,10 +178,15 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("that is to put something down")
     if target and "exit" not in clause.verb and target.phrase.places:
         raise Misfit("that is to put something down")
+    if clause.verb == "leave" and clause.text.word(clause.first) == "off":
+        raise Misfit("that is to give something up")
     way_out = next((n for w in ("exit", "door", "entrance") for n in scope.index.exact(w)), None)
     if target and target.phrase.said == "way":
         raise Misfit("that is to step aside")
-    return [GoTo(place=way_out.name if way_out else "exit")]
+    out = GoTo(place=way_out.name if way_out else "exit")
+    if clause.verb == "exit" and len(clause.text) == 1:
+        raise Offered("“Exit”", (out,))  # who types it may want to leave the programme
+    return [out]
 
 
 def turn(clause: Clause, scope: Scope) -> list[Goal]:

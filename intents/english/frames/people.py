@@ -97,6 +97,7 @@ def greet(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("I can introduce myself, not people to one another")
     if not people:
         people = [other or scope.person or Person()]
+    slots.take_person("from")  # from me
     at = slots.source() or slots.loose_place()
     slots.done()
     return [Greet(person=p if p == ME else replace(p, at=p.at or at)) for p in people]

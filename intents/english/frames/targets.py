@@ -91,6 +91,9 @@ def _spot(place: Locative, scope: Scope) -> Target:
         where = SAID_HOW.get(place.how, place.how)
         raise NotUnderstood(f"I can put things on or in a place, not {where} something")
     where = to_place(place.of, scope, objects=True)
+    if place.how != "in" and place.of.name("object") == where and (place.of.color or place.of.size):
+        which = " ".join(filter(None, (place.of.size, place.of.color, where)))
+        raise NotUnderstood(f"I put things on furniture, not on the {which}")
     if where == OPERATOR:
         raise Unclear("Where shall I put it?")
     part = place.of.part

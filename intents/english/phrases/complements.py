@@ -4,7 +4,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
-from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers, weight_at
+from intents.english.phrases.noun_phrases import (
+    noun_phrase,
+    read_postmodifiers,
+    tells_when,
+    weight_at,
+)
 from intents.english.phrases.phrase import Locative, NounPhrase, is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
@@ -31,9 +36,11 @@ _DIRECTIONS: dict[tuple[str, ...], Direction] = {
         ("backward", "backward,backwards,back,to the back,rearwards,in reverse,"
                      "behind you,over your shoulder,behind yourself,behind your back"),
         ("left", "left,to the left,to your left,leftwards,leftward,sideways left,to my left,"
-                 "to the left side,left side,to left,sideways to the left,towards the left"),
+                 "to the left side,left side,to left,to left side,sideways to the left,"
+                 "towards the left"),
         ("right", "right,to the right,to your right,rightwards,rightward,sideways right,"
-                  "to my right,to the right side,to right,sideways to the right,towards the right"),
+                  "to my right,to the right side,to right,to right side,sideways to the right,"
+                  "towards the right"),
         ("around", "around,all the way around,all around,round,the other way,the other way around,"
                    "the other direction"),
         ("up", "up,upwards,upward"),
@@ -134,6 +141,8 @@ def ends_clause(text: Text, at: int) -> bool:
     if at >= len(text) or word in (COMMA, FULL_STOP):
         return True
     if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
+        return True
+    if tells_when(text, at):
         return True
     if word == "without" and text.word(at + 1).endswith("ing"):
         return True

@@ -12,9 +12,9 @@ from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_c
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
-from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
+from intents.english.words.lexicon import DETERMINERS, GOALWARDS, LEVELS, LOCATIVES
 from intents.english.words.text import Text
-from intents.english.words.verbs import verbs_at
+from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import Superlative
 
 _RELATIVE = lexicon.words("that which who whose")
@@ -116,6 +116,20 @@ def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
     return None
 
 
+def tells_when(text: Text, at: int) -> bool:
+    """Whether "before" or "until" stands before a clause: "before *Anna gets home*"."""
+    if text.word(at) not in ("before", "after", "until"):
+        return False
+    if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
+        return False  # until he reaches the door: that is where to
+    subject = bare_phrase(text, at + 1)
+    if subject is None or subject.end >= len(text):
+        return False
+    word = text.word(subject.end)
+    third = base_form(word) != word or word in ("is", "are", "has", "have")
+    return third or (bool(verbs_at(text.words, subject.end)) and not text.name_at(subject.end))
+
+
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
     if phrase.noun == "operator":
@@ -134,9 +148,12 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
             "see",
         )
         return seen or (reduced + there if there or ends else None)
-    if text.word(at) not in _RELATIVE:
+    lies = text.word(at + 2) in _LYING_AROUND or text.lookup(LOCATIVES, at + 2)
+    learnt = text.words[at : at + 2] == ["what", "is"] and bool(lies)  # the cup what is there
+    if text.word(at) not in _RELATIVE and not learnt:
         return None
     at += 1
+    at += text.word(at) == "it" and text.word(at + 1) == "is"  # the book which it is on the sofa
     first = at
     while text.word(at) in _RELATIVE_FILLERS:
         at += 1
@@ -341,7 +358,7 @@ def _aside(text: Text, phrase: NounPhrase, at: int) -> int | None:
 def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """In the kitchen, left of the cup."""
     found = text.lookup(LOCATIVES, at)
-    if found is None or phrase.noun in ("body", "here", "there"):
+    if found is None or phrase.noun in ("body", "here", "there") or tells_when(text, at):
         return None
     how, end = found
     inner = noun_phrase(text, end)

@@ -70,6 +70,12 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
     )
     end = match.end
     _prefix_level(text, phrase)
+    if text.word(end) in LEVELS and not phrase.level and text.word(end) not in ("left", "right"):
+        phrase.level = text.word(end)  # shelf upper
+        _prefix_level(text, phrase)
+        if not phrase.level:
+            return end + 1
+        phrase.level = ""
     if (
         match.of("room")
         and text.word(end) in ("floor", "area", "room")
@@ -113,6 +119,8 @@ def _goes_on_unknown(text: Text, at: int) -> bool:
     if text.word(at) in SOMETHING or verbs_at(text.words, at) or _names_person(text, at):
         return False
     if text.lookup(lexicon.SUPERLATIVES, at) or text.words[at : at + 2] == ["end", "up"]:
+        return False
+    if text.word(at) == "before" and not text.name_at(at):
         return False
     last = not is_content(text, at + 1) or bool(verbs_at(text.words, at + 1))
     if text.word(at) in text.index.colors and last:

@@ -43,6 +43,7 @@ class Scope:
         group: The objects picked up and not yet put down, for "them".
         last: The goal before, for "and tell me".
         parted: What "one" was and which it is, once "the other" is spoken of.
+        unknown: What was spoken of last, if nothing of that name is known.
     """
 
     index: NameIndex
@@ -54,12 +55,13 @@ class Scope:
     group: tuple[ObjectQuery, ...] = ()
     last: Goal | None = None
     parted: tuple[ObjectQuery, ObjectQuery] | None = None
+    unknown: str = ""
 
     def mention(self, what: ObjectQuery | Person | str | None) -> None:
         """Remember what has just been spoken of."""
         if isinstance(what, ObjectQuery):
             if what != ObjectQuery(held=True):
-                self.object, self.person_is_last = what, False
+                self.object, self.person_is_last, self.unknown = what, False, ""
         elif isinstance(what, Person):
             if what.who != "operator":
                 self.person, self.person_is_last = what, True
@@ -114,6 +116,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
     at, relation = _where(phrase, scope)
     if phrase.said == HELD:
         return ObjectQuery(held=True)
+    if phrase.noun == "pronoun" and scope.unknown:
+        raise NotUnderstood(f"I know no object called “{scope.unknown}”")
     if phrase.noun == "pronoun":
         known = scope.object or ObjectQuery(held=True)
         if phrase.said in ("them", "they") and known.count == 1:

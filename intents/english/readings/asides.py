@@ -7,10 +7,13 @@ none is acted on. A prohibition is noted, and looked at again when the goals are
 
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
+from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import is_content
+from intents.english.phrases.referents import to_object
 from intents.english.reading import Forbidden, Found, Sentence
+from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
-from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, tokenize
 from intents.english.words.names import Name
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
@@ -24,7 +27,8 @@ _WARNS = lexicon.phrases(
 )
 _FORBIDS = lexicon.phrases(
     "forget,forget about,ignore,skip,do not,never,avoid,no,not,without,but not,and not,only not,"
-    "do not you,do not ever"
+    "do not you,do not ever,pay no attention to,take no notice of,pay no heed to,never mind about,"
+    "leave alone,under no circumstances,on no account,in no case"
 )
 _KEEPS_AWAY = lexicon.phrases(
     "keep away from,stay away from,keep off,stay off,keep out of,stay out of,stay clear of,"
@@ -39,12 +43,19 @@ _SAFE = lexicon.words(
 """What the robot takes care not to do in any case."""
 
 
+_LEFT = lexicon.words("left dropped forgot forgotten there found bought brought lost delivered put")
+"""With one of these in it a statement may tell of a thing for the first time."""
+
+
 def told(sentence: Sentence, at: int) -> Found | None:
     """My hands are full, ...; ..., because it is late; he said put it down."""
-    end = told_end(sentence.text, at)
+    end = told_end(sentence.text, at) or _cited(sentence.text, at)
     if end is None or end == at:
         return None
-    _mention(sentence, at, end)
+    if sentence.text.word(at) == QUOTE:
+        _mention_cited(sentence, at)
+    sentence.scope.unknown = _unknown_thing(sentence.text, at, end)
+    _mention(sentence, at, end, described=True)
     return [], end
 
 
@@ -75,15 +86,58 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
     return [], end
 
 
-def _mention(sentence: Sentence, start: int, end: int) -> None:
-    """Remember the person and the thing that stand between two words: "give *him* ..."."""
+def _cited(text: Text, at: int) -> int | None:
+    """*"Mummy said yes!"* - that was Leo: what is cited and not to be said asks for nothing."""
+    cited = text.word(at) == QUOTE and text.word(at + 1) in (COMMA, FULL_STOP)
+    return at + 1 if cited else None
+
+
+def _mention_cited(sentence: Sentence, at: int) -> None:
+    """Remember the last thing that somebody is cited to have spoken of."""
+    words = [token.text for token in tokenize(sentence.text.raw(at, at + 1))]
+    for n in range(len(words)):
+        match = sentence.text.index.match(words, n)
+        if match and match.of("object"):
+            sentence.scope.mention(ObjectQuery(name=match.of("object")))
+
+
+def _unknown_thing(text: Text, at: int, end: int) -> str:
+    """What somebody left *a hammer* is called, where no such thing is known: it is "it" then."""
+    if not _LEFT.intersection(text.words[at:end]):
+        return ""
+    for n in range(at, end):
+        phrase = noun_phrase(text, n) if text.word(n) in ("a", "an", "some") else None
+        if phrase is not None and phrase.noun == "unknown":
+            return phrase.said
+    return ""
+
+
+def _mention(sentence: Sentence, start: int, end: int, *, described: bool = False) -> None:
+    """Remember the person and the thing that stand between two words: "give *him* ...".
+
+    ``described`` things are where they are told to be.
+    """
     for n in range(start, end):
         match = sentence.text.name_at(n)
         person, thing = (match.of("person"), match.of("object")) if match else ("", "")
+        spot = match.of("place") if match else ""
+        if spot and not sentence.before:
+            sentence.scope.device = spot
         if person:
             sentence.scope.mention(Person(name=person))
         elif thing and not sentence.before:
-            sentence.scope.mention(ObjectQuery(name=thing))
+            known = _described(sentence, n) if described else None
+            sentence.scope.mention(known or ObjectQuery(name=thing))
+
+
+def _described(sentence: Sentence, at: int) -> ObjectQuery | None:
+    """The thing at a word with where it is: "Ada rang about the pen *that is on my desk*"."""
+    phrase = noun_phrase(sentence.text, at)
+    try:
+        thing = phrase and to_object(phrase, sentence.scope)
+    except ReadingError:
+        return None
+    return thing or None
 
 
 def _names(text: Text, start: int, end: int) -> tuple[Name, ...]:

@@ -4,9 +4,9 @@ from intents.english.clauses.conditions import IF, as_soon_as, condition, mentio
 from intents.english.clauses.openings import otherwise_end
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
-from intents.english.trouble import Unclear
+from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.goals import Goal, If
+from intents.goals import Goal, If, Person, Present
 
 
 def conditional(sentence: Sentence, at: int) -> Found | None:
@@ -16,8 +16,14 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if start is None and text.word(at) == "should" and text.word(at + 1) != "you":
         start = at + 1
     if start is None:
+        start = _while(sentence, at)
+    if start is None:
         return None
-    holds, end = condition(text, start, sentence.scope)
+    try:
+        holds, end = condition(text, start, sentence.scope)
+    except NotUnderstood:
+        _on_what_is_unseen(sentence, at, start)
+        raise
     soon = as_soon_as(text, at, holds)
     if soon:
         return [soon], end + (text.word(end) == COMMA)
@@ -41,3 +47,36 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+
+def _while(sentence: Sentence, at: int) -> int | None:
+    """*While Ada is here*, wave: only if she is; the link has been passed over."""
+    text = sentence.text
+    if text.word(at - 1) != "while" or text.word(at - 2) not in (COMMA, FULL_STOP):
+        return None
+    try:
+        holds, end = condition(text, at, sentence.scope)
+    except ReadingError:
+        return None
+    return at if isinstance(holds, Present) and text.word(end) == COMMA else None
+
+
+def _on_what_is_unseen(sentence: Sentence, at: int, start: int) -> None:
+    """If Ada is thirsty, ...: nothing that can be seen, and what is to be done then is clear.
+
+    Raises:
+        Partly: It asks whether to do it.
+    """
+    text = sentence.text
+    end, of_person = start, text.word(start) in ("he", "she")
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        named = text.name_at(end)
+        if named and named.of("person"):
+            sentence.scope.mention(Person(name=named.of("person")))
+            of_person = True
+        end += 1
+    if not of_person or text.word(end) != COMMA or sentence.depth or sentence.before:
+        return
+    then, _ = sequence(sentence.inner(), end + 1)
+    if then:
+        raise Partly(f"I cannot check “{text.raw(at, end)}”", tuple(then))

@@ -18,6 +18,7 @@ from intents.goals import (
     Displacement,
     Find,
     Follow,
+    ForEach,
     Give,
     Goal,
     GoTo,
@@ -52,10 +53,24 @@ def likewise(sentence: Sentence, at: int) -> Found | None:
     text, before = sentence.text, sentence.before or list(sentence.history)
     phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
     end = text.phrase_end(_TOO, phrase.end) if phrase else None
+    if phrase and end is None and text.word(at - 1) == "then" and _is_put(before, phrase):
+        end = phrase.end  # put the cup in the sink, then the bowl
     if phrase is None or end is None or not before or not ends_clause(text, end):
         return None
-    found = _with_another(before[-1], phrase, sentence.scope)
+    found = _with_another(_inner(before[-1]), phrase, sentence.scope)
     return (found, end) if found else None
+
+
+def _inner(goal: Goal) -> Goal:
+    """What is done with each of several."""
+    return goal.goals[0] if isinstance(goal, ForEach) and len(goal.goals) == 1 else goal
+
+
+def _is_put(before: list[Goal], phrase: NounPhrase) -> bool:
+    """Whether things are put somewhere, and another is named and nothing else."""
+    where = _inner(before[-1]) if before else None
+    placed = isinstance(where, Place) and (where.on or where.in_)
+    return bool(placed and phrase.name("object") and not phrase.places)
 
 
 def follow_up(sentence: Sentence, at: int) -> Found | None:

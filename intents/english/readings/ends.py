@@ -38,7 +38,8 @@ _GETS_TO = lexicon.phrases(
     "gets safely to,gets into"
 )
 _PASSIVE = lexicon.phrases(
-    "needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,are to be,"
+    "to be,needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,"
+    "are to be,"
     "can be,could be,needs,wants to be,shall be,will be,may be,would need to be"
 )
 _BELONGS = lexicon.phrases(

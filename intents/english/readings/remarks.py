@@ -10,6 +10,7 @@ from intents.english.substitution import substitute
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.verbs import verbs_at
+from intents.goals import Person
 
 _KNOWN = lexicon.phrases(
     "i left,i put,i placed,i forgot,i saw,i dropped,i have left,i have put,i have forgotten,"
@@ -74,6 +75,9 @@ def told_of(sentence: Sentence, at: int) -> Found | None:
         end += 1
     if end >= len(text) or end - predicate > _SHORT:
         return None
+    who = text.name_at(predicate)
+    if phrase.noun == "pronoun" and who and who.of("person"):
+        sentence.scope.mention(Person(name=who.of("person")))  # that was Leo
     if phrase.noun == "unknown":
         sentence.scope.device = singular(phrase.said)
     elif phrase.noun == "name":

@@ -174,6 +174,8 @@ def _asks(kept: list[str]) -> bool:
     """Whether the clause so far is a question itself: "where are you", "are you okay"."""
     begin = max((n + 1 for n, word in enumerate(kept) if word in _SIGNS), default=0)
     said = [word for word in kept[begin:] if word != COMMA]
+    if said[:2] == ["do", "not"]:
+        return False
     asked = bool(said) and said[0] in ("are", "is", "do", "does", "did", "have", "has", "am", "was")
     return asked or not (lexicon.WH | {"whereabouts"}).isdisjoint(said[:3])
 
@@ -223,13 +225,17 @@ def _small_word(words: list[str], at: int) -> int | None:
         return at + 1
     if words[at] == "know" and words[at - 2 : at] in (["can", "you"], ["could", "you"]):
         return at + 1 if _is_verb(words, at + 1) else None
+    if at and words[at : at + 4] == ["what", "is", "it", "called"]:
+        return at + 4
     if words[at : at + 2] == ["you", "know"] and _word(words, at + 2) not in lexicon.WH | {"that"}:
         asked = _word(words, at - 1) in ("do", "if", "can", "could", "would")
         return None if asked else at + 2
     if words[at : at + 3] == ["let", "us", "see"] and _word(words, at + 3) == COMMA:
         return at + 3
-    if words[at : at + 2] == ["go", "on"] and at == 0 and _word(words, 2) in (COMMA, "then"):
-        return 2 if _is_verb(words, 3) else None
+    if words[at : at + 2] == ["go", "on"] and (not at or words[at - 1] in (*_SIGNS, "so")):
+        end = at + 2 + (_word(words, at + 2) == "then")
+        urged = _word(words, end) == COMMA or end > at + 2
+        return end if urged and _is_verb(words, end + (_word(words, end) == COMMA)) else None
     for end in range(min(len(words), at + 3), at, -1):
         counted = _word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit()
         if tuple(words[at:end]) in _SMALL and counted:

@@ -46,6 +46,12 @@ _SLIPS = tuple(
     for slip, meant in (
         (r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", "to"),
         (r"\bform(?=\s+(?:the|my|your|her|his)\b)", "from"),
+        (r"\boot(?=\s+(?:the|ma|my|your|that|yon)\b)", "out of"),
+        (
+            r"\b(bring|grabb|fetch|gett|putt|tak|giv|clos|pass|help|look|check|pick|open|turn)in\b'?"
+            r"(?!g)",
+            r"\1ing",
+        ),
         (r"\byour self\b", "yourself"),
         (r"&", " and "),
         (r"\s*(?:-+>|=+>|→|⇒|(?<=\s)>+(?=\s))\s*", " to "),
@@ -70,6 +76,12 @@ _WHOLE = {
     "tellme": ("tell", "me"), "bringme": ("bring", "me"), "givme": ("give", "me"),
     "youre": ("you", "are"), "whens": ("when", "is"), "tho": ("to",), "fo": ("of",),
     "uturn": ("u-turn",), "plase": ("please",), "te": ("the",), "ur": ("your",), "n": ("and",),
+    "gonnae": ("will", "you"), "gonny": ("will", "you"), "gie": ("give",),
+    "gies": ("give", "us"), "oot": ("out",), "doon": ("down",), "aff": ("off",), "tae": ("to",),
+    "dinnae": ("do", "not"), "dinna": ("do", "not"), "cannae": ("can", "not"),
+    "y'all": ("you",), "oughta": ("ought", "to"), "outta": ("out", "of"),
+    "outa": ("out", "of"), "tryna": ("trying", "to"),
+    "im": ("i", "am"), "ive": ("i", "have"), "dnt": ("do", "not"), "cant": ("can", "not"),
     "yuo": ("you",), "thier": ("their",), "pleas": ("please",), "pleese": ("please",),
 }  # fmt: skip
 _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("'d", "would"),

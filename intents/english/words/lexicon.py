@@ -176,7 +176,8 @@ GOALWARDS = phrases(
     "back into,back onto,back in,back on,over into,until he reaches,until she reaches,"
     "until they reach,until he gets to,until she gets to,until they get to,until he arrives at,"
     "until she arrives at,until they arrive at,until he is in,until she is in,until they are in,"
-    "until he is at,until she is at,until they are at,until you reach,until you get to"
+    "until he is at,until she is at,until they are at,until you reach,until you get to,"
+    "round to,through to,across to,along to,on over to,out to,over into,down into,up into"
 )
 SOURCEWARDS = phrases(
     "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,from within,"
@@ -212,7 +213,9 @@ FILLERS = phrases(
     "when you are ready,whenever you like,wherever she goes,wherever he goes,wherever they go,"
     "wherever i go,everywhere she goes,everywhere he goes,everywhere i go,see if you can,"
     "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
-    "while you are here,while you are out,while you are passing"
+    "while you are here,while you are out,while you are passing,after all,"
+    "as fast as you can,as quick as you can,as quickly as you can,"
+    "as fast as possible,as quickly as possible,quick as you can"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 _OPENINGS = phrases(
@@ -251,11 +254,23 @@ _OPENINGS = phrases(
     "what i want is for you to,what i need is for you to,i want to see you,let us see you,"
     "let me see you,i would like to see you,i would love to see you,mind,i would be grateful,"
     "i would be glad,i would be happy,it would be great,it would be nice,it would be lovely,"
-    "i would appreciate it"
+    "i would appreciate it,i do not suppose you could,i suppose you could,i reckon you could,"
+    "i reckon you ought to,i reckon you should,you ought to,you might want to,could not you,"
+    "can not you,would not you,make yourself useful and,you know what,tell you what,"
+    "i tell you what,i need that you,"
+    "i need you,i want you,would it be asking too much for you to,would it be asking too much for,"
+    "would it be too much to ask for,would it be too much to ask for you to,"
+    "would it be asking too much to,"
+    "i do hope i am not disturbing,i hope i am not disturbing,i do hope i am not disturbing you,"
+    "i hope i am not disturbing you,i do hope i am not being a nuisance,"
+    "i hope i am not being a nuisance,good evening to you,good morning to you,"
+    "good afternoon to you,good day to you,will you not"
 )
 _ANNOUNCED = phrases(
     "look,right,your next job,your job,your task,your next task,your mission,next job,next task,"
-    "new job,task,mission,the task,the plan,plan,order,command"
+    "new job,task,mission,the task,the plan,plan,order,command,quick,urgent,as fast as you can,"
+    "as quick as you can,as quickly as you can,as soon as you can,quick as you can,hurry,"
+    "hurry up,quick quick,chop chop"
 )
 OPENERS = _OPENINGS | {(*phrase, ",") for phrase in _ANNOUNCED}
 """Words that can be dropped at the beginning of a clause."""

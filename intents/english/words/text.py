@@ -33,9 +33,13 @@ _WISHING = words("would it i")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
 _PREDICATES = words(
-    "there here still not gone empty full open closed in on at under behind near next missing away"
+    "about around ringing shut closed there here still not gone empty full open closed in on at "
+    "under behind near next missing away"
 )
 """What follows "the bottle's" where that is no owner."""
+_RECEIVERS = words("him her me them us want wants")
+_WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
+_MADE = words("close open turn go walk bring take put switch come")
 _ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -71,7 +75,7 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        self.tokens: list[Token] = _unfinished(_without_fillers(corrected, self.index))
+        self.tokens: list[Token] = _colloquial(_unfinished(_without_fillers(corrected, self.index)))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
@@ -174,6 +178,39 @@ def _unfinished(tokens: list[Token]) -> list[Token]:
         if base:
             tokens[at : at + 2] = [Token(base, tokens[at + 1].raw)]
     return tokens
+
+
+def _colloquial(tokens: list[Token]) -> list[Token]:
+    """Put *the lot* there: them; where is it *at*; *make close* the door; *the*, the cup."""
+    kept: list[Token] = []
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 3, -1, -1):
+        if words[at] in _WHATSITS and words[at + 1] == COMMA and words[at + 2] in DETERMINERS:
+            begin = at - (words[at - 1] in DETERMINERS)
+            del tokens[begin : at + 2]  # the thing, the pipette
+    words = [t.text for t in tokens]
+    for at, token in enumerate(tokens):
+        last = kept[-1].text if kept else FULL_STOP
+        begins = last in (*_BEFORE_VERBS, "after", "before")
+        if last in ("the", "a", "an", "my") and token.text in (COMMA, last):
+            continue  # the, um, the stapler
+        if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
+            kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")
+        elif token.text == "1" and at + 1 == len(words) and last in _RECEIVERS:
+            kept += [Token("a", ""), Token("one", token.raw)]
+        elif (
+            token.text == "make"
+            and begins
+            and words[at + 1 : at + 2]
+            and (
+                words[at + 1] in _MADE
+                and (words[at + 1] != "turn" or words[at + 2 : at + 3] == ["to"])
+            )
+        ) or (token.text == "at" and at + 1 == len(words) and "where" in words[:3]):
+            continue
+        else:
+            kept.append(token)
+    return kept
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:

@@ -11,7 +11,8 @@ SPELLINGS: dict[str, str] = {
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
-        "pop over,pop,nip over,nip,hop over,dash,zip,trot,march,off you go,make for,head for,"
+        "pop over,pop,nip over,nip,nip down,pop down,head down,nip round,pop round,nip up,"
+        "hop over,dash,zip,trot,march,off you go,make for,head for,"
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
@@ -65,16 +66,19 @@ SPELLINGS: dict[str, str] = {
         "get me"
     ),
     "give": (
-        "give,hand,hand over,pass,serve,offer,give over,pass over,present,provide,"
+        "give,chuck,toss,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
+        "present,provide,"
         "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
     ),
     "want": (
         "i want,i need,i would like,i would love,can i have,could i have,may i have,"
+        "might i have,might i get,"
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
         "i want to have,i am looking for,we need,we want,we would like,i require,"
         "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
         "i could murder,i would kill for,i am after,i am wanting,i am needing,"
-        "could i trouble you for,can i trouble you for,may i trouble you for,"
+        "might i trouble you for,might i bother you for,could i trouble you for,"
+        "can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
         "i am in need of,do you have,have you got,i like,i crave,me want,me need"
     ),
@@ -215,7 +219,8 @@ SPELLINGS: dict[str, str] = {
         "get going again,go on now,go on"
     ),
     "cancel": (
-        "cancel,abort,cancel that,cancel it,never mind,nevermind,forget it,forget that,"
+        "cancel,abort,leave off,skip it,skip that,skip this,forget this,cancel that,cancel it,"
+        "never mind,nevermind,forget it,forget that,"
         "forget about it,forget about that,give up,abandon,abort the mission,"
         "cancel the mission,cancel the task,abort the task,abandon the mission,"
         "abandon the task,cancel everything,undo that,abort that,abort it,call it off,"
@@ -259,6 +264,7 @@ _BASES = frozenset(phrase[0] for phrase in SENSES) - {"i", "we", "can", "could",
 
 
 _PARTICIPLES = {
+    "lit": "light",
     "brought": "bring", "taken": "take", "given": "give", "put": "put", "set": "set",
     "found": "find", "shown": "show", "led": "lead", "held": "hold", "thrown": "throw",
     "gotten": "get", "sent": "send", "got": "get", "shut": "shut", "left": "leave", "hung": "hang",
