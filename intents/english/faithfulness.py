@@ -136,6 +136,10 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if match and word not in _OTHERS | _PEOPLE:
         known = told.name(*(n.name for n in match.names)) or told.speaks
         known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
+        if match.of("person") and lexicon.LEAVING.intersection(
+            text.words[match.end : match.end + 2]
+        ):
+            return match.end, True  # the plate Ada left on the sofa
         favour = text.word(at - 1) == "for" and bool(match.of("person"))
         return match.end, known or (favour and not told.has(Bring, Give))
     most = text.lookup(lexicon.SUPERLATIVES, at)

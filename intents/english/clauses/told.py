@@ -17,6 +17,7 @@ _SUBJECTS = lexicon.words(
 )
 _OWNERS = lexicon.words("my his her its our their your the a an some every each no another")
 _CAUSES = lexicon.phrases(
+    "as you are,since you are,seeing as you are,seeing you are,seeing that you are,as i am,"
     "because,because of,since,as,cause,cuz,coz,cos,due to,thanks to,given that,seeing as,"
     "seeing that,now that,so that,in case,for fear,considering,although,though,even though,"
     "by the way,fyi,just so you know,for your information"

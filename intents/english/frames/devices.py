@@ -54,6 +54,10 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
     return names
 
 
+_LOUD = words("tv television telly radio music stereo speaker heater heating thermostat")
+"""What is turned down without being turned off."""
+
+
 def device_names(said: Complement, scope: Scope, act: str) -> list[str]:
     """What is to be opened, closed or switched.
 
@@ -102,6 +106,9 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
         on, off = said.how == "on", False
     if clause.verb == "turn" and "up" in particles:
         raise Misfit("I can switch it on or off, not up")
+    loud = said is not None and bool(_LOUD.intersection(said.phrase.said.split()))
+    if loud and "down" in particles and clause.verb.startswith("turn"):
+        raise NotUnderstood("I can switch it on or off, not down")
     if on == off:
         raise Misfit("on or off?")
     if (

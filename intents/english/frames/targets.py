@@ -9,10 +9,19 @@ from intents.english.phrases.complements import Clause
 from intents.english.phrases.phrase import SAID_HOW, Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.words import lexicon
 from intents.goals import OPERATOR, How, ObjectQuery, Part, Place, Relation
 
 MOVES = ("move", "transport", "transfer", "shift")
 """Verbs of what is carried; with "next to", that is where to."""
+
+
+_NARROW = lexicon.words("bottle cup mug glass vase jug ball")
+_HOLD_NOTHING = lexicon.words(
+    "spoon fork knife pen pencil marker ball phone control remote apple banana orange glasses keys "
+    "key screwdriver hammer scissors pipette"
+)
+"""Where nothing can be put: impossible stacks are refused before anything moves."""
 
 
 class Target(NamedTuple):
@@ -94,6 +103,10 @@ def _spot(place: Locative, scope: Scope) -> Target:
     if place.how != "in" and place.of.name("object") == where and (place.of.color or place.of.size):
         which = " ".join(filter(None, (place.of.size, place.of.color, where)))
         raise NotUnderstood(f"I put things on furniture, not on the {which}")
+    noun = where.split()[-1]
+    narrow = noun in _NARROW and place.how == "on" and not place.of.is_spot
+    if narrow or (noun in _HOLD_NOTHING and place.of.name("object") == where):
+        raise NotUnderstood(f"Nothing would stay on or in the {where}")
     if where == OPERATOR:
         raise Unclear("Where shall I put it?")
     part = place.of.part

@@ -38,6 +38,8 @@ _LYING_AROUND = lexicon.words(
 )
 
 
+_TIMES = lexicon.words("dinner lunch breakfast supper tea noon midnight bedtime tonight tomorrow")
+_SOMEBODY = lexicon.words("i we he she they you somebody someone")
 _BOARDS = lexicon.words("board shelf level tier compartment rack row")
 """What a piece of furniture has one above the other."""
 _EXCEPT = lexicon.phrases(
@@ -120,13 +122,16 @@ def tells_when(text: Text, at: int) -> bool:
     """Whether "before" or "until" stands before a clause: "before *Anna gets home*"."""
     if text.word(at) not in ("before", "after", "until"):
         return False
+    if text.word(at + 1) in _TIMES:
+        return True
     if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
         return False  # until he reaches the door: that is where to
     subject = bare_phrase(text, at + 1)
     if subject is None or subject.end >= len(text):
         return False
     word = text.word(subject.end)
-    third = base_form(word) != word or word in ("is", "are", "has", "have")
+    third = base_form(word) != word or word in ("is", "are", "has", "have", "'s")
+    third = third or (word.endswith("s") and word.isalpha() and not text.name_at(subject.end))
     return third or (bool(verbs_at(text.words, subject.end)) and not text.name_at(subject.end))
 
 
@@ -140,6 +145,7 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return end and end + (text.word(end) == COMMA and follows)
     spot = phrase.is_spot
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
+    reduced = reduced or (None if spot or phrase.is_person else _left_there(text, at))
     if reduced:
         there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
         seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
@@ -167,6 +173,18 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if end:
         return end
     return at if text.words[first:at] and text.word(at - 1) in ("see", "find", "there") else None
+
+
+def _left_there(text: Text, at: int) -> int | None:
+    """The plate [that] *Ada left* on the sofa: what follows says where it is."""
+    at += text.word(at) in ("that", "which")
+    who = text.name_at(at)
+    subject = who.end if who and who.of("person") else at + 1
+    if subject == at + 1 and not who and text.word(at) not in _SOMEBODY:
+        return None
+    subject += text.word(subject) in ("has", "have", "had", "just", "'s")
+    left = text.word(subject) in lexicon.LEAVING and text.lookup(LOCATIVES, subject + 1)
+    return subject + 1 if left else None
 
 
 def weight_at(text: Text, at: int) -> tuple[Superlative, int] | None:

@@ -7,7 +7,7 @@ none is acted on. A prohibition is noted, and looked at again when the goals are
 
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
-from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.noun_phrases import noun_phrase, tells_when
 from intents.english.phrases.phrase import is_content
 from intents.english.phrases.referents import to_object
 from intents.english.reading import Forbidden, Found, Sentence
@@ -50,6 +50,8 @@ _LEFT = lexicon.words("left dropped forgot forgotten there found bought brought 
 def told(sentence: Sentence, at: int) -> Found | None:
     """My hands are full, ...; ..., because it is late; he said put it down."""
     end = told_end(sentence.text, at) or _cited(sentence.text, at)
+    if sentence.text.word(at) == "before" and tells_when(sentence.text, at):
+        end = _clause_end(sentence.text, at, links=False)  # now is before then
     if end is None or end == at:
         return None
     if sentence.text.word(at) == QUOTE:

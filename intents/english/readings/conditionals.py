@@ -2,6 +2,7 @@
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
 from intents.english.clauses.openings import otherwise_end
+from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear
@@ -15,6 +16,8 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     start = text.phrase_end(IF, at)
     if start is None and text.word(at) == "should" and text.word(at + 1) != "you":
         start = at + 1
+    if text.word(at) == "after" and tells_when(text, at):
+        _on_what_is_unseen(sentence, at, at + 1)
     if start is None:
         start = _while(sentence, at)
     if start is None:

@@ -2,7 +2,7 @@
 
 from intents.english.clauses.results import brought_about
 from intents.english.clauses.verb_clauses import framed
-from intents.english.phrases.complements import read_complements
+from intents.english.phrases.complements import first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, SaidVerb, Sentence
 from intents.english.trouble import Misfit, Unclear
@@ -70,6 +70,11 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
     complements, end = read_complements(text, at)
     roles = [c.role for c in complements if c.role != "from"]
     closed = end >= len(text) or text.word(end) in (COMMA, FULL_STOP)
+    bare = first_with(complements, "")
+    there = first and closed and roles == [""]
+    if there and bare and bare.phrase.places and bare.phrase.name("object"):
+        sentence.notes.verb = SaidVerb(at, at, ("put",))
+        return framed(sentence, "put", "put", complements, first=at, end=end)
     if roles not in (["", "to"], ["", "into"]) or not closed:
         return None
     thing, where = (c.phrases[0] if c.phrases else None for c in complements if c.role != "from")

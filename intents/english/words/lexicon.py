@@ -291,6 +291,8 @@ AUXILIARIES = words(
     "is are was were be been am do does did has have had can could will would should shall may "
     "might must not"
 )
+LEAVING = words("left put dropped forgot forgotten placed keeps keep hid threw stored")
+"""What somebody does with a thing that is somewhere since."""
 WH = words("what where who how which when why whose whom whether if unless")
 CONJUNCTIONS = words("and or then but so because else otherwise than as while until")
 OTHER_WORDS = words("to for at on in with of by from and or me the a an one is are")

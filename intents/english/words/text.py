@@ -199,14 +199,18 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         elif token.text == "1" and at + 1 == len(words) and last in _RECEIVERS:
             kept += [Token("a", ""), Token("one", token.raw)]
         elif (
-            token.text == "make"
-            and begins
-            and words[at + 1 : at + 2]
-            and (
-                words[at + 1] in _MADE
-                and (words[at + 1] != "turn" or words[at + 2 : at + 3] == ["to"])
+            (
+                token.text == "make"
+                and begins
+                and words[at + 1 : at + 2]
+                and (
+                    words[at + 1] in _MADE
+                    and (words[at + 1] != "turn" or words[at + 2 : at + 3] == ["to"])
+                )
             )
-        ) or (token.text == "at" and at + 1 == len(words) and "where" in words[:3]):
+            or (token.text == "you" and at == 1 and words[0] in _MADE)
+            or (token.text == "at" and at + 1 == len(words) and "where" in words[:3])
+        ):
             continue
         else:
             kept.append(token)

@@ -11,6 +11,7 @@ SPELLINGS: dict[str, str] = {
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
         "find the way,take yourself,get yourself,go out,step,roll,journey,arrive,"
         "arrive at,be at,get back,go back,come back,position yourself,pass by,"
+        "mosey over,mosey,toddle over,saunter over,amble over,trot over,scurry over,carry yourself,"
         "pop over,pop,nip over,nip,nip down,pop down,head down,nip round,pop round,nip up,"
         "hop over,dash,zip,trot,march,off you go,make for,head for,"
         "come straight back,go straight back,come right back,go right back,"
@@ -33,7 +34,7 @@ SPELLINGS: dict[str, str] = {
         "single out,look,look around,look in,show me,show us"
     ),
     "pick": (
-        "pick,pick up,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
+        "pick,pick up,nab,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
         "round up,grab hold of,take hold of,pick out,gather,seize,lift up,raise,acquire,grip,"
         "snatch,clutch,scoop up,withdraw,extract,remove,pull,pull out,procure,choose,"
         "select,take away"
@@ -44,7 +45,8 @@ SPELLINGS: dict[str, str] = {
         "grab hold of,go pick up,go and pick up,go and grab,go grab"
     ),
     "put": (
-        "put,place,set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
+        "put,place,whack,plonk,shove,park,"
+        "set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
         "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
         "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
@@ -57,7 +59,9 @@ SPELLINGS: dict[str, str] = {
         "place down,leave,lower"
     ),
     "bring": (
-        "bring,run,run over,deliver,carry,transport,transfer,bring over,bring back,bring along,"
+        "bring,tote,lug,cart,ferry,"
+        "run,run over,run on over,deliver,carry,transport,transfer,bring over,bring back,"
+        "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull"
     ),
@@ -71,7 +75,8 @@ SPELLINGS: dict[str, str] = {
         "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
     ),
     "want": (
-        "i want,i need,i would like,i would love,can i have,could i have,may i have,"
+        "hook me up with,fix me up with,sort me out with,set me up with,i want,i need,i would like,"
+        "i would love,can i have,could i have,may i have,"
         "might i have,might i get,"
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
         "i want to have,i am looking for,we need,we want,we would like,i require,"
