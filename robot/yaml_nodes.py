@@ -18,6 +18,7 @@ from typing import Any, Literal, cast
 
 import yaml
 
+from robot import yaml_words
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_ordinary
 from robot.printable import is_printable, printable
@@ -35,6 +36,7 @@ Kind = Literal["text", "list", "map"]
 Scalar = str | int | float | bool | None
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ufffe\uffff]")
 _INTEGER = re.compile(r"[-+]?[0-9]{1,18}")
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]{1,3})?")
 _WORDS: dict[str, Scalar] = {
@@ -182,15 +184,16 @@ def parse(text: str, file: str, *, begin_with: str = "") -> Node:
     try:
         root = _Builder(file).build(_events(text))
     except yaml.MarkedYAMLError as error:
-        mark: Any = error.problem_mark or error.context_mark
-        line, column = (mark.line + 1, mark.column + 1) if mark else (None, None)
-        what = ", ".join(part for part in (error.context, error.problem) if part)
-        here = text.splitlines()[line - 1 : line] if line else []
-        cure = "indent with spaces, not with a tab" if "\t" in "".join(here) else _cure(what)
-        raise _refusal(file, f"not valid YAML: {what}", cure, line=line, column=column) from None
-    except yaml.YAMLError as error:
-        what = str(error).splitlines()[0]
-        raise _refusal(file, f"not a text file: {what}", "save it as plain text") from None
+        message, cure, line, column = yaml_words.told(error, text)
+        raise _refusal(file, f"not valid YAML: {message}", cure, line=line, column=column) from None
+    except yaml.YAMLError:  # libyaml's reader, which stops at the first of them
+        bad = _CONTROL.search(text)
+        line = text.count("\n", 0, bad.start()) + 1 if bad else None
+        what = (
+            f"a control character stands in it ({ord(bad[0]):#04x})" if bad else "unknown letters"
+        )
+        cure = "save it as plain text"
+        raise _refusal(file, f"not a text file: {what}", cure, line=line) from None
     if root is None:
         raise _refusal(file, "the file is empty", begin_with and f"begin with: {begin_with}")
     return root
@@ -198,16 +201,6 @@ def parse(text: str, file: str, *, begin_with: str = "") -> Node:
 
 def _events(text: str) -> Iterator[Any]:
     return cast("Any", yaml).parse(text, Loader=_LOADER)
-
-
-def _cure(what: str) -> str:
-    if "'%'" in what or "'@'" in what or "'`'" in what:
-        return "put the text into quotes"
-    if "mapping values are not allowed" in what:
-        return "put a text with a colon into quotes"
-    if "'\\t'" in what:
-        return "indent with spaces"
-    return "look at the indentation, the brackets and the quotes"
 
 
 class _Builder:

@@ -141,13 +141,14 @@ class _Mended:
         inside = self.node.get(group)
         if inside is None:
             return
-        if len(path) == 1 or inside.kind != "list" or not isinstance(path[1], int):
+        place = path[1] if len(path) > 1 else None
+        if inside.kind != "list" or not isinstance(place, int):
             if group in STAND_INS or group not in World.__struct_fields__:  # or it is misspelt
                 self.ids = None
             self.start_is_known &= group != "start"
             del self.node.entries[group]
             return
-        entry = inside.items[path[1]]
+        entry = inside.items[place]
         key = str(path[2]) if len(path) > 2 else ""
         self._note(group, entry, key)
         if entry.kind == "map" and key in entry.entries:
@@ -155,7 +156,7 @@ class _Mended:
             return
         missing = {k: v for k, v in STAND_INS.get(group, {}).items() if k not in entry.entries}
         if entry.kind != "map" or not missing:
-            inside.items.pop(path[1])
+            inside.items.pop(place)
             return
         for name, value in missing.items():
             entry.entries[name] = (text_node(name, entry), of_data(value, entry))

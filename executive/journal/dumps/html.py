@@ -12,7 +12,7 @@ import hashlib
 import html
 from importlib import resources
 from string import Template
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
@@ -24,6 +24,9 @@ from robot.printable import printable, printable_data
 _SCRIPTS = (
     "1_run.js", "2_tools.js", "3_timeline.js", "4_lanes.js", "5_map.js", "6_panels.js", "7_main.js",
 )  # fmt: skip
+
+DECIMALS = 4
+"""Of a number in a page: what is measured is a millimetre, what is timed 0.1 ms."""
 
 
 class Page(msgspec.Struct, kw_only=True):
@@ -41,7 +44,7 @@ def page(run: Run, *, why: list[str] | None = None) -> str:
     style = (files / "viewer.css").read_text(encoding="utf-8")
     template = Template((files / "page.html").read_text(encoding="utf-8"))
     told = Page(run=run.dumped(), inner=sorted(inner(run)), why=why or [])
-    data = msgspec.json.encode(printable_data(msgspec.to_builtins(told)))
+    data = msgspec.json.encode(_rounded(printable_data(msgspec.to_builtins(told))))
     policy = (
         f"default-src 'none'; script-src {_hash(script)}; style-src {_hash(style)}; "
         "base-uri 'none'; form-action 'none'"
@@ -54,6 +57,18 @@ def page(run: Run, *, why: list[str] | None = None) -> str:
         data=embedded(data.decode()),
         script=script,
     )
+
+
+def _rounded(data: object) -> object:
+    """Plain data with numbers no finer than anybody looks at them."""
+    if isinstance(data, float):
+        return round(data, DECIMALS)
+    if isinstance(data, dict):
+        entries = cast("dict[object, object]", data).items()
+        return {key: _rounded(value) for key, value in entries}
+    if isinstance(data, list):
+        return [_rounded(item) for item in cast("list[object]", data)]
+    return data
 
 
 def embedded(json: str) -> str:

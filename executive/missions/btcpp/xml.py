@@ -11,6 +11,20 @@ from robot.yaml_nodes import read_text
 
 MAX_DEPTH = 100
 MAX_ELEMENTS = 50_000
+_WORDS = {
+    "syntax error": ("it does not begin with a tag", '<root BTCPP_format="4">'),
+    "no element found": ("there is nothing in it", '<root BTCPP_format="4">'),
+    "mismatched tag": ("a tag is closed that was not opened", "take it out"),
+    "unclosed token": ("what begins here is never closed", "add the > or the quote"),
+    "duplicate attribute": ("an attribute stands twice in one tag", "leave one of them out"),
+    "junk after document element": ("something stands behind the end of <root>", "take it out"),
+    "undefined entity": ("a name between & and ; that nobody knows", "write & as &amp;"),
+    "not well-formed (invalid token)": (
+        "a letter that cannot stand here",
+        'values stand in closed quotes, "..."; in them < is &lt; and & is &amp;',
+    ),
+}
+"""What expat says, and what people are told."""
 
 
 class Element:
@@ -46,11 +60,7 @@ def parse(text: str, file: str) -> Element:
     try:
         builder.parser.Parse(text, True)  # noqa: FBT003, expat's own signature
     except expat.ExpatError as error:
-        what = expat.errors.messages[error.code]
-        place = Problem(
-            f"not valid XML: {what}", file, error.lineno, error.offset + 1, "see that line"
-        )
-        raise ConfigError([place]) from None
+        raise ConfigError([builder.problem(error, text.encode())]) from None
     assert builder.root is not None
     return builder.root
 
@@ -67,6 +77,27 @@ class _Builder:
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.StartDoctypeDeclHandler = self._doctype
+
+    def problem(self, error: expat.ExpatError, data: bytes) -> Problem:
+        """What keeps the text from being XML, in words for people, where it begins."""
+        what = expat.errors.messages[error.code]
+        begun = self._stack[-1] if self._stack else None
+        words, cure = _WORDS.get(what, ("this cannot be read", "look at the quotes and brackets"))
+        line, column = error.lineno, error.offset + 1
+        if begun is not None and what == "mismatched tag":
+            words = f"another tag is closed than <{begun.tag}> of line {begun.line}"
+            cure = f"</{begun.tag}>"
+        elif begun is not None and what == "no element found":
+            words, cure = f"<{begun.tag}> is never closed", f"</{begun.tag}>"
+            line, column = begun.line, None
+        elif what.startswith("not well-formed"):
+            begins = data.rfind(b"<", 0, self.parser.ErrorByteIndex)
+            tag = data[begins : self.parser.ErrorByteIndex]
+            if begins >= 0 and tag.count(b'"') % 2 + tag.count(b"'") % 2 == 1 and b"\n" in tag:
+                words, cure = "a quote in this tag is never closed", "add the closing quote"
+                line = data.count(b"\n", 0, begins) + 1
+                column = begins - data.rfind(b"\n", 0, begins)
+        return Problem(f"not valid XML: {words}", self.file, line, column, cure)
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         element = Element(tag, attributes, self.file, self.parser.CurrentLineNumber)

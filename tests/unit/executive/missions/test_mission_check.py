@@ -342,7 +342,7 @@ def test_a_file_of_100_mb_is_not_read(tmp_path):
         (b"\xff\xfen\x00a\x00", "no UTF-8"),
         (b"name: it\nabout: caf\xe9\nsteps: [say: x]\n", "2:11: this is no UTF-8"),
         (bytes(range(256)), "no UTF-8"),
-        (b"name: \x07\n", "control characters"),
+        (b"name: \x07\n", "control character"),
     ],
 )
 def test_what_is_no_text_is_refused(data, words, tmp_path):

@@ -103,6 +103,24 @@ def test_a_mission_that_could_not_be_read_again_is_not_written(problems):
     assert "at most 5" in problems(tree(inside))[0]
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("<a>\n<b>\n</c></a>", "f:3:3: not valid XML: another tag is closed than <b> of line 2"),
+        ("<a>\n<b>\n", "f:2: not valid XML: <b> is never closed"),
+        ('<a>\n<b c="1/>\n<d/></a>', "f:2:1: not valid XML: a quote in this tag is never closed"),
+        ("<a>&</a>", "& is &amp;"),
+        ('<a b="1" b="2"/>', "an attribute stands twice"),
+        ("<a/><b/>", "behind the end of <root>"),
+        ("", "there is nothing in it"),
+    ],
+)
+def test_what_is_no_xml_is_told_where_it_begins(text, words):
+    with pytest.raises(ConfigError) as error:
+        parse(text, "f")
+    assert words in str(error.value)
+
+
 # --- included files -----------------------------------------------------------------------------
 
 
