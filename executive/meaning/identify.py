@@ -115,7 +115,8 @@ class Scene:
         """
         found = self._all(replace(query, count=query.count or "all"))
         if isinstance(query.count, int) and query.count != len(found):
-            text = f"there are {len(found)} such objects, not {query.count}"
+            there = f"is only {len(found)}" if len(found) == 1 else f"are {len(found)}"
+            text = f"there {there} of them, not {query.count}"
             raise cannot("unknown_object", text)
         return found
 
