@@ -147,11 +147,17 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     X_WS_goal = pose_of(plan.standoff)
     X_WB = X_WS_goal @ _X_SB(body)
     feet = step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
+    keep_upright = body.context.holdings.must_stay_upright(plan.side)
     near = False
     while not near and next(feet, OVER) is not OVER:
         yield
-        near = _has_room(body, plan.standoff) and _is_within(body, X_WS_goal, *BRING_IN_WITHIN)
+        # What is held turns between the fingers where a swing of the arm and a step come together:
+        # a cup by 15 degrees, and it was put down 15 mm off.
+        near = (
+            not keep_upright
+            and _has_room(body, plan.standoff)
+            and _is_within(body, X_WS_goal, *BRING_IN_WITHIN)
+        )
     body.phase = f"bringing the {plan.side} arm in"
-    keep_upright = body.context.holdings.must_stay_upright(plan.side)
     arm = move_arm(body, plan.side, arm_rad, keep_upright=keep_upright, X_WB=X_WB if near else None)
     yield from side_by_side(feet, arm)

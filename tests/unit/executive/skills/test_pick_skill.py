@@ -7,6 +7,7 @@ import pytest
 from msgspec.structs import replace
 
 from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from robot.failures import failure
 from robot.messages import (
     DepthImage,
@@ -411,11 +412,14 @@ def arm_moves(stage):
     return moves
 
 
-def test_the_hand_is_raised_and_brought_in_on_the_last_steps(stage):
+def test_a_hand_moves_on_the_last_steps_while_it_holds_nothing(stage):
     moves = arm_moves(stage)
     assert stage.run(CUP).status == "succeeded"
     assert moves[0] == ("raising the right hand", "walk")
-    assert moves[-1] == ("bringing the right arm in", "walk")
+    assert moves[-1] == ("bringing the right arm in", "stand"), "with the cup"
+    moves.clear()
+    assert stage.run(PlaceParams(object_id="cup", place_id="counter")).status == "succeeded"
+    assert moves[-1] == ("bringing the right arm in", "walk"), "without it"
 
 
 def test_where_there_is_no_room_for_an_arm_the_feet_stand_first(stage):
