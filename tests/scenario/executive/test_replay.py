@@ -148,7 +148,7 @@ def test_what_a_person_asked_for_in_between_is_asked_for_again(runtime, humanoid
         (4.0, lambda s: s.executive.resume()),
         (5.0, lambda s: s.submit(understood("say hello"), urgent=True)),
         (6.0, lambda s: s.submit(understood("squat for two seconds"))),
-        (6.0, lambda s: s.submit(understood("walk one metre forward"))),
+        (6.0, lambda s: s.submit(understood("walk half a metre forward"))),
         (6.5, lambda s: s.executive.move(4, 0)),
         (7.0, lambda s: s.executive.cancel(3, "not that")),
         (8.0, lambda s: s.executive.break_at("walk*")),
