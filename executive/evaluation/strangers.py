@@ -1,4 +1,7 @@
-"""What came out of a campaign in other homes: by fault, and by kind of home."""
+"""What came out of a campaign in homes that it was not written for: by fault, and by kind of home.
+
+`report` is the same for the campaign at home.
+"""
 
 from __future__ import annotations
 

@@ -64,8 +64,7 @@ def greet(goal: goals.Greet, scene: Scene) -> Part:
 
 def meet(goal: goals.Meet, scene: Scene) -> Part:
     """Walk up to somebody and say hello."""
-    if goal.person.name is not None:
-        return greet(goals.Greet(person=goal.person), scene)
-    approach = go_to_person(goal.person, scene)
     hello = greet(goals.Greet(person=goal.person), scene)
-    return Series(name="meet somebody", parts=(approach, hello))
+    if goal.person.name is not None:  # greeting them goes there
+        return hello
+    return Series(name="meet somebody", parts=(go_to_person(goal.person, scene), hello))
