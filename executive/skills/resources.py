@@ -10,6 +10,8 @@ from executive.skills.parameters import SkillParams
 from executive.skills.say import Say
 from executive.skills.skill import BODY, Resource
 
+_ALL = BODY | frozenset[Resource]({"voice"})
+
 
 def needed(params: SkillParams | Callable[..., Any]) -> frozenset[Resource]:
     """What one step takes. Parameters made from the blackboard are those of speech."""
@@ -26,12 +28,12 @@ def queued_for(steps: Iterable[SkillParams | Callable[..., Any]]) -> frozenset[R
 
     That is what they take, and the eyes where they tell of what there is to be seen: "count the
     cups" after a walk is about the cups at its end. A job that takes nothing (a wait) comes between
-    those before it and those after it.
+    those before it and those after it, words too.
     """
     asked = tuple(steps)
     eyes = any(callable(params) for params in asked)
     wanted = needed_by(asked) | (frozenset[Resource]({"head"}) if eyes else frozenset[Resource]())
-    return wanted or BODY
+    return wanted or _ALL
 
 
 def conflicts(branches: Iterable[frozenset[Resource]]) -> frozenset[Resource]:

@@ -30,6 +30,7 @@ from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant
+from intents.context import verdict_of
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.halting import besides, is_halt
@@ -99,6 +100,7 @@ class Shell:
         self._holds: tuple[str, ...] = ()
         self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
         self._corrects = False
+        self._slip = ""
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
@@ -187,6 +189,7 @@ class Shell:
             self.stops += 1
             self.robot.executive.stop(why)
             self.halt.forget()
+        self._slip = ""
         self._ask_model_no_more()
         self.speech.hush()
         self.dialogue.forget()
@@ -394,11 +397,18 @@ class Shell:
         first, _, rest = text.partition(" ")
         rest = rest.strip()
         command = self.commands.get(first.casefold())
-        if command is not None and command.accepts(rest):
+        offered, self._slip = self._slip, ""
+        if offered and (said := verdict_of(text)) is not None:
+            if said:
+                self._take(offered)
+            else:
+                self.out("Nothing was done.")
+        elif command is not None and command.accepts(rest):
             command.run(rest)
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
         elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
+            self._slip = slip
             self._refuse(f"Did you mean `{slip}`?")
         elif self.robot.executive.question and _answer(text) is not None:
             self.robot.executive.answer(_answer(text) or "continue")

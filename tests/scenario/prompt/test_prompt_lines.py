@@ -167,6 +167,15 @@ def test_counting_waits_for_the_walk_before_it(shell: Shell):
     assert count.began_s >= walk.began_s + walk.took_s
 
 
+def test_words_after_a_wait_are_said_after_it(shell: Shell):
+    shell.line("wait 2 seconds")
+    shell.line("say hello")
+    shell.robot.wait()
+    wait, say = shell.robot.executive.jobs[-2:]
+    assert wait.took_s is not None and say.began_s is not None
+    assert say.began_s >= (wait.began_s or 0.0) + wait.took_s
+
+
 def test_why_names_the_job_that_is_meant_and_not_the_one_that_spoke_beside_it(shell: Shell):
     shell.line("walk 0.3 metres back")
     shell.line("say hello")
@@ -184,6 +193,17 @@ def test_a_mistyped_command_moves_nothing(shell: Shell, line: str):
     shell.line(line)
     assert "Did you mean" in shell.out.text
     assert len(shell.robot.executive.jobs) == before
+
+
+def test_a_yes_to_the_command_that_was_meant_runs_it_and_a_no_nothing(shell: Shell):
+    shell.line("cancle 99")
+    shell.line("no thanks")
+    assert "no job 99" not in shell.out.text
+    shell.line("cancle 99")
+    shell.line("yes")
+    assert "no job 99" in shell.out.text
+    shell.line("yes")
+    assert shell.out.text.count("no job 99") == 1
 
 
 def test_a_line_from_before_a_stop_comes_to_nothing(shell: Shell):
