@@ -11,7 +11,7 @@ import msgspec
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import executive
-from executive.evaluation import campaign, elsewhere, exam, marks, pool, report, strangers
+from executive.evaluation import campaign, elsewhere, exam, homes_report, marks, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends.ending import Ending
@@ -73,7 +73,7 @@ def _summed_up(
 ) -> Found:
     if moved is not None:
         skipped = moved.skipped
-        return strangers.strangers(cases, records, skipped=skipped, left=left, mixed=mixed)
+        return homes_report.homes_report(cases, records, skipped=skipped, left=left, mixed=mixed)
     sum_up = marks.marks if options.tasks else report.report
     return sum_up(cases, records, left=left, mixed=mixed)
 

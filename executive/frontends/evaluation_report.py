@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 from rich.table import Table
 
-from executive.evaluation import marks, report, strangers
+from executive.evaluation import homes_report, marks, report
 from executive.frontends.output import say, table_screen
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import write_ordinary
@@ -16,7 +16,7 @@ from robot.ordinary_files import write_ordinary
 MAX_WIDTH = 1000
 """Of any table: how wide it would be is asked without a bound of the terminal."""
 
-Found: TypeAlias = report.Report | marks.Marks | strangers.Strangers
+Found: TypeAlias = report.Report | marks.Marks | homes_report.HomesReport
 
 
 class _View(NamedTuple):
@@ -33,8 +33,8 @@ def _view(found: Found) -> _View:
             return _View(report.table(found), report.narrow(found), report.markdown(found))
         case marks.Marks():
             return _View(marks.table(found), marks.narrow(found), marks.markdown(found))
-        case strangers.Strangers():
-            view = strangers
+        case homes_report.HomesReport():
+            view = homes_report
             return _View(view.table(found), view.narrow(found), view.markdown(found))
 
 
@@ -53,8 +53,8 @@ def show(found: Found) -> None:
         screen.print(view.table)
     else:
         say(view.narrow)
-    if isinstance(found, strangers.Strangers):
-        for line in strangers.notes(found):
+    if isinstance(found, homes_report.HomesReport):
+        for line in homes_report.notes(found):
             say(line)
 
 

@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from executive.evaluation import campaign, elsewhere, roles, strangers
+from executive.evaluation import campaign, elsewhere, homes_report, roles
 from executive.evaluation.campaign import Case, Settings
 from executive.evaluation.elsewhere import Skipped, homes, moved
 from executive.evaluation.record import Record
@@ -143,7 +143,7 @@ def found():
         Record(key="k", case="slip in flat:7", seed=0, recovery=False, ok=False, code="internal")
     )
     skipped = [Skipped(home="cafe:1", fault="push", why="there is no chair")]
-    return strangers.strangers(cases, records, skipped=skipped)
+    return homes_report.homes_report(cases, records, skipped=skipped)
 
 
 def test_rates_are_by_fault_and_by_kind_of_home():

@@ -39,7 +39,7 @@ class Failed(msgspec.Struct, frozen=True, kw_only=True):
     cause: str
 
 
-class Strangers(msgspec.Struct, frozen=True, kw_only=True):
+class HomesReport(msgspec.Struct, frozen=True, kw_only=True):
     """A campaign in other homes; counts are of runs with recovery if nothing else is said.
 
     `left`, `mixed`, `worst`, `unsafe` and `without_code` are as of `report.Report`.
@@ -58,14 +58,14 @@ class Strangers(msgspec.Struct, frozen=True, kw_only=True):
     judged_by: str = "oracle"
 
 
-def strangers(
+def homes_report(
     cases: Sequence[Case],
     records: Iterable[Record],
     *,
     skipped: Sequence[Skipped] = (),
     left: int = 0,
     mixed: bool = False,
-) -> Strangers:
+) -> HomesReport:
     """Sum it up; arguments as of `executive.evaluation.report.report`."""
     by_name = {case.name: case for case in cases}
     ours = [(by_name[record.case], record) for record in records if record.case in by_name]
@@ -76,7 +76,7 @@ def strangers(
         for fault in faults
     )
     with_recovery = [(case, record) for case, record in ours if record.recovery]
-    return Strangers(
+    return HomesReport(
         lines=lines,
         whole=_line(WHOLE, kinds, ours, ()),
         failed=tuple(
@@ -95,7 +95,7 @@ def strangers(
     )  # fmt: skip
 
 
-def table(found: Strangers) -> Table:
+def table(found: HomesReport) -> Table:
     """For the terminal."""
     drawn = Table(box=None, caption=_caption(found), header_style="bold", pad_edge=False)
     for name in _head(found):
@@ -106,7 +106,7 @@ def table(found: Strangers) -> Table:
     return drawn
 
 
-def narrow(found: Strangers) -> str:
+def narrow(found: HomesReport) -> str:
     """The same for a terminal that has no room for the table: a paragraph a fault."""
     head, lines = _head(found), list[str]()
     for line in (*found.lines, found.whole):
@@ -119,7 +119,7 @@ def narrow(found: Strangers) -> str:
     return "\n".join([*lines, _caption(found)])
 
 
-def markdown(found: Strangers) -> str:
+def markdown(found: HomesReport) -> str:
     """For a page: the table, every run that is not as expected, and what was skipped."""
     head = _head(found)
     rows = [head, ["---"] * len(head), *(_cells(line) for line in (*found.lines, found.whole))]
@@ -129,7 +129,7 @@ def markdown(found: Strangers) -> str:
     )
 
 
-def notes(found: Strangers) -> list[str]:
+def notes(found: HomesReport) -> list[str]:
     """Every run that is not as expected, and every case that was skipped, a line each."""
     failed = [
         f"{one.fault} in {one.home} (seed {one.seed}): {one.code}, {one.cause}"
@@ -138,7 +138,7 @@ def notes(found: Strangers) -> list[str]:
     return [*failed, *(f"skipped: {one.fault} in {one.home}: {one.why}" for one in found.skipped)]
 
 
-def _head(found: Strangers) -> list[str]:
+def _head(found: HomesReport) -> list[str]:
     return [
         "fault",
         "expected",
@@ -167,7 +167,7 @@ def _share(of: Score) -> str:
     return f"{of.ok}/{of.runs}" if of.runs else _NONE
 
 
-def _caption(found: Strangers) -> str:
+def _caption(found: HomesReport) -> str:
     left = f" ({found.left} are not done)" if found.left else ""
     mixed = "; some were made by other code" if found.mixed else ""
     skipped = f"; {len(found.skipped)} cases skipped as senseless" if found.skipped else ""
