@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from executive.skills.give import GiveParams
 from executive.skills.parameters import SkillParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
@@ -32,6 +33,7 @@ class Scope:
         worked_s: time in which the job had its turn.
         speed_m_s: the fastest it may walk.
         put_down: where it put things, place by object, as far as they were not taken again.
+        taken: the things that it took and neither put down nor gave away.
         at_work: leaves whose skill acts.
     """
 
@@ -42,15 +44,21 @@ class Scope:
     worked_s: float = 0.0
     speed_m_s: float = math.inf
     put_down: dict[str, str] = field(default_factory=dict[str, str])
+    taken: set[str] = field(default_factory=set[str])
     at_work: list[Suspendable] = field(default_factory=list[Suspendable])
 
     def did(self, params: SkillParams | None) -> None:
         """Remember what a step that is done has changed in the world."""
         match params:
-            case PlaceParams(object_id=object_id, place_id=str(place_id)):
-                self.put_down[object_id] = place_id
+            case PlaceParams(object_id=object_id):
+                self.taken.discard(object_id)
+                if params.place_id is not None:
+                    self.put_down[object_id] = params.place_id
+            case GiveParams(object_id=object_id):
+                self.taken.discard(object_id)
             case PickParams(object_id=object_id):
                 self.put_down.pop(object_id, None)
+                self.taken.add(object_id)
             case _:
                 pass
 

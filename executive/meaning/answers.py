@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
@@ -28,16 +28,20 @@ def is_there(ids: frozenset[str], places: Iterable[Place], *, least: int = 1) ->
     return lambda board: len(_seen(board, ids, surfaces)) >= least
 
 
-def gone(knowledge: Knowledge) -> Callable[[Blackboard, Mapping[str, str]], list[str]]:
-    """Names the things that were put somewhere and do not stand there by what is believed.
+def gone(
+    knowledge: Knowledge,
+) -> Callable[[Blackboard, Mapping[str, str], Collection[str]], list[str]]:
+    """Names the things that were put somewhere, or taken, and are not there by what is believed.
 
     What is not tracked may well stand where it was put.
     """
 
-    def names(board: Blackboard, put_down: Mapping[str, str]) -> list[str]:
+    def names(board: Blackboard, put_down: Mapping[str, str], taken: Collection[str]) -> list[str]:
         world = board.read(WORLD)
         tracks = {track.id: track for track in world.tracks} if world is not None else {}
-        found: list[str] = []
+        held = board.read(HELD).values()
+        lost = [knowledge.object(object_id) for object_id in taken if object_id not in held]
+        found = [f"{info.full_name} in the hand" for info in lost if info is not None]
         for object_id, place_id in put_down.items():
             info, place = knowledge.object(object_id), knowledge.place(place_id)
             track = tracks.get(object_id)

@@ -18,6 +18,8 @@ from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
 from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
+from executive.meaning.knowledge import Knowledge
+from executive.skills.pick import PickParams
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
 from intents.grounding import describe
@@ -35,13 +37,20 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     parts = sequence(tuple(asked), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
-    puts = any(errand.carries for errand in errands(Series(name="task", parts=parts)))
-    kept = (Kept(name="everything stands as put", gone=answers.gone(scene.knowledge)),)
-    task = Series(name="task", parts=parts + (kept if puts else ()))
+    task = Series(name="task", parts=(*parts, *last_look(parts, scene.knowledge)))
     count = sum(1 for _ in errands(task))
     if count > MAX_STEPS:
         raise cannot("invalid_goal", f"that would be {count} steps, at most {MAX_STEPS}")
     return task
+
+
+def last_look(parts: tuple[Part, ...], knowledge: Knowledge) -> tuple[Part, ...]:
+    """What compares, after parts that take or put down, what was done with what is believed."""
+    handles = any(
+        errand.carries or isinstance(errand.params, PickParams)
+        for errand in errands(Series(name="task", parts=parts))
+    )
+    return (Kept(name="all is as it was left", gone=answers.gone(knowledge)),) if handles else ()
 
 
 def sequence(asked: tuple[goals.Goal, ...], scene: Scene) -> tuple[Part, ...]:

@@ -33,6 +33,11 @@ class Calls:
         """The missions that are called."""
         return tuple(mission.path for mission in self._files.values() if mission is not None)
 
+    @property
+    def nested(self) -> bool:
+        """Whether the mission under way is called by another."""
+        return len(self._under_way) > 1
+
     @contextmanager
     def inside(self, mission: Mission) -> Generator[None]:
         """What is called inside the block is called by this mission."""

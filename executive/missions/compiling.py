@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.tasks import in_turn, part_of
+from executive.meaning.tasks import in_turn, last_look, part_of
 from executive.meaning.validation import check
 from executive.missions import schema as s
 from executive.missions.calling import Calls
@@ -78,6 +78,8 @@ class Compiler:
         good = tuple(finding for finding in findings if finding is not None)
         if good:
             steps.append(p.Expect(name="expect", findings=good))
+        if not self.calls.nested:
+            steps += last_look(tuple(steps), self.names.knowledge)
         part: p.Part = p.Series(name=record.name, parts=tuple(steps))
         if record.limits.duration_s is not None:
             part = p.Timeout(name=record.name, part=part, limit_s=record.limits.duration_s)

@@ -29,7 +29,7 @@ from executive.trees.flow import (
 from executive.trees.idioms import either, in_order, once
 from executive.trees.recovery import resilient
 from executive.trees.settling import Settling
-from executive.trees.standing import StandsAsPut
+from executive.trees.standing import IsAsLeft
 from robot.failures import failure
 
 ANY = "any"
@@ -82,7 +82,7 @@ def build(part: p.Part, stage: Stage, *, path: str = "", done: Done = frozenset(
         case p.Expect():
             return Compare(part.name, part.findings, stage=stage, path=path)
         case p.Kept():
-            return StandsAsPut(part, stage=stage, path=path)
+            return IsAsLeft(part, stage=stage, path=path)
 
 
 def _inside(part: p.Part, stage: Stage, path: str, done: Done) -> list[Behaviour]:

@@ -14,7 +14,7 @@ by a run that is taken up again::
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 import msgspec
@@ -180,14 +180,14 @@ class Expect(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Kept(msgspec.Struct, frozen=True, kw_only=True):
-    """What was put down in the task stands there by the end, as far as is believed, or it fails.
+    """What the task put down stands there by its end, and what it took is held, or it fails.
 
-    `gone` is given where each thing was put (place ids by object id) and names those that do not
-    stand there.
+    That is as far as is believed: `gone` is given where each thing was put (place ids by object
+    id) and what was taken (object ids), and names those that are not there.
     """
 
     name: str
-    gone: Callable[[Blackboard, Mapping[str, str]], Sequence[str]]
+    gone: Callable[[Blackboard, Mapping[str, str], Collection[str]], Sequence[str]]
 
 
 Part: TypeAlias = (

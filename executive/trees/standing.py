@@ -1,4 +1,4 @@
-"""The last look at a task's work: what it put down has to stand there by what is believed now."""
+"""The last look at a task's work: by what is believed now, things are where it left them."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from executive.trees.parts import Kept
 from robot.failures import failure
 
 
-class StandsAsPut(Behaviour):
-    """SUCCESS if everything that the job put down is believed to stand where it was put."""
+class IsAsLeft(Behaviour):
+    """SUCCESS if what the job put down is believed to stand there, and what it took to be held."""
 
     def __init__(self, part: Kept, *, stage: Stage, path: str) -> None:
-        """Compare what the job's scope says was put down with the world model."""
+        """Compare what the job's scope says it did with the world model."""
         super().__init__(part.name)
         self._part, self._stage, self._path = part, stage, path
         self._begun_s = 0.0
@@ -26,12 +26,13 @@ class StandsAsPut(Behaviour):
 
     def update(self) -> Status:
         """Ask, for at most `PATIENCE_S`."""
-        gone = self._part.gone(self._stage.board, self._stage.scope.put_down)
+        scope = self._stage.scope
+        gone = self._part.gone(self._stage.board, scope.put_down, scope.taken)
         if not gone:
             return Status.SUCCESS
         if self._stage.now_s - self._begun_s < PATIENCE_S:
             return Status.RUNNING
-        cause = f"it was put down, and does not stand there any more: {'; '.join(gone)}"
+        cause = f"it was left so, and is so no more: {'; '.join(gone)}"
         reason = failure("not_as_expected", cause, suggestion="see where it is, and say it again")
         self.feedback_message = cause
         self._stage.fail(reason, step=self.name, step_id=self._path)

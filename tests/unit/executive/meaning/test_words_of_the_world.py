@@ -7,7 +7,7 @@ import math
 import msgspec
 import pytest
 
-from executive.blackboard import WORLD, Blackboard
+from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.request import Refused, Setting, Understood, meant, request
 from executive.skills.give import GiveParams
 from executive.skills.navigate import NavigateParams
@@ -92,8 +92,13 @@ def parts(text: str, kind: type) -> list[Part]:
     return [part for _, part in walk(understood(text).task) if isinstance(part, kind)]
 
 
-def board(*, at: tuple[float, float] = (0.0, 1.0), **things: tuple[float, float]) -> Blackboard:
-    """What is believed: the robot at a point, things at points of the surface they are over."""
+def board(
+    *, at: tuple[float, float] = (0.0, 1.0), left: str = "", **things: tuple[float, float]
+) -> Blackboard:
+    """What is believed: the robot at a point, things at points of the surface they are over.
+
+    `left` is in the left hand.
+    """
     blackboard = Blackboard()
     tracks = tuple(
         m.Track(id=name, X_WO=SE3((x_m, y_m, COUNTER_M + 0.05)), seen_s=1.0)
@@ -101,7 +106,9 @@ def board(*, at: tuple[float, float] = (0.0, 1.0), **things: tuple[float, float]
     )
     X_WB = SE3.from_xy_yaw(*at, 0.5 * math.pi)
     state = m.WorldState(stamp_s=1.0, X_WN=SE3(), X_WB=X_WB, fix_age_s=0.0, tracks=tracks)
-    blackboard.claim("sense").set(WORLD, state)
+    sense = blackboard.claim("sense")
+    sense.set(WORLD, state)
+    sense.set(HELD, {"left": left} if left else {})
     return blackboard
 
 
@@ -329,7 +336,12 @@ def test_a_room_with_furniture_is_a_place_to_put_things():
 
 @pytest.mark.parametrize(
     ("text", "checked"),
-    [("put the red mug on the table", True), ("go to the table", False), ("find all mugs", False)],
+    [
+        ("put the red mug on the table", True),
+        ("pick up the red mug", True),
+        ("go to the table", False),
+        ("find all mugs", False),
+    ],
 )
 def test_what_is_put_down_is_compared_at_the_end(text, checked):
     assert bool(parts(text, Kept)) is checked
@@ -339,9 +351,16 @@ def test_what_fell_or_was_taken_away_is_named():
     (part,) = parts("put the red mug on the table", Kept)
     assert isinstance(part, Kept)
     put_down = {"red": "table"}
-    assert part.gone(board(red=(0.2, 0.1)), put_down) == []
-    assert part.gone(board(red=(0.2, 2.5)), put_down) == ["the red mug on the table"]
-    assert part.gone(board(), put_down) == []
+    assert part.gone(board(red=(0.2, 0.1)), put_down, ()) == []
+    assert part.gone(board(red=(0.2, 2.5)), put_down, ()) == ["the red mug on the table"]
+    assert part.gone(board(), put_down, ()) == []
+
+
+def test_what_was_taken_and_is_not_held_is_named():
+    (part,) = parts("pick up the red mug", Kept)
+    assert isinstance(part, Kept)
+    assert part.gone(board(red=(0.2, 0.1)), {}, {"red"}) == ["the red mug in the hand"]
+    assert part.gone(board(left="red"), {}, {"red"}) == []
 
 
 def test_what_is_counted_is_said_in_the_worlds_own_plural():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from executive.blackboard import Blackboard
+from executive.skills.give import GiveParams
 from executive.skills.look import LookParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
@@ -142,11 +143,13 @@ def test_hopeless_are_codes_of_the_catalogue():
 
 
 PUT = p.Errand(name="put", params=PlaceParams(object_id="cup", place_id="table"))
+GIVEN = p.Errand(name="give", params=GiveParams(object_id="cup", person_id="anna"))
 
 
 def kept(gone: list[str]) -> p.Kept:
-    def names(_board: Blackboard, put_down) -> list[str]:
-        return [f"{thing} on {place}" for thing, place in put_down.items() if thing in gone]
+    def names(_board: Blackboard, put_down, taken) -> list[str]:
+        left = {**put_down, **dict.fromkeys(taken, "the hand")}
+        return [f"{thing} on {place}" for thing, place in left.items() if thing in gone]
 
     return p.Kept(name="kept", gone=names)
 
@@ -163,6 +166,16 @@ def test_what_was_put_down_and_stands_elsewhere_is_not_done():
     assert "cup on table" in verdict.cause
 
 
-def test_what_was_taken_again_need_not_stand_there():
+def test_what_was_taken_again_need_not_stand_there_but_has_to_be_held():
+    _, verdict = play(p.Series(name="task", parts=(PUT, pick("cup"), kept([]))))
+    assert verdict is True
     _, verdict = play(p.Series(name="task", parts=(PUT, pick("cup"), kept(["cup"]))))
+    assert isinstance(verdict, Failure)
+    assert "cup on the hand" in verdict.cause
+
+
+@pytest.mark.parametrize("after", [PUT, GIVEN])
+def test_what_was_put_down_or_given_away_need_not_be_held(after: p.Errand):
+    gone_from_hand = p.Kept(name="kept", gone=lambda _board, _put, taken: sorted(taken))
+    _, verdict = play(p.Series(name="task", parts=(pick("cup"), after, gone_from_hand)))
     assert verdict is True
