@@ -9,7 +9,7 @@ from __future__ import annotations
 import signal
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import FrameType
 
@@ -26,6 +26,7 @@ from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
 POLL_S = 0.02
+WISHED = (signal.SIGINT, signal.SIGTERM)
 
 
 def front_end(name: str) -> PlainFrontEnd:
@@ -84,12 +85,15 @@ def _turn(
 ) -> tuple[PlainFrontEnd, Front]:
     """Load everything, then wait until as many executives have died as `number` says.
 
-    Ctrl-C is for the executive whose turn it is: that hears it while it loads, a spare does not.
+    A wish to stop is for the executive whose turn it is: that hears it while it loads, a spare
+    does not.
     """
-    stop = signal.getsignal(signal.SIGINT)
+    heard = [wish for wish in WISHED if signal.getsignal(wish) is not signal.SIG_IGN]
     if _read(folder).deaths < number:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the launcher held it back
+    else:
+        _hear(heard)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, WISHED)  # the launcher held them back
     clock = WallClock()
     from executive.runs import runtimes  # now that Ctrl-C is heard: it takes a second
 
@@ -97,7 +101,7 @@ def _turn(
     runtimes.live_parts()
     while (front := _read(folder)).deaths < number:
         clock.sleep_until(clock.now_s() + POLL_S)
-    signal.signal(signal.SIGINT, stop)
+    _hear(heard)
     if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         signal.signal(signal.SIGHUP, _hang_up)
     return run, front
@@ -105,6 +109,22 @@ def _turn(
 
 def _read(folder: Path) -> Front:
     return msgspec.json.decode((folder / FRONT_FILE).read_bytes(), type=Front)
+
+
+def _hear(wishes: Iterable[signal.Signals]) -> None:
+    for wish in wishes:
+        signal.signal(wish, _interrupt)
+
+
+def _interrupt(_number: int, _frame: FrameType | None) -> None:
+    """A wish to stop that came while nothing was there to be stopped; told of twice it is one."""
+    for wish in WISHED:
+        signal.signal(wish, _pass)  # one that is pending may not be ignored any more
+    raise KeyboardInterrupt
+
+
+def _pass(_number: int, _frame: FrameType | None) -> None:
+    """What is wished is under way."""
 
 
 def _hang_up(_number: int, _frame: FrameType | None) -> None:

@@ -60,6 +60,8 @@ def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
     """
     plain = msgspec.to_builtins(options, enc_hook=str)
     ended = launcher.launch(front, plain, tell=lambda line: say(line, err=True))
+    if ended.wished:
+        return last_words("Stopped on request.", [], "", status=ended.status, as_json=as_json)
     if ended.reason:
         cure = "see `humanoid why`; `humanoid resume` goes on where it was"
         return last_words("Broken:", [ended.reason], cure, status=ended.status, as_json=as_json)

@@ -117,7 +117,7 @@ class Child:
         command = [sys.executable, "-P", "-m", self.row.module, str(self._file), str(os.getpid())]
         if self._log is None:
             number = str(len(self._starts_s))  # by which a spare knows its turn
-            with _held_back(signal.SIGINT, signal.SIGTSTP):
+            with _held_back(signal.SIGINT, signal.SIGTERM, signal.SIGTSTP):
                 return subprocess.Popen([*command, number], env=_environment())
         with os.fdopen(open_to_append(self._log), "ab") as output:
             return subprocess.Popen(

@@ -10,6 +10,7 @@ Nobody could stop a robot whose executive is suspended, so Ctrl-Z is answered wi
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import signal
 import sys
@@ -34,6 +35,11 @@ from robot.failures import Failure
 
 WISHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Signals that mean that somebody wants it to end."""
+PASS_ON_S = 0.5
+"""After this the executive is told of a wish that it may not have heard of, as it came here alone.
+
+One that has heard of it takes the second word for the same wish (`SIGTERM`, however often).
+"""
 
 NOT_SUSPENDED = "Ctrl-Z does not suspend a robot: nobody could stop it then. Ctrl-C stops it."
 
@@ -45,6 +51,8 @@ class Ended(NamedTuple):
 
     status: int
     reason: str = ""
+    wished: bool = False
+    """Whether somebody ended it by a signal, before it could say a word."""
 
 
 def launch(
@@ -103,7 +111,8 @@ class Launcher:
         self._processes = processes
         self._robot: Supervisor | None = None
         self._state = State()
-        self._wished = self._unheeded = False
+        self._pass_on_s = math.inf
+        self._passed_on = self._unheeded = False
 
     def run(self) -> Ended:
         """Until an executive has ended by itself, or must not be started again."""
@@ -126,6 +135,7 @@ class Launcher:
         self._executive.start()
         while (status := self._executive.status) is None:
             self._look_after()
+            self._pass_on()
             if self._unheeded:
                 self._unheeded = False
                 self._tell(NOT_SUSPENDED)
@@ -137,7 +147,10 @@ class Launcher:
 
     def _judge(self, status: int) -> Ended | None:
         """What an executive's end means."""
-        if status < 0 and (self._wished or -status in WISHED):
+        wished = self._pass_on_s < math.inf
+        if status < 0 and (wished or -status in WISHED):
+            return Ended(ExitStatus.FAILED, wished=True)
+        if status == ExitStatus.CRASHED and wished:
             return Ended(ExitStatus.FAILED)
         if status >= 0 and status != ExitStatus.CRASHED:
             return Ended(status)
@@ -194,18 +207,28 @@ class Launcher:
 
     # --- signals ---
 
+    def _pass_on(self) -> None:
+        """Tell the executive, once, that somebody wants it to end."""
+        if not self._passed_on and self._clock.now_s() >= self._pass_on_s:
+            self._passed_on = True
+            self._executive.signal(signal.SIGTERM)
+
     @contextlib.contextmanager
     def _signals(self) -> Generator[None]:
-        """Ctrl-C and a closed terminal reach the executive by themselves; SIGTERM is passed on."""
+        """Note who wants it to end, or to be suspended.
+
+        Ctrl-C and a closed terminal reach the executive by themselves, a signal to this process
+        alone does not, and one that comes while the executive is started may not.
+        """
         before = {number: signal.getsignal(number) for number in (*WISHED, signal.SIGTSTP)}
 
         def hear(number: int, _frame: FrameType | None) -> None:
             if number == signal.SIGTSTP:
                 self._unheeded = True
                 return
-            self._wished = True
-            if number == signal.SIGTERM:
-                self._executive.signal(signal.SIGTERM)
+            now_s = self._clock.now_s()
+            at_once = number == signal.SIGTERM
+            self._pass_on_s = min(self._pass_on_s, now_s if at_once else now_s + PASS_ON_S)
 
         for number, handler in before.items():
             if handler is not signal.SIG_IGN:  # as `nohup` wants it

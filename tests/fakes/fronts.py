@@ -36,7 +36,9 @@ def front(handle: Handle, options: dict) -> int:
     while time.monotonic() < until_s:
         if heard:
             tell(f"heard {[int(number) for number in heard]}")
-            return 1
+            if not options.get("deaf"):
+                return 1
+            heard.clear()
         if (failure := handle.check()) is not None:
             tell(f"lost {failure.code}")
             return 3

@@ -13,17 +13,24 @@ from tests.fakes.executives import executives
 from tests.fakes.waiting import HANG_S, eventually
 
 PARENT = """
-import json, signal, sys
+import json, os, signal, sys
 from pathlib import Path
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup,
 signal.signal(signal.SIGINT, signal.default_int_handler)  # and in a shell's background
 from dataclasses import replace
-from robot.bringup import launcher, lowering
+from robot.bringup import child, launcher, lowering
 from robot.bringup.processes import EXECUTIVE, Process
 lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
 STUB = "tests.fakes.stub_process"
 three = (Process("plant", STUB, "simulation", death="plant_lost"),
          Process("controller", STUB, "always", death="controller_lost"))
+if json.loads(sys.argv[1]).get("term_at_start"):
+    born = child.subprocess.Popen.__init__
+    def term(self, *words, **options):
+        born(self, *words, **options)
+        child.subprocess.Popen.__init__ = born
+        os.kill(os.getpid(), signal.SIGTERM)
+    child.subprocess.Popen.__init__ = term
 executive = replace(EXECUTIVE, module="tests.fakes.fronts", spare_after_s=json.loads(sys.argv[2]))
 ended = launcher.launch("", json.loads(sys.argv[1]), tell=print,
                         executive=executive, processes=three)
@@ -189,6 +196,33 @@ def test_a_term_to_the_job_is_passed_on(shell):
     job.job.send_signal(signal.SIGTERM)
     assert job.end()[0] == 1
     assert job.told[-1] == "heard [15]"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_a_wish_that_comes_to_the_launcher_alone_is_passed_on(shell, number):
+    job = shell(ends=False)
+    job.wait_up()
+    job.job.send_signal(number)
+    assert job.end()[0] == 1
+    assert job.told[-1] == "heard [15]"
+
+
+def test_a_term_that_comes_while_the_executive_is_started_is_heard(shell):
+    job = shell(ends=False, robot=False, term_at_start=True)
+    status, text = job.end()
+    assert status == 1
+    assert "Traceback" not in text
+    assert job.told == []
+
+
+def test_nobody_takes_over_from_one_that_dies_after_a_wish_to_stop(shell):
+    job = shell(ends=False, deaf=True)
+    first = job.wait_up()
+    job.job.send_signal(signal.SIGTERM)
+    assert eventually(lambda: job.told[-1] == "heard [15]")
+    os.kill(first, signal.SIGKILL)
+    assert job.end()[0] == 1
+    assert len(job.ups()) == 1
 
 
 def test_a_closed_terminal_is_a_wish_to_stop(shell):

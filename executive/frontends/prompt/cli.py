@@ -23,7 +23,7 @@ from executive.frontends.options import Prompt
 from executive.frontends.output import Screen, say
 from executive.frontends.progress import sentence
 from executive.frontends.prompt import commands
-from executive.frontends.prompt.plain import work_off
+from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.reality import REALITY
@@ -76,7 +76,8 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
         with conversation(options, "prompt", handle=handle, speech=speech) as shell:
             if sys.stdin.isatty() and sys.stdout.isatty():
                 return _at_terminal(shell, options, handle)
-            work_off(shell, sys.stdin)
+            interrupts = shell.robot.interrupts
+            work_off(shell, lines_until(sys.stdin, lambda: interrupts.count > 0))
             status = status_of(shell)
         speech.finish()
         return status

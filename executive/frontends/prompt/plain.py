@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import codecs
+import os
+import select
+from collections.abc import Callable, Iterable, Iterator
+from typing import TextIO
 
 from executive.frontends.prompt.shell import Shell
+
+LOOK_S = 0.1
+"""How often it is asked, while no line comes, whether any is wanted still."""
+CHUNK = 65536
 
 
 def work_off(shell: Shell, lines: Iterable[str]) -> None:
@@ -19,4 +27,22 @@ def work_off(shell: Shell, lines: Iterable[str]) -> None:
         if shell.gone:
             shell.out(shell.gone)
         if shell.leaving or shell.gone or shell.robot.interrupts.count:
+            return
+
+
+def lines_until(stream: TextIO, over: Callable[[], bool]) -> Iterator[str]:
+    """The lines of a stream, until it ends, or `over` says so while none comes.
+
+    It reads past the stream's own buffer, so nothing else may have read from it.
+    """
+    decoder = codecs.getincrementaldecoder(stream.encoding)(stream.errors or "strict")
+    open_line = ""
+    while not over():
+        if not select.select([stream], [], [], LOOK_S)[0]:
+            continue
+        data = os.read(stream.fileno(), CHUNK)
+        *whole, open_line = (open_line + decoder.decode(data, final=not data)).split("\n")
+        yield from whole
+        if not data:
+            yield open_line
             return
