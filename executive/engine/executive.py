@@ -58,6 +58,10 @@ MakeSkill = Callable[[SkillParams, SkillContext], Skill]
 Request = Callable[[], None]
 
 
+def _nothing() -> None:
+    """A request that was carried out as it was made."""
+
+
 class Executive:
     """One robot's executive: one tree, and the jobs in it.
 
@@ -172,6 +176,25 @@ class Executive:
         with self._lock:
             last = self._count
         self._post(lambda: self._stop(why, last), "stop", why=why)
+
+    def press_estop(self, why: str) -> None:
+        """Press the emergency stop (`estop`); it acts at once, before the request is written."""
+        self.estop.press(why)
+        self._post(_nothing, "press_estop", why=why)
+
+    def release_estop(self) -> None:
+        """Let go of the emergency stop; it stays latched."""
+        self.estop.release()
+        self._post(_nothing, "release_estop")
+
+    def reset_estop(self) -> None:
+        """Allow motion again after an emergency stop.
+
+        Raises:
+            StillPressed: while it is pressed.
+        """
+        self.estop.reset()
+        self._post(_nothing, "reset_estop")
 
     def cancel(self, number: int, why: str = "cancelled on request") -> None:
         """End one job with `cancelled`; it is over when its part of the body is at rest.

@@ -112,6 +112,7 @@ class _Trial:
             session.runtime.advance(RESTART_S)
             session.replace_executive()
             events = journal.read(self.folder)
+            continuation.take_over(session, events)
             continuation.go_on(session, self.given.assignment, events, anew=False)
 
     def _help(self, session: Session) -> None:

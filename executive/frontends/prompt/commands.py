@@ -328,14 +328,14 @@ class _Steering:
         self._shell.stop("the operator said stop")
 
     def estop(self, rest: str) -> None:
-        latch = self._shell.robot.executive.estop
-        if rest in ("release", "reset") and not latch.latched:
+        executive = self._shell.robot.executive
+        if rest in ("release", "reset") and not executive.estop.latched:
             self._shell.out("The emergency stop is not on; the robot may move.")
         elif rest == "release":
-            latch.release()
+            executive.release_estop()
             self._shell.out("Released; `estop reset` lets the robot move again.")
         elif rest == "reset":
-            latch.reset()
+            executive.reset_estop()
             self._shell.out("The robot may move again.")
         else:
             self._shell.press()

@@ -126,7 +126,7 @@ class Shell:
     def press(self) -> None:
         """Press the emergency stop; from any thread."""
         self.speech.hush()
-        self.robot.executive.estop.press("the operator pressed the emergency stop")
+        self.robot.executive.press_estop("the operator pressed the emergency stop")
 
     @property
     def asks(self) -> bool:

@@ -66,11 +66,10 @@ def look(
     """
     events = list(events)
     done |= finished({"event": e.event, **e.data} for e in events)
-    body, world = link.body(), link.world()
-    if body is None or world is None:
+    world = link.world()
+    if link.body() is None or world is None:
         return Agreement(done=done, held=(), again=())
-    hands = _Hands(body, world, knowledge, robot)
-    held = tuple(hands.held(_journalled(events)))
+    held = in_hand(events, link=link, knowledge=knowledge, robot=robot)
     parts = walk(task, means=meanings(done))
     steps = [(path, part) for path, part in parts if isinstance(part, Errand)]
     newest = {of_any_attempt(path): path for path in sorted(done)}
@@ -82,6 +81,17 @@ def look(
         held=held,
         again=tuple((names[path], why) for path, why in gone.items() if why),
     )
+
+
+def in_hand(
+    events: Iterable[Event], *, link: BodyLink, knowledge: Knowledge, robot: RobotDescription
+) -> tuple[Held, ...]:
+    """What the hands hold, with the grips that a journal knows; arguments as of `look`."""
+    body, world = link.body(), link.world()
+    if body is None or world is None:
+        return ()
+    hands = _Hands(body, world, knowledge, robot)
+    return tuple(hands.held(_journalled(list(events))))
 
 
 # --- what the hands hold -----------------------------------------------------------------------

@@ -19,6 +19,7 @@ from executive.meaning.request import Setting
 from executive.runs import run_folder
 from executive.runs.again import agreement, recording
 from executive.runs.again.agreement import Agreement
+from executive.runs.again.orders import orders_in
 from executive.runs.session import Session
 from executive.runs.summary import Summary
 from executive.runs.task_run import Assignment, Show, see_through
@@ -82,6 +83,8 @@ def do(assignment: Assignment, session: Session, left: Left, *, show: Show, wall
         if anew:
             session.begin(assignment.understood.text)
             _carry_over(left, session)
+        else:
+            take_over(session, left.events)
         go_on(session, assignment, newest_job(left.events), anew=anew)
 
     return see_through(assignment, session, begin=begin, show=show, wall=wall)
@@ -94,6 +97,7 @@ def return_to(session: Session, left: Left) -> None:
         _carry_over(left, session)
     else:
         session.journal.write(session.now_s, "returned")
+        take_over(session, left.events)
     for since in unfinished(left.events):
         assignment = recording.assigned(since[0], left.folder, session.setup.where)
         go_on(session, assignment, since, anew=anew)
@@ -102,6 +106,16 @@ def return_to(session: Session, left: Left) -> None:
 def _carry_over(left: Left, session: Session) -> None:
     if session.setup.folder is not None:
         run_folder.carry_missions_over(left.folder, session.setup.folder)
+
+
+def take_over(session: Session, events: list[Event]) -> None:
+    """Take the robot as it was left: with what its hands hold, and what it was told still holds."""
+    link, where = session.runtime.link, session.setup.where
+    for held in agreement.in_hand(
+        events, link=link, knowledge=where.knowledge, robot=where.description
+    ):
+        session.holdings.take(held)
+    orders_in(events).repeat(session.executive)
 
 
 def go_on(session: Session, assignment: Assignment, events: list[Event], *, anew: bool) -> None:
@@ -122,8 +136,6 @@ def go_on(session: Session, assignment: Assignment, events: list[Event], *, anew
         robot=where.description,
         done=assignment.done,
     )
-    for held in found.held:
-        session.holdings.take(held)
     session.journal.write(
         session.now_s, "resumed", why=_words(found, anew=anew), done=sorted(found.done),
         again=[{"step": step, "why": why} for step, why in found.again],

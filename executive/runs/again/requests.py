@@ -94,6 +94,20 @@ class GoOn(_Simple, frozen=True, tag="go_on"):
     """`Executive.go_on`."""
 
 
+class PressEstop(_Simple, frozen=True, tag="press_estop"):
+    """`Executive.press_estop`."""
+
+    why: str
+
+
+class ReleaseEstop(_Simple, frozen=True, tag="release_estop"):
+    """`Executive.release_estop`."""
+
+
+class ResetEstop(_Simple, frozen=True, tag="reset_estop"):
+    """`Executive.reset_estop`."""
+
+
 class GiveAnswer(_Simple, frozen=True, tag="answer"):
     """`Executive.answer`."""
 
@@ -102,7 +116,8 @@ class GiveAnswer(_Simple, frozen=True, tag="answer"):
 
 Simple = (
     Pause | Resume | Stop | Cancel | Move | BreakAt | ClearBreaks | StepOnce | GoOn | GiveAnswer
-)
+    | PressEstop | ReleaseEstop | ResetEstop
+)  # fmt: skip
 Request = Submit | Abandon | Simple
 
 
@@ -183,24 +198,6 @@ def _checked(event: Event) -> Request | None:
 
 
 def _pass_on(request: Simple, executive: Executive) -> None:
-    match request:
-        case Pause():
-            executive.pause(request.why)
-        case Resume():
-            executive.resume()
-        case Stop():
-            executive.stop(request.why)
-        case Cancel():
-            executive.cancel(request.number, request.why)
-        case Move():
-            executive.move(request.number, request.place)
-        case BreakAt():
-            executive.break_at(request.pattern)
-        case ClearBreaks():
-            executive.clear_breaks(request.pattern)
-        case StepOnce():
-            executive.step_once()
-        case GoOn():
-            executive.go_on()
-        case GiveAnswer():
-            executive.answer(request.text)
+    """Call the method that the kind of request is tagged by, which takes what it holds."""
+    method: Callable[..., None] = getattr(executive, str(type(request).__struct_config__.tag))
+    method(**msgspec.structs.asdict(request))

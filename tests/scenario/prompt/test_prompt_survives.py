@@ -51,3 +51,33 @@ def test_the_prompt_survives_its_executive(tmp_path: Path):
     assert {e.data["mode"] for e in events if e.event == "pose" and "mode" in e.data} == {
         "stand", "walk",
     }  # fmt: skip
+
+
+@pytest.mark.slow
+def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_path: Path):
+    run = tmp_path / "run"
+    with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
+        assert terminal.shows("`help` shows what can be said")
+        terminal.enter("walk two metres forward")
+        assert terminal.shows("walk | ")
+        terminal.enter("pause")
+        assert terminal.shows("paused: the robot stands")
+        _kill_and_come_back(terminal)
+        terminal.enter("estop")
+        assert terminal.shows("Emergency stop.")
+        _kill_and_come_back(terminal)
+        terminal.enter("nod")
+        assert terminal.shows("emergency stop")
+        terminal.press(CTRL_D)
+        assert eventually(lambda: terminal.process.poll() is not None)
+    events = read(run)
+    done = [event.data["step"] for event in events if event.event == "done"]
+    assert "walk 2 m forward" not in done
+    assert "nod" not in done
+
+
+def _kill_and_come_back(terminal: Terminal) -> None:
+    before = terminal.text.count("The prompt is back")
+    first, *_ = executives(terminal.process.pid)
+    os.kill(first, signal.SIGKILL)
+    assert eventually(lambda: terminal.text.count("The prompt is back") > before)

@@ -12,18 +12,18 @@ from tests.fakes.scripted_skills import Script
 def test_an_emergency_stop_ends_all_jobs_and_refuses_new_ones_until_it_is_reset():
     rig = Rig({NavigateParams: [Script(steps=10**9, stop_steps=3)], StopParams: [Script(steps=2)]})
     rig.begin(WALK).tick(5)
-    rig.executive.estop.press("somebody shouted")
+    rig.executive.press_estop("somebody shouted")
     verdict = rig.run()
     assert (verdict.code, verdict.cause) == ("emergency_stop", "somebody shouted")
     assert rig.troupe.names() == ["navigate", "stop"]
 
     assert rig.begin(WAIT).run().code == "emergency_stop"
     with pytest.raises(StillPressed):
-        rig.executive.estop.reset()
-    rig.executive.estop.release()
+        rig.executive.reset_estop()
+    rig.executive.release_estop()
     assert rig.begin(WAIT).run().code == "emergency_stop"
     assert "wait" not in rig.troupe.names()
 
-    rig.executive.estop.reset()
+    rig.executive.reset_estop()
     rig.tick(5)
     assert rig.begin(WAIT).run() is True
