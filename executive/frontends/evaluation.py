@@ -14,6 +14,7 @@ import executive
 from executive.evaluation import campaign, elsewhere, exam, homes_report, marks, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
+from executive.frontends import evaluation_asked
 from executive.frontends.ending import Ending
 from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words
@@ -39,6 +40,7 @@ def evaluate(options: Eval) -> int:
         ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
         ProcessError: a worker died.
     """
+    options = evaluation_asked.as_before(options)
     moved = _moved(options) if options.homes else None
     cases = moved.cases if moved else chosen(options)
     wanted = campaign.runs(
@@ -46,6 +48,7 @@ def evaluate(options: Eval) -> int:
     )
     root = Path(executive.__file__).parent.parent
     with Results(_folder(options), fingerprint=fingerprint(root)) as results:
+        evaluation_asked.keep(results.path.parent, options)
         screen = Screen(err=True, quiet=options.as_json)
         left = results.left(wanted)
         mixed = results.stale and len(left) < len(wanted)

@@ -1,0 +1,85 @@
+"""What an evaluation was asked to run, kept beside its results: `--resume FOLDER` alone goes on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from executive.frontends.options import Eval
+from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary, write_ordinary
+from robot.plain_data import fitted, from_json
+
+FILE = "asked.json"
+LIMIT = 1_000_000
+
+
+class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The options that say which runs there are; as of `Eval`."""
+
+    missions: tuple[str, ...] = ()
+    tasks: tuple[str, ...] = ()
+    faults: str = ""
+    homes: str = ""
+    world: str = ""
+    robot: str = ""
+    seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
+    no_recovery: bool = False
+
+
+def keep(folder: Path, options: Eval) -> None:
+    """Write what is asked for into the folder of the results.
+
+    Raises:
+        ConfigError: if it cannot be written.
+    """
+    asked = Asked(
+        missions=tuple(options.missions or ()),
+        tasks=tuple(str(path) for path in options.tasks or ()),
+        faults=options.faults,
+        homes=options.homes,
+        world=options.world,
+        robot=options.robot,
+        seeds=options.seeds,
+        no_recovery=options.no_recovery,
+    )
+    try:
+        write_ordinary(folder / FILE, msgspec.json.format(msgspec.json.encode(asked)) + b"\n")
+    except OSError as error:
+        text = f"what is asked for cannot be kept: {error.strerror}"
+        raise ConfigError([Problem(text, str(folder / FILE), suggestion="make room")]) from None
+
+
+def as_before(options: Eval) -> Eval:
+    """The options, with what was asked for before where they only say to go on.
+
+    More seeds than before are more runs; fewer are as many as before.
+
+    Raises:
+        ConfigError: if what was kept cannot be read.
+    """
+    path = options.resume / FILE if options.resume is not None else None
+    chosen = (options.missions, options.tasks, options.faults, options.homes, options.world)
+    if path is None or any(chosen) or not path.exists():
+        return options
+    try:
+        text = read_ordinary(path, limit=LIMIT, follow_links=False).decode()
+        asked = fitted(from_json(text), Asked, path)
+    except ValueError as error:
+        cure = "name the missions, tasks or faults again"
+        text = f"it cannot be read: {error}"
+        raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None
+    return replace(
+        options,
+        missions=list(asked.missions) or None,
+        tasks=[Path(word) for word in asked.tasks] or None,
+        faults=asked.faults,
+        homes=asked.homes,
+        world=asked.world,
+        robot=options.robot or asked.robot,
+        seeds=max(options.seeds, asked.seeds),
+        no_recovery=options.no_recovery or asked.no_recovery,
+    )

@@ -1,0 +1,41 @@
+"""An evaluation is gone on with as it was asked for."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.evaluation_asked import FILE, as_before, keep
+from executive.frontends.options import Eval
+from robot.errors import ConfigError
+
+WAVES = Eval(missions=["wave"], seeds=6, no_recovery=True, robot="juno")
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        WAVES,
+        Eval(faults="shoved hard"),
+        Eval(tasks=[Path("a.yaml")], seeds=2),
+        Eval(homes="flat:7"),
+    ],
+)
+def test_to_go_on_asks_for_what_was_asked_for(tmp_path: Path, asked: Eval):
+    keep(tmp_path, asked)
+    again = as_before(Eval(resume=tmp_path, seeds=1))
+    assert again == replace(asked, resume=tmp_path)
+
+
+def test_more_seeds_are_more_runs_and_a_choice_is_a_choice(tmp_path: Path):
+    keep(tmp_path, WAVES)
+    assert as_before(Eval(resume=tmp_path, seeds=20)).seeds == 20
+    assert as_before(Eval(resume=tmp_path, missions=["nod"])).missions == ["nod"]
+    assert as_before(Eval(seeds=1)) == Eval(seeds=1)
+
+
+@pytest.mark.parametrize("text", ["[", "{}}", '{"seeds": 0}', '{"seeds": 1e99}', '{"missions": 3}'])
+def test_what_cannot_be_read_is_said(tmp_path: Path, text: str):
+    (tmp_path / FILE).write_text(text)
+    with pytest.raises(ConfigError):
+        as_before(Eval(resume=tmp_path))
