@@ -15,7 +15,7 @@ AS_IT_HAPPENS: Mapping[str, str] = {
     "no recovery": "{step}: no recovery, {why}",
     "hold": "standing still: {why}",
     "pause": "pausing: {why}",
-    "paused": "paused: the robot stands",
+    "paused": "paused: nothing moves",
     "break": "{step}: held at a breakpoint, it has not begun",
     "resume": "going on",
     "resumed": "going on: {why}",
@@ -41,7 +41,7 @@ AS_IT_HAPPENS: Mapping[str, str] = {
 IN_HINDSIGHT: Mapping[str, str] = {
     "hold": "it stood still: {why}",
     "pause": "a person wanted it to pause: {why}",
-    "paused": "it stood, paused",
+    "paused": "it was paused",
     "resume": "a person let it go on",
     "stop": "a person wanted it to stop: {why}",
     "cancel": "a person cancelled it: {why}",

@@ -8,6 +8,7 @@ from shlex import quote
 from shutil import get_terminal_size
 
 from executive.blackboard import KEYS
+from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, Job
 from executive.frontends.prompt import saving
 from executive.frontends.prompt.command import Command, anything
@@ -20,6 +21,7 @@ from executive.journal.why import told
 from executive.missions import fault_plans
 from executive.skills.catalogue import SKILLS
 from robot.errors import ConfigError
+from robot.misfits import shown
 
 KEY_NAMES = tuple(key.name for key in KEYS)
 PAST_SHOWN = 10
@@ -213,10 +215,13 @@ class _Seeing:
         self._shell.out(told(self._shell.folder, job=job, live=True).text)
 
     def history(self, _rest: str) -> None:
-        jobs = self._shell.robot.executive.jobs
+        robot = self._shell.robot
+        for number, state, text in robot.ended_before:
+            self._shell.out(f"  {number:3} {state:11} {text}")
+        jobs = robot.executive.jobs
         for job in jobs:
             self._shell.out(f"  {_row(job)}")
-        if not jobs:
+        if not (jobs or robot.ended_before):
             self._shell.out("Nothing was done in this run.")
         before = [one for one in past_runs.history() if Path(one.folder) != self._shell.folder]
         if before:
@@ -270,7 +275,10 @@ class _Steering:
             executive.drop(number_of(rest))
         elif what == "move":
             number, _, place = rest.partition(" ")
+            if not place:
+                raise JobError("move which job where? For example: goals move 3 1")
             executive.move(number_of(number), number_of(place))
+            self._shell.out(f"Job {int(number)} waits at place {int(place)}; 0 is next.")
         else:
             self._queue()
 
@@ -339,6 +347,8 @@ class _Steering:
             self._shell.out("The robot may move again.")
         else:
             self._shell.press()
+            if rest:
+                self._shell.out(f"{shown(rest)} is neither release nor reset, so it is pressed.")
             self._shell.out("Emergency stop. `estop release`, then `estop reset`, undo it.")
 
     def cancel(self, rest: str) -> None:

@@ -84,6 +84,13 @@ class Robot(Closing):
         return self.session.executive
 
     @property
+    def ended_before(self) -> tuple[tuple[int, str, str], ...]:
+        """The jobs of this run that were over before this executive took its place."""
+        left = self._left
+        returned = left is not None and left.folder == self._setup.folder
+        return left.ended if left is not None and returned else ()
+
+    @property
     def lost(self) -> Failure | None:
         """Why the robot is gone, None while it is there."""
         return self.session.runtime.failure()

@@ -48,6 +48,16 @@ class Left(msgspec.Struct, frozen=True, kw_only=True):
         """The highest number of a job so far; 0 where there was none."""
         return max((_of(event) or 0 for event in self.events if _submits(event)), default=0)
 
+    @property
+    def ended(self) -> tuple[tuple[int, str, str], ...]:
+        """The jobs that are over: the number, the state and the text of each, in their order."""
+        states = {_of(event): event.data for event in self.events if event.event == "job"}
+        return tuple(
+            (number, str(data["state"]), str(data.get("text", "")))
+            for number, data in states.items()
+            if number is not None and data.get("state") in OVER
+        )
+
     def newest(self, where: Setting) -> Assignment | None:
         """The newest job, made again; None if none had been submitted.
 

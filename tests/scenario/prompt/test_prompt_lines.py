@@ -167,6 +167,19 @@ def test_counting_waits_for_the_walk_before_it(shell: Shell):
     assert count.began_s >= walk.began_s + walk.took_s
 
 
+def test_a_job_is_moved_to_a_place_that_is_named(shell: Shell):
+    before = len(shell.out.text)
+    shell.line("goals move 1")
+    assert "goals move 3 1" in shell.out.text[before:]
+    for line in ("walk 0.3 metres back", "squat for 1 second", "wave"):
+        shell.line(line)
+    last = shell.robot.executive.jobs[-1].number
+    shell.line(f"goals move {last} 0")
+    assert f"Job {last} waits at place 0" in shell.out.text
+    shell.line("stop")
+    shell.robot.wait()
+
+
 def test_words_after_a_wait_are_said_after_it(shell: Shell):
     shell.line("wait 2 seconds")
     shell.line("say hello")

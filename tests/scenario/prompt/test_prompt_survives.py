@@ -61,7 +61,7 @@ def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_pat
         terminal.enter("walk two metres forward")
         assert terminal.shows("walk | ")
         terminal.enter("pause")
-        assert terminal.shows("paused: the robot stands")
+        assert terminal.shows("paused: nothing moves")
         _kill_and_come_back(terminal)
         terminal.enter("estop")
         assert terminal.shows("Emergency stop.")

@@ -78,3 +78,10 @@ def test_an_executive_that_follows_another_one_goes_on_with_the_numbers_of_jobs(
         why = told(session.setup.folder, job=number).text
         assert f"Asked for: {text}" in why
         assert why.startswith("Done")
+
+
+def test_the_jobs_that_are_over_are_told_by_the_one_that_takes_over(session: Session):
+    session.submit(understood("say hello"))
+    session.run()
+    session.submit(understood("go to the table"))
+    assert left(session).ended == ((1, "done", "say hello"),)
