@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from robot.messages import Side
@@ -11,7 +13,7 @@ from robot.planning.handling_problem import HandlingProblem
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.robot_body import UPRIGHT, Body
-from robot.planning.scene import Scene
+from robot.planning.scene import HELD, Scene
 from robot.planning.solids import solid
 from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
@@ -24,6 +26,8 @@ SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
 RAISE_M = (0.10, 0.06, 0.03, 0.0)
 PULL_M = (0.0, 0.06, 0.12, 0.18)
 STEP_M = 0.05
+SWAY_M, SWAY_CLEARANCE_M = 0.06, 0.005
+"""A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
 
 
@@ -125,6 +129,28 @@ class Checker:
                     return None, q
         return touch, None
 
+    def swaying(self, q_ready: Array, q_leaving: Array) -> str | None:
+        """What arm or body touch as the steps in and out sway the body; the hand is left out."""
+        for q, (scene, finger) in ((q_ready, self._before()), (q_leaving, self._after())):
+            hand = self.body.description.hands[self.side]
+            hands = {hand.body, *hand.finger_bodies, HELD}
+            links = ~scene.solid_geoms & np.array([name not in hands for name in scene.names])
+            scene.set_clearance(SWAY_CLEARANCE_M)
+            for X_WS in self._on_the_way_in(aside_m=(-SWAY_M, SWAY_M)):
+                self._pose(scene, q, finger, X_WS=X_WS, share=0.0)
+                touches = scene.touches(links, solids_only=True)
+                if touches:
+                    return touches[0].second
+        return None
+
+    def _on_the_way_in(self, *, aside_m: tuple[float, ...] = (0.0,)) -> Iterator[SE3]:
+        """Stances from the one wanted back to its standoff, so far to the left of the line."""
+        X_WS = SE3.from_xy_yaw(*self.candidate.stance_of(0))
+        length = float(self.candidate.standoff_m[0])
+        for back in np.linspace(0.0, length, max(2, int(length / STEP_M) + 1)).tolist():
+            for aside in aside_m:
+                yield X_WS @ SE3((-back, aside, 0.0))
+
     def _before(self) -> tuple[Scene, float]:
         """Scene and fingers on the way to the object, or with it to its place."""
         return (self.free, self.opened) if self.problem.kind == "pick" else (self.held, self.closed)
@@ -149,12 +175,7 @@ class Checker:
 
         The trunk leans by `share` of the candidate's posture; X_WS is the stance unless given.
         """
-        stance = X_WS or SE3.from_xy_yaw(*self.candidate.stance_of(0))
-        X_SB, motors = self._standing(share)
-        motors[self.arm.motors] = q_arm
-        motors[self.body.motor(self.body.description.hands[self.side].motor)] = finger
-        scene.pose(stance @ X_SB, motors)
-        scene.update()
+        self._pose(scene, q_arm, finger, X_WS=X_WS, share=share)
         scene.set_clearance(clearance_m)
         names = frozenset({allowed} if allowed else ())
         touches = scene.touches(scene.arm_geoms(self.side), allowed=names)
@@ -162,6 +183,16 @@ class Checker:
             scene.set_clearance(STAND_CLEARANCE_M)
             touches = scene.touches(scene.rest_geoms(self.side), solids_only=True)
         return touches[0].second if touches else None
+
+    def _pose(
+        self, scene: Scene, q_arm: Array, finger: float, *, X_WS: SE3 | None, share: float
+    ) -> None:
+        stance = X_WS or SE3.from_xy_yaw(*self.candidate.stance_of(0))
+        X_SB, motors = self._standing(share)
+        motors[self.arm.motors] = q_arm
+        motors[self.body.motor(self.body.description.hands[self.side].motor)] = finger
+        scene.pose(stance @ X_SB, motors)
+        scene.update()
 
     def _standing(self, share: float) -> tuple[SE3, Array]:
         """X_SB and all motors between upright (0) and the posture (1)."""
@@ -175,17 +206,9 @@ class Checker:
 
     def _sweep(self, scene: Scene, q: Array, finger: float, clearance_m: float) -> str | None:
         """What is touched between the stance and the standoff, upright."""
-        x, y, yaw = self.candidate.stance_of(0)
-        length = float(self.candidate.standoff_m[0])
-        for back in np.linspace(0.0, length, max(2, int(length / STEP_M) + 1)).tolist():
+        for k, X_WS in enumerate(self._on_the_way_in()):
             touch = self._touch(
-                scene,
-                q,
-                finger,
-                X_WS=SE3.from_xy_yaw(x - back * np.cos(yaw), y - back * np.sin(yaw), yaw),
-                share=0.0,
-                clearance_m=clearance_m,
-                rest=back == 0.0,
+                scene, q, finger, X_WS=X_WS, share=0.0, clearance_m=clearance_m, rest=k == 0
             )
             if touch is not None:
                 return touch

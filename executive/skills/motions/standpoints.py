@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.obstructions import between, clearance_m
@@ -21,6 +21,11 @@ HAND_M = 0.95
 SPOT_GRID_M = 0.6
 DIRECTIONS = 8
 ROOM_M = 0.36
+WIDE_M = 0.32
+"""Half of a gap that the body goes through without touching: its elbows at 0.22 m, 6 cm of sway to
+either side, and what the feet are off the way."""
+TRIES, ELSEWHERE_M = 9, 1.2
+"""So many places are tried at most; beside one that only a narrow way leads to, the next is not."""
 BAD_GOAL = ("goal_in_collision", "no_path")
 
 
@@ -67,18 +72,32 @@ def stances_before(body: Body, person: PersonInfo, *, distance_m: float) -> list
 
 
 def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[Stance]:
-    """Walk to the first stance that a path leads to; gives up if none does."""
+    """Walk to the first stance that a wide way leads to, else any; gives up if none does."""
     reasons: list[GaveUp] = []
+    squeezed: list[Stance] = []
+    chosen: Stance | None = None
+    tried = 0
     for stance in _roomy_first(body, stances):
+        if tried == TRIES:
+            break
+        if any(math.dist(stance[:2], other[:2]) < ELSEWHERE_M for other in squeezed):
+            continue
+        tried += 1
         try:
-            yield from ask(body, path_request(body, stance), BasePath)
+            path = yield from ask(body, path_request(body, stance), BasePath)
         except GaveUp as end:
             if end.failure.code not in BAD_GOAL:
                 raise
             reasons.append(end)
             continue
-        yield from walk_to(body, stance)
-        return stance
+        if _between_ends_m(path) >= WIDE_M:
+            chosen = stance
+            break
+        squeezed.append(stance)
+    chosen = chosen or next(iter(squeezed), None)
+    if chosen is not None:
+        yield from walk_to(body, chosen)
+        return chosen
     if len(reasons) == 1:
         raise reasons[0]
     raise give_up(
@@ -88,10 +107,20 @@ def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[S
     )
 
 
+def _between_ends_m(path: BasePath) -> float:
+    """The least clearance of a way, its first and last legs left out: they are as the ends are."""
+    return min(path.clearances_m[1:-1], default=math.inf)
+
+
 def has_room(body: Body, stance: Stance) -> bool:
     """Whether the body can turn there without its arms touching anything."""
+    return _room_m(body, stance) >= ROOM_M
+
+
+def _room_m(body: Body, stance: Stance) -> float:
+    """How far it is from the body's middle to what stands about, there."""
     things = (*body.map.obstacles, *body.world.unmapped)
-    return all(clearance_m(stance[:2], thing) >= ROOM_M for thing in things)
+    return min((clearance_m(stance[:2], thing) for thing in things), default=math.inf)
 
 
 def heading_to(X_WS: SE3, x_m: float, y_m: float) -> float:
@@ -114,13 +143,21 @@ def _on_floor(place: Place, X_WS: SE3) -> list[Stance]:
     for x_m, y_m in offsets:
         x, y, _ = place.X_WP.apply((x_m, y_m, 0.0))
         stances.append((float(x), float(y), heading_to(X_WS, float(x), float(y))))
-    return stances[:9]
+    return stances
 
 
 def _nearest_first(stances: list[Stance], X_WS: SE3) -> list[Stance]:
     return sorted(stances, key=lambda stance: math.dist(stance[:2], X_WS.p[:2]))
 
 
-def _roomy_first(body: Body, stances: Sequence[Stance]) -> list[Stance]:
-    """The same order, but places too narrow for the arms come last."""
-    return sorted(stances, key=lambda stance: not has_room(body, stance))
+def _roomy_first(body: Body, stances: Sequence[Stance]) -> Iterator[Stance]:
+    """The same order, but places too narrow for the arms come last, the widest of them first."""
+    narrow: list[tuple[float, Stance]] = []
+    for stance in stances:
+        room_m = _room_m(body, stance)
+        if room_m >= ROOM_M:
+            yield stance
+        else:
+            narrow.append((room_m, stance))
+    for _, stance in sorted(narrow, key=lambda pair: -pair[0]):
+        yield stance

@@ -121,7 +121,7 @@ def test_a_broken_mjcf_is_named(edited):
 
 
 def test_a_posture_outside_the_joint_limits_is_named(edited):
-    path = edited("juno.yaml", r"left_elbow: -1.35", "left_elbow: 0.6")
+    path = edited("juno.yaml", r"left_elbow: -1.55", "left_elbow: 0.6")
     with pytest.raises(DescriptionError, match=r"'nominal' puts left_elbow to 0.6, it goes -2.3"):
         BodyModel(description.load(path))
 
