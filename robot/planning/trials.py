@@ -28,7 +28,7 @@ At a counter of 0.9 m, a mug 0.35 m from the edge, 4 in 100 get there without, 1
 OUTWARDS = 0.4
 """How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
-SWAY_COST = 0.3
+SWAY_COST = 0.6
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
 LIFT_GAIN = 0.05

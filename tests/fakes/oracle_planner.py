@@ -46,7 +46,7 @@ class RulePlanner:
     def _answer(self, request: r.PlanRequest) -> r.Plan | Failure:
         match request:
             case r.BasePathRequest():
-                return self._path(request)
+                return self.path(request)
             case r.LookRequest():
                 return self._look(request)
             case r.PickRequest():
@@ -56,7 +56,7 @@ class RulePlanner:
             case r.ArmRequest():
                 return self._arm(request)
 
-    def _path(self, request: r.BasePathRequest) -> r.BasePath:
+    def path(self, request: r.BasePathRequest) -> r.BasePath:
         (sx, sy, _), (gx, gy, _) = request.start, request.goal
         heading = math.atan2(gy - sy, gx - sx)
         return r.BasePath(

@@ -79,10 +79,12 @@ def _may_raise(body: Body, X_WS_goal: SE3) -> bool:
 
     While the body has yet to turn it is wanted all around.
     """
-    near = _is_within(body, X_WS_goal, RAISE_M, math.pi)
+    if not _is_within(body, X_WS_goal, RAISE_M, math.pi):
+        return False
     turned = _is_within(body, X_WS_goal, RAISE_M, TURNED_RAD)
     room_m = None if turned else _raised_m(body) + SWAY_M
-    return near and _has_room(body, stance_of(body.X_WS), room_m=room_m)
+    ends = (body.X_WS, X_WS_goal)
+    return all(_has_room(body, stance_of(X_WS), room_m=room_m) for X_WS in ends)
 
 
 def _raised_m(body: Body) -> float:

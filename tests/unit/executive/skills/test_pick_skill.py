@@ -6,6 +6,7 @@ import msgspec
 import pytest
 from msgspec.structs import replace
 
+from executive.skills.motions.approach import TURNED_RAD
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from robot.failures import failure
@@ -430,3 +431,24 @@ def test_where_there_is_no_room_for_an_arm_the_feet_stand_first(stage):
     assert stage.run(CUP).status == "succeeded"
     assert moves[0] == ("raising the right hand", "stand")
     assert moves[-1] == ("bringing the right arm in", "stand")
+
+
+@pytest.mark.parametrize(("wall_y_m", "turned"), [(0.48, True), (0.8, False)])
+def test_beside_a_wall_a_hand_comes_up_when_the_body_has_turned(stage, wall_y_m, turned):
+    """The cup is taken heading along x, from a standoff beside the wall, coming along the wall."""
+    shape = Shape(kind="box", size_m=(6.0, 0.02, 2.0))
+    at = SE3((1.12, 0.32 + wall_y_m, 1.0))
+    wall = Obstacle(id="wall", name="wall", X_WO=at, shapes=(shape,))
+    stage.puppet.world_map = replace(stage.puppet.world_map, obstacles=(wall,))
+    stage.puppet.X_WS = SE3.from_xy_yaw(1.12, -1.5, math.pi / 2)
+    yaws = []
+    send = stage.puppet.send
+
+    def listen(command):
+        if isinstance(command, MoveArm):
+            yaws.append(stage.puppet.X_WS.yaw_rad)
+        send(command)
+
+    stage.puppet.send = listen
+    assert stage.run(CUP).status == "succeeded"
+    assert (abs(yaws[0]) <= TURNED_RAD) == turned

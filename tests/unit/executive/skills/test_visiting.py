@@ -17,6 +17,7 @@ from executive.skills.motions.standpoints import (
 )
 from executive.skills.navigate import NavigateParams
 from robot.messages import Obstacle, Place, Shape
+from robot.planning.requests import BasePath, BasePathRequest
 from robot.se3 import SE3, wrap_angle
 from tests.fakes.stage import Stage
 
@@ -69,6 +70,44 @@ def test_a_narrow_side_is_left_for_a_roomy_one():
     stage = walled_in()
     assert stage.run(NavigateParams(place_id="table")).status == "succeeded"
     assert math.dist(stage.puppet.X_WS.p[:2], (1.3, 0.0)) > 0.5
+
+
+def test_in_a_room_one_stands_where_there_is_room_however_far_from_its_middle():
+    stage = Stage()
+    shape = Shape(kind="box", size_m=(2.4, 2.4, 0.7))
+    desk = Obstacle(id="desk", name="desk", X_WO=SE3((0.0, -2.0, 0.35)), shapes=(shape,))
+    hall = Place(id="hall", name="hall", X_WP=SE3((0.0, -2.0, 0.0)), size_m=(5.0, 5.0), floor=True)
+    world_map = stage.puppet.world_map
+    stage.puppet.world_map = msgspec.structs.replace(
+        world_map, obstacles=(desk,), places=(*world_map.places, hall)
+    )
+    assert stage.run(NavigateParams(place_id="hall")).status == "succeeded"
+    x_m, y_m, _ = stage.puppet.X_WS.p
+    assert has_room(Body(stage.context), (x_m, y_m, 0.0))
+    assert max(abs(x_m), abs(y_m + 2.0)) <= 2.5, "in the room"
+
+
+def test_a_place_that_a_narrow_way_leads_to_is_left_for_one_with_a_wide_way():
+    stage = Stage()
+    hall = Place(id="hall", name="hall", X_WP=SE3((0.0, 0.0, 0.0)), size_m=(5.0, 5.0), floor=True)
+    world_map = stage.puppet.world_map
+    stage.puppet.world_map = msgspec.structs.replace(world_map, places=(*world_map.places, hall))
+
+    def path(request: BasePathRequest) -> BasePath:
+        """A gap leads to everything on this side of the room."""
+        (x, y, _), clear_m = request.start, 0.29 if request.goal[1] < 1.0 else 0.5
+        return BasePath(
+            waypoints=((x, y, 0.0), (*request.goal[:2], 0.0), request.goal),
+            length_m=math.dist((x, y), request.goal[:2]),
+            clearance_m=clear_m,
+            clearances_m=(0.5, clear_m, 0.5),
+        )
+
+    stage.planner.path = path
+    assert stage.run(NavigateParams(place_id="hall")).status == "succeeded"
+    assert stage.puppet.X_WS.p[1] > 0.95
+    asked = [r.goal for r in stage.planner.requests if isinstance(r, BasePathRequest)]
+    assert len(asked) <= 6, "what is beside a place with a narrow way is not tried"
 
 
 @pytest.mark.parametrize(("height_m", "through"), [(2.0, False), (0.7, True)])

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from robot.failures import Failure
-from robot.messages import Shape
+from robot.messages import Shape, Side
+from robot.planning.checks import SWAY_M
 from robot.planning.floor import Floor
 from robot.planning.requests import (
+    BodyPosture,
+    Held,
     ObjectPose,
     PickPlan,
     PickRequest,
@@ -18,6 +21,7 @@ from robot.planning.requests import (
     Surroundings,
 )
 from robot.planning.robot_body import Body
+from robot.planning.scene import HELD
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
 from robot.se3 import SE3
@@ -188,6 +192,53 @@ def test_carrying_is_near_the_body_and_upright(solver: Solver) -> None:
     assert math.hypot(*X_SG.p[:2]) < 0.45
     up = (X_SG @ plan.X_OG.inverse()).rotation()[2, 2]
     assert up == pytest.approx(1.0, abs=1e-3)
+
+
+def test_what_is_carried_and_the_arms_stay_inside_the_circle_that_ways_are_planned_for(
+    solver: Solver,
+) -> None:
+    around = surroundings(on_table(-0.1, 0.2))
+    plan = pick(solver, around)
+    assert isinstance(plan, PickPlan)
+    body, X_WS = solver.body, SE3()
+    standing = body.standing(BodyPosture())
+    held = Held(id="cup", shape=CUP, X_GO=plan.X_OG.inverse())
+    scene = body.scenes.get((), (plan.side, held))
+    for carried in (False, True):
+        q = standing.q.copy()
+        if carried:
+            q[body.arms[plan.side].motors] = plan.carry_rad
+        scene.pose(X_WS @ standing.X_SB, q)
+        scene.update()
+        for side, arm in body.arms.items():
+            geoms = scene.arm_geoms(side)
+            if side == plan.side and not carried:
+                geoms = geoms & np.array([name != HELD for name in scene.names])
+            assert scene.around_m(geoms, X_WS) <= body.description.body_radius_m, arm.side
+
+
+@pytest.mark.parametrize(("side", "seed"), [("right", 0), ("left", 2), ("left", 4)])
+def test_arm_and_body_may_sway_on_the_steps_to_a_shelf(
+    solver: Solver, side: Side, seed: int
+) -> None:
+    around = surroundings()
+    plan = place(solver, BOARD[BOARDS_M[0]], around, side=side, seed=seed)
+    assert isinstance(plan, PlacePlan)
+    body = solver.body
+    standing, hand = body.standing(BodyPosture(), side), body.description.hands[side]
+    scene = body.scenes.get(solids_of(around))
+    scene.set_clearance(0.0)
+    hands = {hand.body, *hand.finger_bodies}
+    links = np.array([name not in hands for name in scene.names]) & ~scene.solid_geoms
+    q = standing.q.copy()
+    q[body.arms[side].motors] = plan.ready_rad
+    X_WS = SE3.from_xy_yaw(*plan.stance)
+    step_m = math.dist(plan.stance[:2], plan.standoff[:2])
+    for back_m in (0.0, 0.5 * step_m, step_m):
+        for aside_m in (-SWAY_M, SWAY_M):
+            scene.pose(X_WS @ SE3((-back_m, aside_m, 0.0)) @ standing.X_SB, q)
+            scene.update()
+            assert not scene.touches(links, solids_only=True)
 
 
 def test_the_same_seed_gives_the_same_plan(solver: Solver) -> None:
