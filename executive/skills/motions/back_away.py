@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.obstructions import clearance_m
+from executive.skills.motions.obstructions import may_step
 from executive.skills.motions.personal_space import CLEAR_M, somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
@@ -80,7 +80,5 @@ def _is_free(
         return False
     if somebody_near(body, point) not in (None, but):
         return False
-    here, radius_m = (body.X_WS.p[0], body.X_WS.p[1]), body.description.body_radius_m
-    return all(
-        clearance_m(point, thing) >= min(radius_m, clearance_m(here, thing)) for thing in things
-    )
+    here = (body.X_WS.p[0], body.X_WS.p[1])
+    return may_step(here, point, things, radius_m=body.description.body_radius_m)

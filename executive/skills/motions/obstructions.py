@@ -52,6 +52,13 @@ def clearance_m(point: Point2, obstacle: Obstacle) -> float:
     )
 
 
+def may_step(here: Point2, there: Point2, things: Iterable[Obstacle], *, radius_m: float) -> bool:
+    """Whether the body has its radius free at a point, or no less than where it stands now."""
+    return all(
+        clearance_m(there, thing) >= min(radius_m, clearance_m(here, thing)) for thing in things
+    )
+
+
 def _outside_m(point: Point2, X_WA: SE3, size_m: tuple[float, float, float]) -> float:
     """Distance from a point to the rectangle under a shape (a cylinder counts as its square)."""
     dx, dy = point[0] - X_WA.p[0], point[1] - X_WA.p[1]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from executive.skills.motions.back_away import back_away
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.obstructions import may_step
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import is_at, move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script
@@ -12,7 +13,8 @@ from robot.messages import Side
 from robot.se3 import SE3
 
 HOME = "nominal"
-STEP_BACK_M = 0.30
+STEPS_BACK_M = (0.30, 0.20, 0.10)
+"""The first that is free: the hand comes out from among things by it."""
 
 
 def stow_arms(body: Body) -> Script[None]:
@@ -40,7 +42,18 @@ def stow_arm(body: Body, side: Side) -> Script[None]:
     except GaveUp as end:
         if end.failure.code not in ("no_path", "start_in_collision", "planner_timeout"):
             raise
-        back = body.X_WS @ SE3((-STEP_BACK_M, 0.0, 0.0))
+        back = next((back for back_m in STEPS_BACK_M if (back := _free_behind(body, back_m))), None)
+        if back is None:
+            raise
         yield from step_to(body, stance_of(back))
         yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
     body.phase = before
+
+
+def _free_behind(body: Body, back_m: float) -> SE3 | None:
+    """The stance so far straight back, if nothing stands there."""
+    back = body.X_WS @ SE3((-back_m, 0.0, 0.0))
+    things = (*body.map.obstacles, *body.world.unmapped)
+    here, there = (body.X_WS.p[0], body.X_WS.p[1]), (back.p[0], back.p[1])
+    radius_m = body.description.body_radius_m
+    return back if may_step(here, there, things, radius_m=radius_m) else None

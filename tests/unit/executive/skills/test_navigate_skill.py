@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 from executive.skills.holding import Held
@@ -11,7 +12,7 @@ from executive.skills.motions.reach import posture_rad
 from executive.skills.navigate import FloorPose, Navigate, NavigateParams, Step
 from robot.failures import failure
 from robot.messages import MoveArm, Obstacle, Shape, Stand, Walk, WalkTo
-from robot.planning.requests import BasePathRequest
+from robot.planning.requests import ArmRequest, BasePathRequest
 from robot.se3 import SE3, wrap_angle
 from tests.fakes.puppet import Thing
 from tests.fakes.stage import DESCRIPTION, Stage
@@ -314,3 +315,20 @@ def test_what_lies_beyond_the_map_is_refused_wherever_the_robot_stands(stage, wa
 def test_what_lies_in_the_map_is_not_refused(stage):
     for wanted in (to(3.9, 2.9), to(-2.94, 0.0), NavigateParams(by=Step(forward_m=9.0))):
         assert Navigate.refusal(wanted, stage.puppet.map(), DESCRIPTION) is None
+
+
+@pytest.mark.parametrize(("wall_m", "backed_m"), [(2.0, 0.3), (0.5, 0.2), (0.3, 0.0)])
+def test_a_hand_among_things_is_freed_by_a_step_back_no_further_than_there_is_room(
+    stage, wall_m, backed_m
+):
+    shape = Shape(kind="box", size_m=(0.02, 4.0, 2.0))
+    wall = Obstacle(id="wall", name="wall", X_WO=SE3((-wall_m, 0.0, 1.0)), shapes=(shape,))
+    stage.puppet.world_map = msgspec.structs.replace(stage.puppet.world_map, obstacles=(wall,))
+    for i in stage.puppet.description.indices("left_arm"):
+        stage.puppet.q_rad[i] += 0.5
+    stage.planner.failures[ArmRequest] = [failure("no_path", "among things")] * 2
+    report = stage.run(to(1.0, 0.0))
+    assert (report.status == "succeeded") == (backed_m > 0.0)
+    first = next(iter(stage.commands(WalkTo)), None)
+    at = stage.puppet.X_WN @ SE3((first.x_m, first.y_m, 0.0)) if first else SE3()
+    assert at.p[:2] == pytest.approx((-backed_m, 0.0), abs=0.01)
