@@ -19,7 +19,7 @@ from executive.skills.motions.planning import ask, held_in, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.stow import HOME, stow_arms
-from executive.skills.motions.support import occupant, surroundings, tilt
+from executive.skills.motions.support import occupant, stands_on, surroundings, tilt
 from executive.skills.parameters import SkillParams, exactly_one, finite
 from executive.skills.scripted import ScriptedSkill
 from robot.failures import Failure, failure
@@ -135,16 +135,21 @@ class PutDown(ScriptedSkill[PlaceParams]):
         body = self.body
         info = body.object_info(self.parameters.object_id)
         held = body.context.holdings.find(info.id)
-        if held is None:
-            raise give_up("not_holding", f"no hand holds the {info.name}", object=info.id)
-        check_grips(body)
         place = self._place()
+        if held is None:
+            X_WO = self._standing(place)
+            if X_WO is None:
+                raise give_up("not_holding", f"no hand holds the {info.name}", object=info.id)
+            yield from stow_arms(body)
+            yield from self._verify(info, place, X_WO)
+            return
+        check_grips(body)
         yield from stow_arms(body)
         plan = yield from self._bring(info, place, held)
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
         yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
-        yield from self._verify(info, place, plan)
+        yield from self._verify(info, place, plan.X_WO)
 
     def _bring(self, info: ObjectInfo, place: Place, held: Held) -> Script[PlacePlan]:
         """Go there and lower it; plans again, for another spot or stance, if this one is taken."""
@@ -185,6 +190,15 @@ class PutDown(ScriptedSkill[PlaceParams]):
             if not place.floor and _is_over(place, X_WO):
                 return place
         return Place(id="spot", name="spot", X_WP=X_WO, size_m=(SPOT_SIZE_M, SPOT_SIZE_M))
+
+    def _standing(self, place: Place) -> SE3 | None:
+        """Where it stands already as it is to: let go, before somebody kept the hand from it."""
+        wanted, track = self.parameters, self.body.track(self.parameters.object_id)
+        if track is None or track.X_WO is None or track.missing or tilt(track.X_WO) > UPRIGHT_RAD:
+            return None
+        spots = wanted.spots if wanted.X_WO is None else (wanted.X_WO.p[:2],)
+        off_m = min((math.dist(track.X_WO.p[:2], spot) for spot in spots), default=0.0)
+        return track.X_WO if off_m <= PLACED_WITHIN_M and stands_on(track.X_WO, place) else None
 
     def _plan(self, place: Place, held: Held, *, attempt: int) -> Script[PlacePlan]:
         self.body.phase = f"planning how to put it on the {place.name}"
@@ -283,17 +297,17 @@ class PutDown(ScriptedSkill[PlaceParams]):
         back = release.X_WG_back
         yield from move_hand(self.body, release.side, lambda: back, speed_m_s=RETREAT_M_S)
 
-    def _verify(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[None]:
+    def _verify(self, info: ObjectInfo, place: Place, X_WO_put: SE3) -> Script[None]:
         """Look: the object must stand where it was put. Gives up with `place_missed`."""
         self.body.phase = f"checking the {info.name}"
         try:
-            X_WO = yield from see(self.body, info.id, p_W=plan.X_WO.p)
+            X_WO = yield from see(self.body, info.id, p_W=X_WO_put.p)
         except GaveUp as end:
             if end.failure.code != "object_not_seen":
                 raise
             cause = f"the {info.name} cannot be seen on the {place.name}"
             raise give_up("place_missed", cause, object=info.id) from end
-        off_m = math.dist(X_WO.p, plan.X_WO.p)
+        off_m = math.dist(X_WO.p, X_WO_put.p)
         tilt_rad = tilt(X_WO)
         if off_m <= PLACED_WITHIN_M and tilt_rad <= UPRIGHT_RAD:
             return

@@ -7,7 +7,8 @@ import pytest
 from executive.skills.motions.personal_space import PATIENCE_S, ZONE_M
 from executive.skills.navigate import FloorPose, NavigateParams, Step
 from executive.skills.pick import PickParams
-from robot.messages import MoveArm, MoveHand, Obstacle, Shape, Walk, WalkTo
+from executive.skills.place import PlaceParams
+from robot.messages import Grip, MoveArm, MoveHand, Obstacle, Shape, Walk, WalkTo
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
 
@@ -166,3 +167,16 @@ def test_with_nobody_near_nothing_is_stepped_back_from(stage):
     held_out(stage, SE3((2.5, 0.0, 0.0)))
     assert stage.run(NavigateParams(by=Step(turn_rad=0.5))).status == "succeeded"
     assert "stepping back from Ann" not in stage.phases
+
+
+def test_what_was_let_go_before_somebody_came_near_is_put_down(stage):
+    on_counter = PlaceParams(object_id="cup", place_id="counter")
+    assert stage.run(PickParams(object_id="cup")).status == "succeeded"
+    comes(stage, "bringing", lambda: stage.puppet.X_WS @ SE3((0.5, -0.2, 0.0)), for_s=60.0)
+    report = stage.run(on_counter)
+    assert report.failure.code == "person_near"
+    assert not stage.puppet.holding
+    stage.puppet.people = {}
+    opened = len(stage.commands(Grip))
+    assert stage.run(on_counter).status == "succeeded"
+    assert len(stage.commands(Grip)) == opened
