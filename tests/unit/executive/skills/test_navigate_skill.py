@@ -160,13 +160,13 @@ def test_a_short_step_frees_a_robot_that_touches_something(stage):
 
 
 def test_a_way_is_wide_around_people_unless_there_is_none_so_wide(stage):
-    asked, plan = [], stage.planner._path
+    asked, plan = [], stage.planner.path
 
     def path(request):
         asked.append(request.around.map.people[0].radius_m)
         return plan(request)
 
-    stage.planner._path = path
+    stage.planner.path = path
     own_m = stage.puppet.world_map.people[0].radius_m
     assert stage.run(to(1.0, 0.0, 0.0)).status == "succeeded"
     assert min(asked) > own_m
