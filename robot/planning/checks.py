@@ -92,7 +92,17 @@ class Checker:
         return self._leaning(scene, q, finger) or self._sweep(scene, q, finger, TOUCH_CLEARANCE_M)
 
     def ready(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
-        """Joints with the hand raised before `target`, free on the way from the standoff.
+        """Joints with the hand raised before `target`, free on the way from the standoff."""
+        return self._raised_before(target, q_near, *self._before())
+
+    def away(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
+        """Joints with the hand raised before `target`, free on the way back to the standoff."""
+        return self._raised_before(target, q_near, *self._after())
+
+    def _raised_before(
+        self, target: Targets, q_near: Array, scene: Scene, finger: float
+    ) -> tuple[str | None, Array | None]:
+        """Joints with the hand raised before `target`, free between stance and standoff.
 
         The hand is raised and pulled back by what is free; the trunk is upright, and leans only
         at the stance.
@@ -108,14 +118,15 @@ class Checker:
             p = np.stack([target.p[0] + [0, 0, raised] - back for raised in RAISE_M])
             targets, q0 = Targets(target.R[row], p), np.tile(q_near, (len(p), 1))
             reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
-            touch, q_ready = self._raised(reached.q[reached.ok])
+            touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
             if q_ready is not None:
                 return None, q_ready
         return touch, None
 
-    def _raised(self, raised: Array) -> tuple[str | None, Array | None]:
-        """The first of some joints, shape (n, k), with room on the way in; else with less room."""
-        scene, finger = self._before()
+    def _raised(
+        self, raised: Array, scene: Scene, finger: float
+    ) -> tuple[str | None, Array | None]:
+        """The first of some joints, shape (n, k), with room on the way; else with less room."""
         touch: str | None = END
         for clearance in SWEEP_CLEARANCE_M:
             for q in raised:

@@ -49,6 +49,7 @@ class Choice:
     Attributes:
         q_main, q_back, q_up: joints of the arm at those poses.
         q_ready: with the hand raised, for stepping in.
+        q_away: the same for stepping back; None: the arm may stay as it is.
         margin: 0 to 1, of reach and joint limits at all poses.
         steadiness: share of small errors of the stance under which all are still reached.
         score: margin and steadiness less all costs.
@@ -67,6 +68,7 @@ class Choice:
     margin: float
     steadiness: float
     score: float
+    q_away: Array | None = None
 
 
 @dataclass(slots=True)

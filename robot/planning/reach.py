@@ -110,13 +110,17 @@ def reach(
     return Reached(solved.q, solved.ok(), solved.position_error_m)
 
 
-def first_reach(body: Body, arm: Arm, trunks: Trunks, targets: Targets) -> Reached:
-    """From the robot's own postures and the middle of the ranges; each where the last failed."""
-    postures = body.description.postures
+def first_reach(
+    body: Body, arm: Arm, trunks: Trunks, targets: Targets, *, over: bool = False
+) -> Reached:
+    """From the robot's own postures and the middle of the ranges; each where the last failed.
+
+    With `over` first from those with the arm up and over an edge.
+    """
+    postures, reaching = body.description.postures, body.description.handy.reaching
+    names = (*(reaching.over if over else ()), "carry", "nominal")
     seeds = [
-        np.array(body.description.posture(name))[arm.motors]
-        for name in ("carry", "nominal")
-        if name in postures
+        np.array(body.description.posture(name))[arm.motors] for name in names if name in postures
     ]
     seeds.append(0.5 * (arm.lower + arm.upper))
     n = len(targets.p)

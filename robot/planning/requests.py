@@ -190,6 +190,8 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
         X_OG: grasp pose in the object's frame; follow the object with X_WG = X_WO @ X_OG.
         X_WG_pre, X_WG_grasp, X_WG_lift: before, at and after the grasp.
         pre_rad: joints of the arm at the pre-grasp, as planned (start the goal's IK from them).
+        away_rad: joints of the arm with the hand raised, before the trunk straightens up and the
+            feet step back; None: it may stay as it is.
         carry_rad: joints of the arm that hold the object upright near the body.
         opening_m: width of the object between the fingers.
         margin: 0 (barely feasible) to 1 (comfortable), of reach and joint limits together.
@@ -208,6 +210,7 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     carry_rad: Joints
     opening_m: float
     margin: float
+    away_rad: Joints | None = None
 
 
 class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
@@ -245,6 +248,7 @@ class PlacePlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     X_WG_retreat: SE3
     pre_rad: Joints
     margin: float
+    away_rad: Joints | None = None
 
 
 # --- arm motions -------------------------------------------------------------------------------
