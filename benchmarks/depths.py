@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from typing import Annotated, Any
 
 import numpy as np
@@ -218,15 +217,16 @@ def render(outcomes: dict[str, Outcome]) -> str:
         cells.setdefault((height, depth), []).append(one)
     heights = list(dict.fromkeys(height for height, _ in cells))
     depths = list(dict.fromkeys(depth for _, depth in cells))
-    rows = [
-        [height, *(_cell(cells[height, depth]) for depth in depths)] for height in heights
-    ]
+    rows = [[height, *(_cell(cells[height, depth]) for depth in depths)] for height in heights]
     return table(["m high, deep:", *depths], rows)
 
 
 def _cell(some: list[Outcome]) -> str:
     """`planned picked placed/tried`, and how many fell."""
-    counted: Callable[[str], int] = lambda key: sum(bool(one.get(key)) for one in some)
+
+    def counted(key: str) -> int:
+        return sum(bool(one.get(key)) for one in some)
+
     fell = sum(one.get("stands") is False for one in some)
     words = f"{counted('planned')} {counted('picked')} {counted('placed')}/{len(some)}"
     return words + (f", {fell} fell" if fell else "")

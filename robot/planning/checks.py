@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from robot.messages import Side
@@ -11,7 +13,7 @@ from robot.planning.handling_problem import HandlingProblem
 from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.robot_body import UPRIGHT, Body
-from robot.planning.scene import Scene
+from robot.planning.scene import HELD, Scene
 from robot.planning.solids import solid
 from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
@@ -21,6 +23,10 @@ APPROACH_CLEARANCE_M = 0.012
 TOUCH_CLEARANCE_M = 0.004
 LEAN_CLEARANCE_M = 0.02
 SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
+OVER_SWEEP_CLEARANCE_M = (0.05, 0.03)
+OVER_CLEARANCE_M = 0.02
+"""Of the arm without its hand, over an edge: the feet end 2 cm off, and the hand goes on lines that
+the elbow follows by itself. With 4 mm the forearm rubbed on the edge and pushed the robot up."""
 RAISE_M = (0.10, 0.06, 0.03, 0.0)
 PULL_M = (0.0, 0.06, 0.12, 0.18)
 STEP_M = 0.05
@@ -52,6 +58,7 @@ class Checker:
         self.free = scenes.get(problem.others, thing=solid(problem.object_id, SE3(), problem.shape))
         self.free.move_thing(at)
         hand = self.body.description.hands[side]
+        self._hand_names = (hand.body, *hand.finger_bodies, HELD)
         self.opened = hand.max_opening_m / hand.opening_per_motor
         self.closed = option.opening_m / hand.opening_per_motor
 
@@ -128,7 +135,7 @@ class Checker:
     ) -> tuple[str | None, Array | None]:
         """The first of some joints, shape (n, k), with room on the way; else with less room."""
         touch: str | None = END
-        for clearance in SWEEP_CLEARANCE_M:
+        for clearance in OVER_SWEEP_CLEARANCE_M if self.lean.last else SWEEP_CLEARANCE_M:
             for q in raised:
                 touch = self._sweep(scene, q, finger, clearance)
                 touch = touch or self._leaning(scene, q, finger)
@@ -166,9 +173,12 @@ class Checker:
         motors[self.body.motor(self.body.description.hands[self.side].motor)] = finger
         scene.pose(stance @ X_SB, motors)
         scene.update()
-        scene.set_clearance(clearance_m)
+        slack: dict[tuple[str, str], float] = {}
+        if self.lean.last and clearance_m < OVER_CLEARANCE_M:
+            slack = dict.fromkeys(product(self._hand_names, scene.solids), clearance_m)
+        scene.set_clearance(OVER_CLEARANCE_M if slack else clearance_m)
         names = frozenset({allowed} if allowed else ())
-        touches = scene.touches(scene.arm_geoms(self.side), allowed=names)
+        touches = scene.touches(scene.arm_geoms(self.side), allowed=names, slack=slack)
         if not touches and rest:
             scene.set_clearance(STAND_CLEARANCE_M)
             touches = scene.touches(scene.rest_geoms(self.side), solids_only=True)

@@ -83,7 +83,7 @@ def _plan(body: Body, choice: Choice, thing: ObjectPose, carry: Joints) -> PickP
         carry_rad=carry,
         opening_m=choice.option.opening_m,
         margin=choice.margin,
-        away_rad=None if choice.q_away is None else _joints(choice.q_away),
+        over=choice.over(body),
     )
 
 

@@ -115,13 +115,12 @@ def first_reach(
 ) -> Reached:
     """From the robot's own postures and the middle of the ranges; each where the last failed.
 
-    With `over` first from those with the arm up and over an edge.
+    With `over` only from those with the arm up and over an edge, if there are any.
     """
-    postures, reaching = body.description.postures, body.description.handy.reaching
-    names = (*(reaching.over if over else ()), "carry", "nominal")
-    seeds = [
-        np.array(body.description.posture(name))[arm.motors] for name in names if name in postures
-    ]
+    robot = body.description
+    names = robot.handy.reaching.over if over else ()
+    names = names or tuple(name for name in ("carry", "nominal") if name in robot.postures)
+    seeds = [np.array(robot.posture(name))[arm.motors] for name in names]
     seeds.append(0.5 * (arm.lower + arm.upper))
     n = len(targets.p)
     result = Reached(np.tile(seeds[0], (n, 1)), np.zeros(n, dtype=bool), np.full(n, np.inf))

@@ -165,6 +165,22 @@ class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 # --- picking and placing -----------------------------------------------------------------------
 
 
+class OverEdge(msgspec.Struct, frozen=True, kw_only=True):
+    """Joints of an arm that comes over an edge, its elbow up.
+
+    Attributes:
+        at_rad, back_rad, up_rad: with the hand on the object, drawn back from it, and with it
+            raised: on lines between these the elbow stays up.
+        away_rad: with the hand raised, before the trunk straightens up and the feet step back;
+            None: the arm may stay as it is.
+    """
+
+    at_rad: Joints
+    back_rad: Joints
+    up_rad: Joints
+    away_rad: Joints | None = None
+
+
 class PickRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """How to pick up `object_id` (one of `around.objects`), standing at `start` now.
 
@@ -190,11 +206,10 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
         X_OG: grasp pose in the object's frame; follow the object with X_WG = X_WO @ X_OG.
         X_WG_pre, X_WG_grasp, X_WG_lift: before, at and after the grasp.
         pre_rad: joints of the arm at the pre-grasp, as planned (start the goal's IK from them).
-        away_rad: joints of the arm with the hand raised, before the trunk straightens up and the
-            feet step back; None: it may stay as it is.
         carry_rad: joints of the arm that hold the object upright near the body.
         opening_m: width of the object between the fingers.
         margin: 0 (barely feasible) to 1 (comfortable), of reach and joint limits together.
+        over: how the arm comes over an edge, if it must.
     """
 
     side: Side
@@ -210,7 +225,7 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     carry_rad: Joints
     opening_m: float
     margin: float
-    away_rad: Joints | None = None
+    over: OverEdge | None = None
 
 
 class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
@@ -248,7 +263,7 @@ class PlacePlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     X_WG_retreat: SE3
     pre_rad: Joints
     margin: float
-    away_rad: Joints | None = None
+    over: OverEdge | None = None
 
 
 # --- arm motions -------------------------------------------------------------------------------

@@ -144,9 +144,9 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     A hand over an edge is raised first: the trunk goes down as it straightens up.
     """
     keep_upright = body.context.holdings.must_stay_upright(plan.side)
-    if plan.away_rad is not None:
+    if plan.over is not None and plan.over.away_rad is not None:
         body.phase = f"raising the {plan.side} hand"
-        yield from move_arm(body, plan.side, plan.away_rad, keep_upright=keep_upright)
+        yield from move_arm(body, plan.side, plan.over.away_rad, keep_upright=keep_upright)
     if plan.posture != BodyPosture():
         body.phase = "straightening up"
         yield from stand_still(body)
