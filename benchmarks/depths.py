@@ -38,6 +38,7 @@ Outcome = dict[str, Any]
 HEIGHTS_M = (0.45, 0.55, 0.65, 0.75, 0.85, 0.90, 0.94, 0.98, 1.02, 1.06, 1.10, 1.15)
 DEPTHS_M = (0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.45)
 EDGE_M, COUNTER_M = 1.0, (0.90, 1.60)
+BACK_M = EDGE_M + COUNTER_M[0]
 MUG_M, MUG_KG = (0.08, 0.08, 0.10), 0.30
 TICK_S, LIMIT_S = 0.05, 240.0
 UPRIGHT = 0.8
@@ -52,11 +53,7 @@ def counter(*, height_m: float, depth_m: float, seed: int) -> World:
     middle = EDGE_M + 0.5 * COUNTER_M[0]
     return World(
         name="counter",
-        rooms=(
-            Room(
-                id="room", at_m=(middle - 1.65, 0.0), size_m=(2 * (2.1 - 0.5), 4.0), walls=("east",)
-            ),
-        ),
+        rooms=(Room(id="room", at_m=(BACK_M - 1.7, 0.0), size_m=(3.4, 4.0), walls=("east",)),),
         furniture=(
             Furniture(
                 id="counter",
