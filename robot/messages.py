@@ -101,13 +101,15 @@ class MoveHand(Command, frozen=True, kw_only=True):
     """Move the grasp frame on a straight line to X_NG, corrected for the body's motion, and hold.
 
     With `stop_load_n`, a downward line also ends when the wrist's vertical load has changed by
-    that much (contact).
+    that much (contact). With `near_rad`, joints of the arm, the elbow goes where it is at these, as
+    far as the line allows; else it goes wherever the joints move least.
     """
 
     side: Side
     X_NG: SE3
     speed_m_s: float = 0.15
     stop_load_n: float | None = None
+    near_rad: tuple[float, ...] = ()
 
 
 class HoldArm(Command, frozen=True, kw_only=True):

@@ -193,6 +193,7 @@ class Pick(ScriptedSkill[PickParams]):
             side,
             lambda: aim(plan, info, followed(body, info, X_WO)),
             speed_m_s=APPROACH_M_S,
+            near_rad=plan.over and plan.over.at_rad,
         )
         body.phase = f"closing the {side} fingers"
         self._tare_n = body.hand(side).load_n
@@ -261,12 +262,18 @@ class Pick(ScriptedSkill[PickParams]):
         body.phase = "drawing the hand back"
         if self._X_WG_closed is not None:
             X_WG_closed = self._X_WG_closed  # never let go above nothing
-            yield from move_hand(body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S)
+            near_rad = plan.over and plan.over.at_rad
+            yield from move_hand(
+                body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S, near_rad=near_rad
+            )
             self._X_WG_closed = None
         yield from open_fingers(body, side)
         if self._X_WG_pre is not None:
             X_WG_pre = self._X_WG_pre
-            yield from move_hand(body, side, lambda: X_WG_pre, speed_m_s=APPROACH_M_S)
+            near_rad = plan.over and plan.over.back_rad
+            yield from move_hand(
+                body, side, lambda: X_WG_pre, speed_m_s=APPROACH_M_S, near_rad=near_rad
+            )
 
     def _lift(self, info: ObjectInfo, plan: PickPlan) -> Script[None]:
         """Lift straight up, and see by gap and weight that the object came along."""
@@ -276,7 +283,8 @@ class Pick(ScriptedSkill[PickParams]):
         rise = tuple(b - a for a, b in zip(plan.X_WG_grasp.p, plan.X_WG_lift.p, strict=True))
         p_W = tuple(a + b for a, b in zip(X_WG_grasp.p, rise, strict=True))
         X_WG_lift = SE3((p_W[0], p_W[1], p_W[2]), X_WG_grasp.quat_wxyz)
-        yield from move_hand(body, side, lambda: X_WG_lift, speed_m_s=LIFT_M_S)
+        near_rad = plan.over and plan.over.up_rad
+        yield from move_hand(body, side, lambda: X_WG_lift, speed_m_s=LIFT_M_S, near_rad=near_rad)
         yield from body.wait(0.4)
         check_grips(body)
         load_n = body.hand(side).load_n - self._tare_n

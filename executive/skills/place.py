@@ -26,7 +26,7 @@ from robot.failures import Failure, failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
-from robot.planning.requests import WALK_COST_PER_M, PlacePlan, PlaceRequest
+from robot.planning.requests import WALK_COST_PER_M, Joints, PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
 LOWER_M_S = 0.05
@@ -71,11 +71,15 @@ class PlaceParams(SkillParams, frozen=True, kw_only=True):
 
 
 class Release(msgspec.Struct, frozen=True, kw_only=True):
-    """How a hand lets go: how far the fingers open, and where the hand is drawn back to."""
+    """How a hand lets go: how far the fingers open, and where the hand is drawn back to.
+
+    `near_rad`: joints with the elbow where it should be then, None: anywhere.
+    """
 
     side: Side
     opening_m: float
     X_WG_back: SE3
+    near_rad: Joints | None = None
 
 
 class PutDown(ScriptedSkill[PlaceParams]):
@@ -240,7 +244,10 @@ class PutDown(ScriptedSkill[PlaceParams]):
         body, side = self.body, plan.side
         look_at(body, plan.X_WO.p)
         yield from self._reach_over(place, plan)
-        yield from move_hand(body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S)
+        near_rad = plan.over and plan.over.up_rad
+        yield from move_hand(
+            body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S, near_rad=near_rad
+        )
         check_grips(body)
         _check_free(body, info, place, plan)
         body.phase = f"lowering the {info.name}"
@@ -249,7 +256,12 @@ class PutDown(ScriptedSkill[PlaceParams]):
         for _ in range(LOWERINGS):
             try:
                 yield from move_hand(
-                    body, side, lambda: below, speed_m_s=LOWER_M_S, stop_load_n=contact_n
+                    body,
+                    side,
+                    lambda: below,
+                    speed_m_s=LOWER_M_S,
+                    stop_load_n=contact_n,
+                    near_rad=plan.over and plan.over.at_rad,
                 )
             except GaveUp as end:
                 if end.failure.code != "arm_stalled":
@@ -270,7 +282,10 @@ class PutDown(ScriptedSkill[PlaceParams]):
         try:
             if body.X_WG(side).p[2] < plan.X_WG_pre.p[2]:
                 X_WG_up = _shifted(body.X_WG(side), plan.X_WG_pre.p[2] - body.X_WG(side).p[2])
-                yield from move_hand(body, side, lambda: X_WG_up, speed_m_s=MOVE_M_S)
+                near_rad = plan.over and plan.over.up_rad
+                yield from move_hand(
+                    body, side, lambda: X_WG_up, speed_m_s=MOVE_M_S, near_rad=near_rad
+                )
             arm_rad = held.carry_rad if holding else posture_rad(body, side, HOME)
             yield from withdraw(body, plan, arm_rad, what=place.name)
         except GaveUp:
@@ -286,6 +301,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             side=side,
             opening_m=held.gap_m + OPEN_MARGIN_M,
             X_WG_back=body.X_WG(side) @ plan.X_WG_release.inverse() @ plan.X_WG_retreat,
+            near_rad=plan.over and plan.over.back_rad,
         )
         self._released = True
         yield from self._draw_back(self._release)
@@ -295,7 +311,13 @@ class PutDown(ScriptedSkill[PlaceParams]):
         yield from open_fingers(self.body, release.side, opening_m=release.opening_m)
         self.body.phase = "drawing the hand back"
         back = release.X_WG_back
-        yield from move_hand(self.body, release.side, lambda: back, speed_m_s=RETREAT_M_S)
+        yield from move_hand(
+            self.body,
+            release.side,
+            lambda: back,
+            speed_m_s=RETREAT_M_S,
+            near_rad=release.near_rad,
+        )
 
     def _verify(self, info: ObjectInfo, place: Place, X_WO_put: SE3) -> Script[None]:
         """Look: the object must stand where it was put. Gives up with `place_missed`."""

@@ -21,6 +21,8 @@ DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
 MAX_ERROR_M = 0.05  # what is further off is approached at this error's speed
 POSITION_DONE_M = 0.006  # half of what a grasp forgives
 ROTATION_DONE_RAD = 0.04
+ELBOW_RATE_1_S = 3.0  # how fast the elbow goes where it should: there before a line is half done
+ELBOW_SPEED_RAD_S = 0.8
 GIVE_UP_S = 1.5
 GIVE_UP_ERROR_M = 0.02
 JOINT_DONE_RAD = 0.06  # more than the servos sag under what a hand carries
@@ -86,6 +88,10 @@ class Arm:
 
     def reach(self, command: MoveHand, X_NG: SE3, load_n: float) -> None:
         """Start a straight line of the grasp frame from its measured pose X_NG."""
+        if len(command.near_rad) not in (0, len(self.q)):
+            detail = f"near_rad must have {len(self.q)} values"
+            self.activity = Activity(id=command.id, status="failed", detail=detail)
+            return
         self._begin(command.id)
         self._line = Line(command, X_NG, load_n)
 
@@ -180,6 +186,8 @@ class Arm:
         arm = jac[:, self.dofs]
         damped = arm @ arm.T + DAMPING**2 * np.eye(6)
         rate = arm.T @ np.linalg.solve(damped, twist)
+        if line.near_rad is not None:
+            rate += self._elbow_rate(arm, damped, line.near_rad)
         peak, fastest = float(np.abs(rate).max()), self.limits.line_speed_rad_s
         if peak > fastest:
             rate *= fastest / peak
@@ -188,6 +196,12 @@ class Arm:
         q = np.minimum(np.maximum(q, self.lower), self.upper)
         self.q, self.qd = q, rate
         self.qdd[:] = 0.0
+
+    def _elbow_rate(self, jac: Array, damped: Array, near_rad: Array) -> Array:
+        """Joint rates, shape (joints,), to the joints near, of what leaves the hand alone."""
+        wanted = ELBOW_RATE_1_S * (near_rad - self.q)
+        free = wanted - jac.T @ np.linalg.solve(damped, jac @ wanted)
+        return free * min(1.0, ELBOW_SPEED_RAD_S / max(1e-9, float(np.abs(free).max())))
 
     def _report(self, line: Line, distance_m: float, angle_rad: float) -> None:
         if self.activity.status != "running" or self._time_s < line.duration_s:
@@ -215,6 +229,7 @@ class Line:
         self.duration_s = max(0.15, 1.5 * length / speed, 1.5 * angle / (5.0 * speed))
         self._stop_load_n = command.stop_load_n
         self._load_n = load_n
+        self.near_rad = np.array(command.near_rad) if command.near_rad else None
 
     def at(self, time_s: float) -> tuple[SE3, Array]:
         """Pose and linear velocity [m/s] at `time_s` from the start."""

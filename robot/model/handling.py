@@ -64,6 +64,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         pitch_rad: of the waist, forward.
         yaw_rad: of the waist, the reaching shoulder forward.
         ahead_m: distances of the grasp point ahead of the feet that it is good for.
+        aside_m: the same to the arm's side; empty: those of `Reaching`.
         cost: how little it is liked beside the others.
         quota: how many candidates of it a search looks at.
         base_height_m: of the base; None: as for walking.
@@ -73,6 +74,7 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     pitch_rad: q.Angle = 0.0
     yaw_rad: q.Angle = 0.0
     ahead_m: q.Several[q.Offset]
+    aside_m: q.Several[q.Offset] = ()
     cost: q.Cost
     quota: q.Quota
     base_height_m: q.Length | None = None
@@ -106,6 +108,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         step_in_m: lengths of the last straight steps before a stance, in the order of trying.
         arm_room_m: clearance of a standing place at which an arm can be raised freely.
         narrow_m, roomy_m: least clearance of a stance's middle, and that which costs nothing.
+        over: names of postures with the arm up and over an edge: where the inverse kinematics
+            begins in the leans that are tried last.
         carrying: of things in the hand.
         deep_m: how far from the edge of a surface a hand picks up, by the surface's height, rising:
             (height, depth); for the words of a refusal. Empty: not measured.
@@ -125,6 +129,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     arm_room_m: q.Margin
     narrow_m: q.Margin
     roomy_m: q.Margin
+    over: q.Several[str] = ()
     carrying: Carrying
     deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
     surfaces_m: tuple[q.Offset, q.Offset] | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 
@@ -23,8 +24,17 @@ APPROACH_CLEARANCE_M = 0.012
 TOUCH_CLEARANCE_M = 0.004
 LEAN_CLEARANCE_M = 0.02
 SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
+OVER_SWEEP_CLEARANCE_M = (0.05, 0.03)
+OVER_CLEARANCE_M = 0.015
+"""Of the arm without its hand, over an edge: the feet end 2 cm off, and the hand goes on lines that
+the elbow follows by itself. With 4 mm the forearm rubbed on the edge and pushed the robot up."""
 RAISE_M = (0.10, 0.06, 0.03, 0.0)
 PULL_M = (0.0, 0.06, 0.12, 0.18)
+OVER_RAISE_M = (0.16, 0.10, 0.06, 0.03, 0.0)
+OVER_PULL_M = (0.0, 0.06, 0.12, 0.18, 0.26)
+OVER_TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0)
+"""Over an edge: the trunk stands up lower than it reached out, so the hand is raised more, and may
+turn about the vertical."""
 STEP_M = 0.05
 SWAY_M, SWAY_CLEARANCE_M = 0.06, 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
@@ -56,6 +66,7 @@ class Checker:
         self.free = scenes.get(problem.others, thing=solid(problem.object_id, SE3(), problem.shape))
         self.free.move_thing(at)
         hand = self.body.description.hands[side]
+        self._hand_names = (hand.body, *hand.finger_bodies, HELD)
         self.opened = hand.max_opening_m / hand.opening_per_motor
         self.closed = option.opening_m / hand.opening_per_motor
 
@@ -96,7 +107,17 @@ class Checker:
         return self._leaning(scene, q, finger) or self._sweep(scene, q, finger, TOUCH_CLEARANCE_M)
 
     def ready(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
-        """Joints with the hand raised before `target`, free on the way from the standoff.
+        """Joints with the hand raised before `target`, free on the way from the standoff."""
+        return self._raised_before(target, q_near, *self._before())
+
+    def away(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
+        """Joints with the hand raised before `target`, free on the way back to the standoff."""
+        return self._raised_before(target, q_near, *self._after())
+
+    def _raised_before(
+        self, target: Targets, q_near: Array, scene: Scene, finger: float
+    ) -> tuple[str | None, Array | None]:
+        """Joints with the hand raised before `target`, free between stance and standoff.
 
         The hand is raised and pulled back by what is free; the trunk is upright, and leans only
         at the stance.
@@ -105,23 +126,28 @@ class Checker:
         x, y, yaw = self.candidate.stance_of(0)
         forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
         ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
-        row = np.zeros(len(RAISE_M), dtype=int)
+        over = self.lean.last
+        raises, turns = (OVER_RAISE_M, OVER_TURNS_RAD) if over else (RAISE_M, (0.0,))
+        up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
+        row = np.zeros(len(turn), dtype=int)
+        R = reach.rotations_z(turn) @ target.R[row]
         touch: str | None = END
-        for pull in PULL_M:
+        for pull in OVER_PULL_M if over else PULL_M:
             back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
-            p = np.stack([target.p[0] + [0, 0, raised] - back for raised in RAISE_M])
-            targets, q0 = Targets(target.R[row], p), np.tile(q_near, (len(p), 1))
+            p = target.p[0] - back + np.outer(up_m, [0.0, 0.0, 1.0])
+            targets, q0 = Targets(R, p), np.tile(q_near, (len(p), 1))
             reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
-            touch, q_ready = self._raised(reached.q[reached.ok])
+            touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
             if q_ready is not None:
                 return None, q_ready
         return touch, None
 
-    def _raised(self, raised: Array) -> tuple[str | None, Array | None]:
-        """The first of some joints, shape (n, k), with room on the way in; else with less room."""
-        scene, finger = self._before()
+    def _raised(
+        self, raised: Array, scene: Scene, finger: float
+    ) -> tuple[str | None, Array | None]:
+        """The first of some joints, shape (n, k), with room on the way; else with less room."""
         touch: str | None = END
-        for clearance in SWEEP_CLEARANCE_M:
+        for clearance in OVER_SWEEP_CLEARANCE_M if self.lean.last else SWEEP_CLEARANCE_M:
             for q in raised:
                 touch = self._sweep(scene, q, finger, clearance)
                 touch = touch or self._leaning(scene, q, finger)
@@ -176,9 +202,12 @@ class Checker:
         The trunk leans by `share` of the candidate's posture; X_WS is the stance unless given.
         """
         self._pose(scene, q_arm, finger, X_WS=X_WS, share=share)
-        scene.set_clearance(clearance_m)
+        slack: dict[tuple[str, str], float] = {}
+        if self.lean.last and clearance_m < OVER_CLEARANCE_M:
+            slack = dict.fromkeys(product(self._hand_names, scene.solids), clearance_m)
+        scene.set_clearance(OVER_CLEARANCE_M if slack else clearance_m)
         names = frozenset({allowed} if allowed else ())
-        touches = scene.touches(scene.arm_geoms(self.side), allowed=names)
+        touches = scene.touches(scene.arm_geoms(self.side), allowed=names, slack=slack)
         if not touches and rest:
             scene.set_clearance(STAND_CLEARANCE_M)
             touches = scene.touches(scene.rest_geoms(self.side), solids_only=True)

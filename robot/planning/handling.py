@@ -25,7 +25,8 @@ from robot.planning.robot_body import Body
 from robot.planning.stances import Candidates, propose
 from robot.planning.trials import passing
 
-BATCH = 160
+BATCH, LAST_BATCH = 160, 1600
+"""Candidates together: few, as the first are the likeliest; many where one in a hundred is free."""
 GOOD = 0.25
 """A score that ends the search."""
 PATIENCE = 4
@@ -69,8 +70,9 @@ def _first_good(
     body: Body, problem: HandlingProblem, candidates: Candidates, tally: Tally, *, last: bool
 ) -> Choice | None:
     """The best of the first batch with a good one, else the best of all."""
-    for first in range(0, len(candidates), BATCH):
-        rows = np.arange(first, min(first + BATCH, len(candidates)))
+    size = LAST_BATCH if last else BATCH
+    for first in range(0, len(candidates), size):
+        rows = np.arange(first, min(first + size, len(candidates)))
         patience = PATIENCE
         for choice in passing(body, problem, candidates.take(rows), tally, last=last):
             if choice is not None and choice.score > tally.score:

@@ -11,6 +11,8 @@ import numpy as np
 from robot.messages import Shape, Side
 from robot.planning.grasps import HandOption
 from robot.planning.reach import Targets
+from robot.planning.requests import Joints, OverEdge
+from robot.planning.robot_body import Body
 from robot.planning.solids import Solid
 from robot.planning.stances import Candidates
 from robot.se3 import Array
@@ -49,6 +51,7 @@ class Choice:
     Attributes:
         q_main, q_back, q_up: joints of the arm at those poses.
         q_ready: with the hand raised, for stepping in.
+        q_away: the same for stepping back; None: the arm may stay as it is.
         margin: 0 to 1, of reach and joint limits at all poses.
         steadiness: share of small errors of the stance under which all are still reached.
         score: margin and steadiness less all costs.
@@ -67,6 +70,18 @@ class Choice:
     margin: float
     steadiness: float
     score: float
+    q_away: Array | None = None
+
+    def over(self, body: Body) -> OverEdge | None:
+        """How the arm comes over an edge; None in the postures that are not for that."""
+        if not body.description.handy.reaching.leans[int(self.candidate.lean[0])].last:
+            return None
+        return OverEdge(
+            at_rad=_joints(self.q_main),
+            back_rad=_joints(self.q_back),
+            up_rad=_joints(self.q_up),
+            away_rad=None if self.q_away is None else _joints(self.q_away),
+        )
 
 
 @dataclass(slots=True)
@@ -82,3 +97,7 @@ class Tally:
     def score(self) -> float:
         """Of the best so far."""
         return -np.inf if self.best is None else self.best.score
+
+
+def _joints(q: Array) -> Joints:
+    return tuple(q.tolist())

@@ -85,6 +85,7 @@ def _plan(body: Body, choice: Choice, thing: ObjectPose, carry: Joints) -> PickP
         carry_rad=carry,
         opening_m=choice.option.opening_m,
         margin=choice.margin,
+        over=choice.over(body),
     )
 
 

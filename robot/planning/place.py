@@ -101,6 +101,7 @@ def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
         X_WG_retreat=choice.back.pose(0),
         pre_rad=tuple(choice.q_up.tolist()),
         margin=choice.margin,
+        over=choice.over(body),
     )
 
 

@@ -110,14 +110,17 @@ def reach(
     return Reached(solved.q, solved.ok(), solved.position_error_m)
 
 
-def first_reach(body: Body, arm: Arm, trunks: Trunks, targets: Targets) -> Reached:
-    """From the robot's own postures and the middle of the ranges; each where the last failed."""
-    postures = body.description.postures
-    seeds = [
-        np.array(body.description.posture(name))[arm.motors]
-        for name in ("carry", "nominal")
-        if name in postures
-    ]
+def first_reach(
+    body: Body, arm: Arm, trunks: Trunks, targets: Targets, *, over: bool = False
+) -> Reached:
+    """From the robot's own postures and the middle of the ranges; each where the last failed.
+
+    With `over` only from those with the arm up and over an edge, if there are any.
+    """
+    robot = body.description
+    names = robot.handy.reaching.over if over else ()
+    names = names or tuple(name for name in ("carry", "nominal") if name in robot.postures)
+    seeds = [np.array(robot.posture(name))[arm.motors] for name in names]
     seeds.append(0.5 * (arm.lower + arm.upper))
     n = len(targets.p)
     result = Reached(np.tile(seeds[0], (n, 1)), np.zeros(n, dtype=bool), np.full(n, np.inf))

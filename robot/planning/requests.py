@@ -165,6 +165,22 @@ class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 # --- picking and placing -----------------------------------------------------------------------
 
 
+class OverEdge(msgspec.Struct, frozen=True, kw_only=True):
+    """Joints of an arm that comes over an edge, its elbow up.
+
+    Attributes:
+        at_rad, back_rad, up_rad: with the hand on the object, drawn back from it, and with it
+            raised: on lines between these the elbow stays up.
+        away_rad: with the hand raised, before the trunk straightens up and the feet step back;
+            None: the arm may stay as it is.
+    """
+
+    at_rad: Joints
+    back_rad: Joints
+    up_rad: Joints
+    away_rad: Joints | None = None
+
+
 class PickRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """How to pick up `object_id` (one of `around.objects`), standing at `start` now.
 
@@ -193,6 +209,7 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
         carry_rad: joints of the arm that hold the object upright near the body.
         opening_m: width of the object between the fingers.
         margin: 0 (barely feasible) to 1 (comfortable), of reach and joint limits together.
+        over: how the arm comes over an edge, if it must.
     """
 
     side: Side
@@ -208,6 +225,7 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     carry_rad: Joints
     opening_m: float
     margin: float
+    over: OverEdge | None = None
 
 
 class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
@@ -245,6 +263,7 @@ class PlacePlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     X_WG_retreat: SE3
     pre_rad: Joints
     margin: float
+    over: OverEdge | None = None
 
 
 # --- arm motions -------------------------------------------------------------------------------

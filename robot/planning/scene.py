@@ -80,6 +80,9 @@ class Scene:
         ]
         self.solid_geoms = np.array([owner.startswith("solid:") for owner in self._owner])
         self.names = [owner.removeprefix("solid:") for owner in self._owner]
+        self.solids = {
+            name for name, owner in zip(self.names, self._owner, strict=True) if name != owner
+        }
         self._held = np.array([owner == HELD for owner in self._owner])
         self._arms = {
             side: self._geoms_below(self._shoulder(side)) for side in self.robot.arm_sides

@@ -205,7 +205,7 @@ def _around(
 ) -> None:
     """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
-    grid = np.array(list(product(lean.ahead_m, reaching.aside_m, TURNS_RAD)))
+    grid = np.array(list(product(lean.ahead_m, lean.aside_m or reaching.aside_m, TURNS_RAD)))
     inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
     natural = -sign * inward * (0.5 if lean.pitch_rad else 1.0)
     beta = natural + grid[:, 2]

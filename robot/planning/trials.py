@@ -22,7 +22,11 @@ DEPTH = 8
 """How many candidates of a batch are looked at closely at a time."""
 SWINGS = (0, 5, 4)
 """How far the elbow is swung up where the arm touches something, and how much further then."""
-LAST_SWINGS = (9, 5)
+LAST_SWINGS = (0, 5)
+LINE_SWINGS, LINE_SWING = 2, 2
+"""How often, and how far, the elbow is swung up on the line to the object, over an edge."""
+LAST_GROUPS = 24
+"""So many groups of a batch are looked at closely in those postures: a second, if all fail late."""
 """The same in postures that are tried last: there the whole arm comes over an edge from the side.
 At a counter of 0.9 m, a mug 0.35 m from the edge, 4 in 100 get there without, 1 in 3 with them."""
 OUTWARDS = 0.4
@@ -46,21 +50,30 @@ def passing(
     for side in SIDES:
         some = batch.take(np.flatnonzero(batch.left == (side == "left")))
         if len(some):
-            ranked += _reachable(body, problem, side, some, tally)
+            ranked += _reachable(body, problem, side, some, tally=tally, last=last)
     checker = Checker(body, problem)
     for steps in LAST_SWINGS if last else SWINGS:
         raised = _swung(body, ranked, steps) if steps else ranked
-        ranked = yield from _tested(body, problem, checker, raised, tally=tally)
+        ranked = yield from _tested(body, problem, checker, raised, tally=tally, last=last)
 
 
 def _tested(
-    body: Body, problem: HandlingProblem, checker: Checker, entries: list[_Entry], *, tally: Tally
+    body: Body,
+    problem: HandlingProblem,
+    checker: Checker,
+    entries: list[_Entry],
+    *,
+    tally: Tally,
+    last: bool,
 ) -> Generator[Choice | None, None, list[_Entry]]:
     """Yields what `passing` does; returns the entries that touch something at their main pose."""
     ranked = sorted(entries, key=lambda entry: -entry.score)
     waiting: list[_Entry] = []
     blocked: list[_Entry] = []
+    groups = 0
     for k, entry in enumerate(ranked):
+        if last and groups >= LAST_GROUPS:
+            return []
         checker.prepare(entry.candidate, entry.side, entry.main)
         touch = checker.at_main(entry.q_main)
         if touch is None:
@@ -72,7 +85,8 @@ def _tested(
             for side in SIDES:
                 group = [entry for entry in waiting if entry.side == side]
                 if group:
-                    yield _closely(body, problem, checker, group, tally=tally)
+                    groups += 1
+                    yield _closely(body, problem, checker, group, tally=tally, last=last)
             waiting = []
     return blocked
 
@@ -89,17 +103,23 @@ class _Entry:
 
 
 def _reachable(
-    body: Body, problem: HandlingProblem, side: Side, some: Candidates, tally: Tally
+    body: Body,
+    problem: HandlingProblem,
+    side: Side,
+    some: Candidates,
+    *,
+    tally: Tally,
+    last: bool,
 ) -> list[_Entry]:
     """Those of one hand whose main pose and back are reached."""
     arm = body.arms[side]
     main = reach.targets_of(some, problem.options, problem.references)
     trunks = reach.trunks_of(body, side, some)
-    reached = reach.first_reach(body, arm, trunks, main)
+    reached = reach.first_reach(body, arm, trunks, main, over=last)
     tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
     ok = np.flatnonzero(reached.ok)
     tally.reached += len(ok)
-    q = arm.chain.relax(reached.q[ok])
+    q = reached.q[ok] if last else arm.chain.relax(reached.q[ok])  # the elbow stays up
     back = _backs(problem, some, main).take(ok)
     there = reach.reach(arm, trunks.take(ok), back, q, iterations=12).ok
     tally.touched[END] += int(np.sum(~there))
@@ -119,15 +139,21 @@ def _swung(body: Body, entries: list[_Entry], steps: int) -> list[_Entry]:
         if not some:
             continue
         arm = body.arms[side]
-        trunks = reach.trunks_of(body, side, _join([entry.candidate for entry in some]))
-        aside = OUTWARDS if side == "left" else -OUTWARDS
-        along = trunks.R_ST.transpose(0, 2, 1) @ np.array([0.0, aside, 1.0])
-        q = arm.chain.swing(np.stack([entry.q_main for entry in some]), along, steps=steps)
+        q = _elbow_up(body, some, np.stack([entry.q_main for entry in some]), steps)
         score = reach.margins(arm, q) - np.array([entry.candidate.cost[0] for entry in some])
         result += [
             replace(entry, q_main=q[k], score=float(score[k])) for k, entry in enumerate(some)
         ]
     return result
+
+
+def _elbow_up(body: Body, entries: list[_Entry], q: Array, steps: int) -> Array:
+    """Joints of one arm, shape (n, k), with the elbow swung up and out at the entries' stances."""
+    side = entries[0].side
+    trunks = reach.trunks_of(body, side, _join([entry.candidate for entry in entries]))
+    aside = OUTWARDS if side == "left" else -OUTWARDS
+    along = trunks.R_ST.transpose(0, 2, 1) @ np.array([0.0, aside, 1.0])
+    return body.arms[side].chain.swing(q, along, steps=steps)
 
 
 def _backs(problem: HandlingProblem, candidates: Candidates, main: Targets) -> Targets:
@@ -137,19 +163,30 @@ def _backs(problem: HandlingProblem, candidates: Candidates, main: Targets) -> T
 
 
 def _closely(
-    body: Body, problem: HandlingProblem, checker: Checker, group: list[_Entry], *, tally: Tally
+    body: Body,
+    problem: HandlingProblem,
+    checker: Checker,
+    group: list[_Entry],
+    *,
+    tally: Tally,
+    last: bool,
 ) -> Choice | None:
     """The best of a group (of one hand) that passes at all poses and beats the best so far."""
     poses = _all_poses(body, problem, group)
+    lines = _lines(body, group, poses, last=last)
     best: Choice | None = None
     for i, entry in enumerate(group):
-        q_main, q_middle, q_back = (poses.q[k, i] for k in range(3))
-        turned = float(np.max(np.abs(q_back - q_main)))
+        turned = float(np.max(np.abs(poses.q[2, i] - poses.q[0, i])))
         if not (poses.met[1, i] and poses.met[2, i]) or turned > MAX_TURN_RAD:
             tally.touched[END] += 1
             continue
         checker.prepare(entry.candidate, entry.side, entry.main)
-        touch = checker.on_line(q_middle, q_back)
+        touch: str | None = END
+        for line in lines:
+            touch = checker.on_line(line[0, i], line[1, i])
+            if touch is None:
+                poses.q[1:3, i] = line[:, i]
+                break
         for k in range(3, len(poses.targets)) if touch is None else ():
             if not poses.met[k, i]:
                 continue
@@ -159,9 +196,11 @@ def _closely(
                 LIFT_GAIN if best and best.candidate is draft.candidate else 0
             ):
                 continue
-            touch, q_ready = _there_and_away(checker, draft, picking=problem.kind == "pick")
-            if q_ready is not None:
-                best = _better(best, _swaying(checker, replace(draft, q_ready=q_ready), problem))
+            touch, whole = _there_and_away(
+                checker, draft, picking=problem.kind == "pick", last=last
+            )
+            if whole is not None:
+                best = _better(best, _swaying(checker, whole, problem))
         if touch is not None:
             tally.touched[touch] += 1
     return best
@@ -169,7 +208,9 @@ def _closely(
 
 def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choice:
     """The same, worth less where the arm or the body touches something as the steps sway it."""
-    leaving = choice.q_up if problem.kind == "pick" else choice.q_back
+    leaving = choice.q_away
+    if leaving is None:
+        leaving = choice.q_up if problem.kind == "pick" else choice.q_back
     if checker.swaying(choice.q_ready, leaving) is None:
         return choice
     return replace(choice, score=choice.score - SWAY_COST)
@@ -177,6 +218,20 @@ def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choi
 
 def _better(best: Choice | None, other: Choice) -> Choice:
     return other if best is None or other.score > best.score else best
+
+
+def _lines(body: Body, group: list[_Entry], poses: _Poses, *, last: bool) -> list[Array]:
+    """Joints in the middle of the line and at its back, shape (2, n, k): one way, or several.
+
+    Over an edge also with the elbow further up.
+    """
+    found = [poses.q[1:3]]
+    if last:
+        n, k = len(group), poses.q.shape[2]
+        for _ in range(LINE_SWINGS):
+            q = _elbow_up(body, group * 2, found[-1].reshape(2 * n, k), LINE_SWING)
+            found.append(q.reshape(2, n, k))
+    return found
 
 
 def _draft(
@@ -204,17 +259,27 @@ def _draft(
 
 
 def _there_and_away(
-    checker: Checker, draft: Choice, *, picking: bool
-) -> tuple[str | None, Array | None]:
-    """What is touched with the object raised, leaving, or arriving; and the ready joints."""
-    touch = checker.lifted(draft.q_up)
-    if touch is None:
-        touch = checker.leaving(draft.q_up if picking else draft.q_back)
+    checker: Checker, draft: Choice, *, picking: bool, last: bool
+) -> tuple[str | None, Choice | None]:
+    """What is touched with the object raised, leaving, or arriving; else the whole choice.
+
+    Where the arm may not stay as it is while the trunk straightens up, as over an edge, the hand is
+    raised first (`last`).
+    """
+    come, go = (draft.back, draft.up) if picking else (draft.up, draft.back)
+    q_come, q_go = (draft.q_back, draft.q_up) if picking else (draft.q_up, draft.q_back)
+    q_away: Array | None = None
+    touch = checker.lifted(draft.q_up) or checker.leaving(q_go)
+    if touch is not None and last:
+        touch = checker.lifted(draft.q_up)
+        if touch is None:
+            touch, q_away = checker.away(go, q_go)
     if touch is not None:
         return touch, None
-    if picking:
-        return checker.ready(draft.back, draft.q_back)
-    return checker.ready(draft.up, draft.q_up)
+    touch, q_ready = checker.ready(come, q_come)
+    if q_ready is None:
+        return touch, None
+    return None, replace(draft, q_ready=q_ready, q_away=q_away)
 
 
 @dataclass(frozen=True, slots=True)

@@ -157,7 +157,14 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
 
 
 def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: str) -> Script[None]:
-    """Straighten up, step back to the standoff, and bring the arm to `arm_rad`."""
+    """Straighten up, step back to the standoff, and bring the arm to `arm_rad`.
+
+    A hand over an edge is raised first: the trunk goes down as it straightens up.
+    """
+    keep_upright = body.context.holdings.must_stay_upright(plan.side)
+    if plan.over is not None and plan.over.away_rad is not None:
+        body.phase = f"raising the {plan.side} hand"
+        yield from move_arm(body, plan.side, plan.over.away_rad, keep_upright=keep_upright)
     if plan.posture != BodyPosture():
         body.phase = "straightening up"
         yield from stand_still(body)
@@ -165,7 +172,6 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     X_WS_goal = pose_of(plan.standoff)
     X_WB = X_WS_goal @ _X_SB(body)
     feet = step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
-    keep_upright = body.context.holdings.must_stay_upright(plan.side)
     near = False
     while not near and next(feet, OVER) is not OVER:
         yield

@@ -77,9 +77,11 @@ def move_hand(
     *,
     speed_m_s: float,
     stop_load_n: float | None = None,
+    near_rad: Joints | None = None,
 ) -> Script[None]:
     """Move the hand on a straight line to a pose X_WG, aimed again as the pose moves.
 
+    With `near_rad` the elbow goes where it is at these joints.
     `target` is asked every tick, so it follows the newest localisation and sight of the object.
     Gives up with `arm_stalled` or `object_dropped`.
     """
@@ -99,6 +101,7 @@ def move_hand(
                     X_NG=X_NG,
                     speed_m_s=speed_m_s,
                     stop_load_n=stop_load_n,
+                    near_rad=near_rad or (),
                 )
             )
         yield
