@@ -104,7 +104,9 @@ class Checker:
     def leaving(self, q: Array) -> str | None:
         """What is touched while standing up straight and stepping back, the arm as it is."""
         scene, finger = self._after()
-        return self._leaning(scene, q, finger) or self._sweep(scene, q, finger, TOUCH_CLEARANCE_M)
+        # The trunk goes down as it stands up from over an edge: a mug brushed the edge, and tilted.
+        clearance_m = OVER_SWEEP_CLEARANCE_M[-1] if self.lean.last else TOUCH_CLEARANCE_M
+        return self._leaning(scene, q, finger) or self._sweep(scene, q, finger, clearance_m)
 
     def ready(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free on the way from the standoff."""

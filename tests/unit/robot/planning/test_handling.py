@@ -162,7 +162,9 @@ def test_on_a_counter_as_high_as_the_elbow_the_elbow_swings_up(solver: Solver, d
     assert not scene.touches(scene.arm_geoms(plan.side))
 
 
-@pytest.mark.parametrize(("height", "deep"), [(0.74, 0.40), (0.90, 0.40), (0.98, 0.30), (1.02, 0.25)])
+@pytest.mark.parametrize(
+    ("height", "deep"), [(0.74, 0.40), (0.90, 0.40), (0.98, 0.30), (1.02, 0.25)]
+)
 def test_deep_on_a_counter_the_arm_comes_over_the_edge(
     solver: Solver, height: float, deep: float
 ) -> None:
