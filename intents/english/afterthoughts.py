@@ -7,9 +7,14 @@
 from msgspec.structs import replace
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
-from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
+from intents.english.clauses.openings import (
+    begins_clause,
+    nothing_end,
+    otherwise_end,
+    skip_openings,
+)
 from intents.english.clauses.wishes import asks_end
-from intents.english.corrections import retraction_end
+from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
@@ -18,15 +23,33 @@ from intents.english.trouble import Partly, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
-from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+from intents.goals import (
+    Answer,
+    Bring,
+    Condition,
+    Find,
+    ForEach,
+    Goal,
+    If,
+    ObjectQuery,
+    Pick,
+    Place,
+    Present,
+    Repeat,
+)
 
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Pick up the cup, no, *leave it*: what was asked last is not to be done."""
     text = sentence.text
-    end = retraction_end(text, at)
+    end = retraction_end(text, at) or named_retraction_end(text, at, last)
     apart = text.word(at - 1) in (COMMA, FULL_STOP, "no")
-    return ([], end) if end and apart and last else None
+    if not (end and apart and last):
+        return None
+    sentence.notes.passed.append((at, end))
+    return [], end
 
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -52,7 +75,8 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
             mention(
                 holds, sentence.scope, met=False
             )  # go out if the cup is not there, otherwise fetch it
-        other, end = sequence(sentence.inner(), otherwise)
+        nothing = nothing_end(text, otherwise)
+        other, end = ([], nothing) if nothing else sequence(sentence.inner(), otherwise)
         return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
     if end < len(text) and text.word(end) != FULL_STOP:
         return None
@@ -77,12 +101,46 @@ def _kind(query: ObjectQuery) -> tuple[str | None, str | None]:
 
 
 def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """Go to the shelf *after picking up the cup*; follow her *before coming back*."""
-    word = sentence.text.word(at)
-    if word not in ("after", "before") or not begins_clause(sentence.text, at + 1):
+    """Go to the shelf *after picking up the cup*; follow her *before coming back*.
+
+    "Only once you have ...", "not before you have ..." are after; "but before that ..." is before.
+    """
+    text = sentence.text
+    earlier = _earlier(text, at)
+    if earlier is not None:
+        other, end = clause_by_itself(sentence, earlier)
+        return [*other, *last], end
+    found = text.lookup(_AFTER, at)
+    after, start = found or (text.word(at) == "after", at + 1)
+    if (found is None and text.word(at) not in ("after", "before")) or not (
+        begins_clause(text, start) and last
+    ):
         return None
-    other, end = clause_by_itself(sentence, skip_openings(sentence.text, at + 1))
-    return ([*other, *last] if word == "after" else [*last, *other]), end
+    other, end = clause_by_itself(sentence, skip_openings(text, start))
+    return ([*other, *last] if after else [*last, *other]), end
+
+
+_AFTER = dict.fromkeys(
+    lexicon.phrases(
+        "once,when,as soon as,only after,only once,only when,only as soon as,not until,not before,"
+        "no sooner than,not earlier than"
+    ),
+    True,
+)
+"""Links between two clauses of which the second is done first."""
+_BEFORE_THAT = lexicon.phrases(
+    "before that,before this,before you do,before you do that,beforehand,before anything else,"
+    "before you do anything else,before doing anything else,before all else"
+)
+
+
+def _earlier(text: Text, at: int) -> int | None:
+    """Where the clause begins that is to be done before the one before it: "but first wave"."""
+    if text.words[at - 2 : at] == ["but", "first"]:
+        return at
+    end = text.phrase_end(_BEFORE_THAT, at)
+    start = skip_openings(text, end) if end else at
+    return start if end and verbs_at(text.words, start) else None
 
 
 def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -101,6 +159,34 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         raise Partly(f"I cannot tell when that is, “{text.raw(at, end)}”", tuple(sentence.before))
     sentence.notes.passed.append((at, end))
     return last, end
+
+
+_ALL_OF_THEM = lexicon.phrases(
+    "both of them,all of them,both,the two of them,every one of them,each of them,the lot,"
+    "all of those,both of those,every last one,every single one,all three of them,the whole lot"
+)
+
+
+def all_of_them(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Bring the cups here, *both of them*: of several it says no more."""
+    text = sentence.text
+    end = text.phrase_end(_ALL_OF_THEM, at)
+    closed = end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
+    several = any(
+        isinstance(goal, ForEach) or getattr(getattr(goal, "object", None), "count", None)
+        for goal in last
+    )
+    if end is None or not closed:
+        return None
+    sentence.notes.passed.append((at, end))
+    return (last if several else [_of_all(goal) for goal in last]), end
+
+
+def _of_all(goal: Goal) -> Goal:
+    query = getattr(goal, "object", None)
+    if not isinstance(goal, Bring | Pick | Place) or not isinstance(query, ObjectQuery):
+        return goal
+    return replace(goal, object=replace(query, count="all"))
 
 
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -34,6 +34,7 @@ from intents.english.readings import (
     questions,
     remarks,
     repetition,
+    telegrams,
     time_clauses,
     trying,
     verb,
@@ -52,10 +53,13 @@ RULES = Rules(
         repetition.so_many_times,
         repetition.again,
         time_clauses.one_before_the_other,
+        time_clauses.not_until,
         # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
         remarks.left_somewhere,
+        # "You will find it there" is to look for it only where nothing more is asked.
+        remarks.found_there,
         needs.needed,
         remarks.feeling,
         # Constructions, whose verb is not the act: all of them before the verb with its own
@@ -91,6 +95,7 @@ RULES = Rules(
         verb.verb,
         # What goes on from what was said before. After "and" a gap is likelier than a fronted
         # phrase: "find Emil at the sofa and Ada in the hall. Greet her" finds both.
+        ellipsis.served,
         ellipsis.likewise,
         ellipsis.follow_up,
         ellipsis.gapped_after_and,
@@ -99,11 +104,12 @@ RULES = Rules(
         # What only tells something, and commands of nouns alone. A gap without "and" before it is
         # as doubtful as a telegram, which is a whole sentence.
         remarks.statement,
-        without_verb.telegram,
+        telegrams.telegram,
         ellipsis.gapped,
         remarks.told_of,
         # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
         # the table") is read above.
+        asides.released,
         asides.warned,
         asides.forbidden,
         asides.told,
@@ -115,6 +121,7 @@ RULES = Rules(
         correction,
         afterthoughts.left_undone,
         exclusions.excluded,
+        afterthoughts.all_of_them,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,

@@ -12,7 +12,22 @@ from intents.english.trouble import Misfit, NotUnderstood, Partly
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
-from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
+from intents.goals import (
+    Bring,
+    Cancel,
+    Close,
+    Find,
+    Give,
+    Goal,
+    Open,
+    Pause,
+    Pick,
+    Place,
+    Resume,
+    Stop,
+    Switch,
+    each,
+)
 
 _NAMED_HAND = re.compile(
     r"\b(with|using|use|in) (of |your |the )*(left|right|both|two|one) (of )?(your |the )?"
@@ -46,16 +61,17 @@ def sequence(sentence: Sentence, at: int) -> Found:
         if changed:
             goals[last:], at = changed
             continue
-        wish = goals[-1:] if notes.wanted else []
-        notes.wanted = False
+        wish, notes.wanted = goals[-1:] if notes.wanted else [], False
         found, end = _one_more(here, at)
         notes.one_hand |= _names_hand(text.raw(begun, end), found)
         if not sentence.depth:
             notes.trace.append((text.raw(at, end), tuple(found)))
-        if not found:
+        if found:
+            clause_at = begun
+            last = _append(here, found, wish, text.words[begun : at + 1])
+        else:  # what is only told stands between a clause and what corrects it
             notes.passed.append((begun, end))
-        clause_at = begun
-        last = _append(here, found, wish, text.words[begun : at + 1])
+            notes.wanted = bool(wish)
         at = max(end, at + 1)
 
 
@@ -71,7 +87,8 @@ def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: li
     goals, scope = sentence.before, sentence.scope
     if wish and same_object(wish[0], found[:1]):
         found[0] = as_wished(found[0], goals.pop())
-    if goals and found and "or" in opening[:-1]:
+    failing = opening[-1] == "if" and not isinstance(goals[-1] if goals else None, Find)
+    if goals and found and (failing or "or" in opening[:-1]):
         found[0] = or_else(goals, found[0])
     if goals and found:
         found[0] = joined(goals, found[0], first=opening[-1])
@@ -131,7 +148,16 @@ def _ends_inner(text: Text, at: int) -> bool:
 
 def _once(goals: list[Goal]) -> bool:
     """Whether goals say no more when they are said twice: never mind, forget it."""
-    return all(isinstance(goal, Cancel | Stop | Pause | Resume | Place) for goal in goals)
+    return all(
+        isinstance(goal, Cancel | Stop | Pause | Resume | Place | Open | Close | Switch)
+        or (isinstance(goal, Bring | Give | Pick | Find) and _is_that_one(goal))
+        for goal in goals
+    )
+
+
+def _is_that_one(goal: Bring | Give | Pick | Find) -> bool:
+    """Whether it is of one thing in particular, which cannot be fetched twice."""
+    return goal.object is not None and goal.object.count is None
 
 
 def _names_hand(said: str, goals: list[Goal]) -> bool:

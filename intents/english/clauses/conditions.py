@@ -10,9 +10,23 @@ from intents.english.trouble import NotUnderstood
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import LOCATIVES, phrases
 from intents.english.words.text import Text
-from intents.goals import Condition, Find, Holding, ObjectQuery, Person, Present, State
+from intents.goals import (
+    Bring,
+    Condition,
+    Find,
+    Give,
+    Holding,
+    ObjectQuery,
+    Person,
+    Pick,
+    Place,
+    Present,
+    State,
+)
 
-IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
+IF = phrases(
+    "if,in case,when,whenever,unless,only if,only when,as long as,provided that,once,as soon as"
+)
 """How a condition begins."""
 _WHEN = phrases("when,once,as soon as,whenever")
 _EMPTY_HANDED = phrases(
@@ -20,7 +34,10 @@ _EMPTY_HANDED = phrases(
     "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"
     "you carry nothing,you are carrying nothing,you are empty handed,both hands are empty"
 )
-_NONE = phrases("there is none,there are none,there is not one,there is not any,it is not there")
+_NONE = phrases(
+    "there is none left,there are none left,there is not any left,there are not any left,"
+    "there is none,there are none,there is not one,there is not any,it is not there"
+)
 _SO = phrases(
     "so,it is,they are,there is,there are,there is one,there is any,it is there,they are there,"
     "that is so,that is the case,that is true,you do,you can,he is,she is,yes"
@@ -86,7 +103,8 @@ def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     word = text.word(at)
     none = text.phrase_end(_NONE, at)
     if none and (scope.object or scope.person):
-        there = scope.object if scope.object and not scope.person_is_last else None
+        sought = isinstance(scope.last, Bring | Give | Pick | Place) and word == "there"
+        there = scope.object if sought or not scope.person_is_last else None
         person = None if there else scope.person
         return Present(object=there, person=person, negated=True), none
     if word == "there" and text.word(at + 1) in ("is", "are", "be"):

@@ -1,12 +1,13 @@
 """What stands before a clause and asks for nothing: "and then", "could you", "step 1:"."""
 
+from intents.english.clauses.announcements import announced_end
 from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.phrase import is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
-from intents.english.words.verbs import verbs_at
+from intents.english.words.verbs import base_form, verbs_at
 
 _SEEN = lexicon.words(
     "a an any the my some anyone anybody someone somebody anything it them him her"
@@ -17,6 +18,15 @@ _IF_NOT = lexicon.phrases(
     "if they are not there,if you do not,if you can not"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
+_NUMERALS = lexicon.words("one two three four five")
+_NOTHING = lexicon.phrases(
+    "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,"
+    "leave it be,leave them,never mind,forget it,forget about it,leave it there,"
+    "leave it where it is,leave everything as it is,let it be,nothing at all,"
+    "do nothing at all,do not worry"
+)
+_NEED_NOT = ["you", "need", "not"]
+_URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
@@ -33,19 +43,32 @@ def skip_openings(text: Text, at: int) -> int:
         if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
             at += 4  # be so kind and ...
             continue
-        end = _opening_end(text, at)
+        end = announced_end(text, at) or _opening_end(text, at) or _urging_end(text, at)
         if end is None:
             return at
         at = end
     return at
 
 
+def _urging_end(text: Text, at: int) -> int | None:
+    """*Do* bring it; *only* tell me; *simply* leave it there."""
+    bare = bool(verbs_at(text.words, at + 1)) and base_form(text.word(at + 1)) == text.word(at + 1)
+    urges = text.word(at) in _URGING and bare and not text.name_at(at + 1)
+    return at + 1 if urges else None
+
+
 def otherwise_end(text: Text, at: int) -> int | None:
     """Where "otherwise", "if not" or "if it is not," ends, if it begins at a word."""
     asked = text.phrase_end(_IF_NOT, at)
-    if asked and text.word(asked) == COMMA:
+    if asked and text.word(asked) in (COMMA, "then"):
         return asked
     return text.phrase_end(lexicon.ELSE, at)
+
+
+def nothing_end(text: Text, at: int) -> int | None:
+    """Where "nothing" ends that is to be done otherwise, if no more is said."""
+    end = text.phrase_end(_NOTHING, skip_openings(text, at))
+    return end if end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)) else None
 
 
 def _opening_end(text: Text, at: int) -> int | None:
@@ -60,6 +83,8 @@ def _opening_end(text: Text, at: int) -> int | None:
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
     if text.word(at) == "mind" and not verbs_at(text.words, end):
         return None  # mind the step
+    if text.words[at : at + 2] == ["no", "need"] or text.words[at : at + 3] == _NEED_NOT:
+        return None  # no need to come; you need not come
     if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
         return None  # no milk for Emil
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
@@ -74,16 +99,18 @@ def _opening_end(text: Text, at: int) -> int | None:
 def _is_seen(text: Text, at: int) -> bool:
     """Whether "can you see ..." asks after something, and not for it to be seen to the door."""
     named = text.name_at(at)
-    return text.word(at) in _SEEN or (
-        named is not None and text.word(named.end) not in ("to", "into")
-    )
+    if named is None:
+        return text.word(at) in _SEEN
+    along = text.word(named.end) in ("along", "over", "through", "back", "off", "out", "home")
+    return text.word(named.end + along) not in ("to", "into")
 
 
 def _numbering_end(text: Text, at: int) -> int | None:
     """*Step 1:* go to the table. *2.* Take the cup."""
     numeral = at + (text.word(at) in ("step", "number", "task"))
     end = numeral + 1
-    numbered = text.word(numeral).isdecimal() and text.word(end) in (COMMA, FULL_STOP)
+    numbered = text.word(numeral).isdecimal() or text.word(numeral) in _NUMERALS
+    numbered = numbered and text.word(end) in (COMMA, FULL_STOP)
     return end + 1 if numbered and end < len(text) else None
 
 

@@ -8,7 +8,7 @@ is for; `referents.py` turns it into an object, a person or a place.
 
 from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
-from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
+from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_at_it, is_content
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
@@ -32,9 +32,11 @@ _RELATIVE_FILLERS = lexicon.words(
 ) - {"stands", "sits", "lies"}  # fmt: skip
 
 
+_WHOSE = lexicon.words("my your our his her their the")
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
-    "laying hanging stays stands sits lies rests lie waiting staying working relaxing"
+    "laying hanging remain remains remaining stays stands sits lies rests lie waiting "
+    "staying working relaxing"
 )
 
 
@@ -99,7 +101,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if inner.name("room"):
         phrase.places.append(Locative("in", inner))
         return inner.end
-    return None
+    part = phrase.name("object") and inner.name("object") and inner.determiner in _WHOSE
+    return inner.end if part else None  # the charger of my laptop
 
 
 def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
@@ -126,6 +129,8 @@ def tells_when(text: Text, at: int) -> bool:
         return True
     if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
         return False  # until he reaches the door: that is where to
+    if text.word(at + 1) in ("i", "we", "they") and text.word(at + 2)[0].isalpha():
+        return True
     subject = bare_phrase(text, at + 1)
     if subject is None or subject.end >= len(text):
         return False
@@ -221,7 +226,7 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
         end = read_appearance(text, phrase, at)
         if end:
             return end
-    if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
+    if (word in _LYING_AROUND or is_at_it(text, at)) and text.lookup(LOCATIVES, at + 1):
         return _locative(text, phrase, at + 1)
     if word in _LYING_AROUND and word not in ("left", "put"):
         end = _lying_there(text, phrase, at + 1)

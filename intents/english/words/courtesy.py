@@ -61,7 +61,8 @@ _TAILS = lexicon.phrases(
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
     "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
     "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
-    "for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,yaar,"
+    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,"
+    "for god 's sake,lah,na,yaar,"
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
@@ -74,11 +75,13 @@ _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
     "very please do think there is any chance that of me trouble bother ask it us we bothering "
-    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do"
+    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do "
+    "should shall obliged indebted delighted much most"
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
-    "appreciate grateful perhaps happen hoping hope possible might maybe"
+    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted "
+    "delighted"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
@@ -93,6 +96,8 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
     begins = not kept or kept[-1] in (*_SIGNS, "and", "so", "well", "then")
     return (
         _gracious(words, at)
+        or _with_cherries(words, at)
+        or _excuse(words, at)
         or (_hedge(words, at) if begins else None)
         or (_prelude(words, at) if begins else None)
         or _tag(words, at, kept)
@@ -136,6 +141,29 @@ def _hedge(words: list[str], at: int) -> int | None:
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
 
 
+def _excuse(words: list[str], at: int) -> int | None:
+    """*Sorry to bother you again, but* could you ..."""
+    if words[at : at + 2] != ["sorry", "to"] or words[at + 3 : at + 4] != ["you"]:
+        return None
+    end = at + 4
+    while _word(words, end) in ("again", "with", "this", "that", "so", "late", "early", "but"):
+        end += 1
+    return end
+
+
+def _with_cherries(words: list[str], at: int) -> int | None:
+    """Pretty please *with sugar on top and a cherry*."""
+    if words[at] != "with" or "please" not in words[max(0, at - 4) : at]:
+        return None
+    top = next((n for n in range(at + 2, min(len(words), at + 6)) if words[n] in ("top", "it")), 0)
+    if not top or words[top - 1] != "on":
+        return None
+    end = top + 1
+    while _word(words, end) not in _SIGNS and words[end] not in FIRST_WORDS and end < top + 6:
+        end += 1
+    return end
+
+
 def _prelude(words: list[str], at: int) -> int | None:
     """Be a good lad and ...; do me a favour and ...; what I'd like you to do is ..."""
     first = words[at]
@@ -162,7 +190,9 @@ def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
         return None
     for end in range(min(len(words), at + 6), at, -1):
         if tuple(words[at:end]) in _TAILS and _closes(words, end):
-            ambiguous = words[at:end] in (["right"], ["no"], ["all", "right"], ["that"])
+            ambiguous = words[at:end] in (
+                ["right"], ["no"], ["all", "right"], ["that"], ["whatever"]
+            )  # fmt: skip
             return end if not ambiguous or kept[-1] == COMMA else None
     end = at + 2 + (_word(words, at + 1) in ("not", "nt"))
     tagged = words[at] in _TAGS and _word(words, end - 1) in _TAGGED

@@ -7,6 +7,8 @@ from intents.letters import seen, unmixed
 
 COMMA = ","
 FULL_STOP = "."
+DASHES = ("—", "–", "--", "-")
+"""How a dash is written, which is a comma besides."""
 QUOTE = '"'
 """The text of a quoted token; what was quoted is in ``raw``."""
 
@@ -34,7 +36,7 @@ _TOKEN = re.compile(
     | (?P<word>[^\W_]+(?:'[^\W_]+)*)
     | (?P<degree>°)
     | (?P<stop>[.!?]+)
-    | (?P<comma>[,;:()]|--+|\s-\s)""",
+    | (?P<comma>[,;:()—]|--+|\s[-–](?=\s))""",
     re.VERBOSE,
 )
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"', "”": '"', "„": '"',
@@ -65,7 +67,8 @@ _WHOLE = {
     "goto": ("go", "to"), "won't": ("will", "not"), "can't": ("can", "not"),
     "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
     "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
-    "ya": ("you",), "yer": ("your",), "dont": ("do", "not"), "gimme": ("give", "me"),
+    "ya": ("you",), "em": ("them",), "needn't": ("need", "not"), "whilst": ("while",),
+    "yer": ("your",), "dont": ("do", "not"), "gimme": ("give", "me"),
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),
@@ -106,7 +109,7 @@ def tokenize(text: str) -> list[Token]:
         elif kind == "stop":
             tokens.append(Token(FULL_STOP, raw))
         elif kind == "comma":
-            tokens.append(Token(COMMA, raw))
+            tokens.append(Token(COMMA, raw.strip()))
         else:
             tokens.extend(_words(raw))
     return tokens

@@ -147,7 +147,8 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
         "on": "on,on or in,on and in,in or on,in and on,on or at,on top of,upon,atop,atop of",
         "in": "in,right in,out in,down in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,in at",
-        "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
+        "near": "near,next to,next of,close to,by,beside,besides,alongside,nearby,near to,"
+        "at the side of,"
         "in the vicinity of,against",
         "under": "under,underneath,below,beneath,from under,from underneath,"
         "from below,from beneath,at the bottom of",
@@ -214,6 +215,8 @@ FILLERS = phrases(
     "wherever i go,everywhere she goes,everywhere he goes,everywhere i go,see if you can,"
     "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
     "while you are here,while you are out,while you are passing,after all,"
+    "on your way back,on the way back,on your way out,on your way past,on your way there,"
+    "now that i think of it,now that i think about it,"
     "as fast as you can,as quick as you can,as quickly as you can,"
     "as fast as possible,as quickly as possible,quick as you can"
 ) | {(",", "like", ",")}
@@ -341,6 +344,7 @@ SYNONYMS = tuple(
         "nightstand,bedside table,night stand",
         "office,study",
         "coke,coca cola,cola,coca",
+        "orange juice,oj",
         "crisps,chips,potato chips",
         "mug,coffee mug",
         "desk,writing desk",

@@ -1,10 +1,12 @@
 """A sentence ready for the grammar: tokens, corrected, without fillers."""
 
 from collections.abc import Collection, Mapping
+from copy import copy
 from typing import TypeVar
 
-from intents.english.words.courtesy import courtesy_end
-from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.words.courtesy import ADDRESSES, courtesy_end
+from intents.english.words.disfluency import fluent, unrepeated
+from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
     ALL,
@@ -40,7 +42,9 @@ _PREDICATES = words(
 _RECEIVERS = words("him her me them us want wants")
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come")
-_ONCE = words("once when after")
+_CASES = words("on onto in into to from off under behind at")
+_POLITE = words("please please. please, please! pls plz thanks thanks. thanks! thanks,")
+_ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -52,6 +56,7 @@ class Text:
         words: Their lower-case texts.
         index: The names of the vocabulary.
         corrections: What was written, and what it was taken for.
+        polite: "Please" was said, so something is asked for.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
@@ -61,6 +66,7 @@ class Text:
         corrected: list[Token] = []
         self.corrections: list[tuple[str, str]] = []
         begins = True
+        self.polite = not _POLITE.isdisjoint(text.lower().split())
         for token in _without_name(tokenize(text), self.index):
             meant = speller.correct(token.text, begins=begins)
             begins = token.text in _BEFORE_VERBS
@@ -75,7 +81,8 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        self.tokens: list[Token] = _colloquial(_unfinished(_without_fillers(corrected, self.index)))
+        plain = unrepeated(_without_fillers(fluent(corrected), self.index))
+        self.tokens: list[Token] = _colloquial(_unfinished(plain))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
@@ -112,6 +119,31 @@ class Text:
                 return end
         return None
 
+    def without(self, spans: Collection[tuple[int, int]], *, joined: bool = False) -> "Text":
+        """The text without the words of some segments, and without the signs left over.
+
+        Args:
+            spans: From where to where the segments stand.
+            joined: What stands before and after a segment between commas is one clause.
+        """
+        gone = {at for start, end in spans for at in range(start, end)}
+        for start, end in spans:
+            goes_on = (
+                joined or self.word(end + 1) in _CASES
+            )  # put the cup, bless it, *on* the table
+            if goes_on and self.word(start - 1) == self.word(end) == COMMA:
+                gone |= {start - 1, end}
+        kept: list[Token] = []
+        for at, token in enumerate(self.tokens):
+            sign = token.text in (COMMA, FULL_STOP)
+            if at in gone or (sign and not kept):
+                continue
+            doubled = kept.pop() if sign and kept[-1].text in (COMMA, FULL_STOP) else token
+            kept.append(doubled if doubled.text == FULL_STOP else token)
+        left, kept = copy(self), fluent(kept)
+        left.tokens, left.words, left._matches = kept, [t.text for t in kept], {}
+        return left
+
     def raw(self, start: int, end: int) -> str:
         """What was written from one word to another."""
         said = ""
@@ -140,7 +172,9 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
         said += [token.text for token in kept[len(said) :]]
         end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
         end = max(end or 0, courtesy_end(words, at, kept=said) or 0) or None
-        if end is None or index.match(words, at) or said[-1:] == ["say"]:
+        called = at and tokens[at - 1].raw in DASHES and words[at] in ADDRESSES  # in passing
+        named = end is not None and any(index.match(words, n) for n in range(at, end))
+        if end is None or named or called or said[-1:] == ["say"]:
             kept.append(tokens[at])
             at += 1
             continue
@@ -154,8 +188,34 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
+def _said_first(tokens: list[Token]) -> list[Token]:
+    """Bring the cup, but close the door *first*: but first close the door."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1, 2, -1):
+        link = next((n for n in range(at - 1, 0, -1) if words[n] in ("but", COMMA, FULL_STOP)), 0)
+        last = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
+        if words[at] == "first" and last and words[link] == "but" and words[at - 1] != "but":
+            tokens.insert(link + 1, tokens.pop(at))
+            words.insert(link + 1, words.pop(at))
+    return tokens
+
+
+def _done_before(tokens: list[Token]) -> list[Token]:
+    """*Having closed* the door: after you close the door."""
+    for at in range(len(tokens) - 2, 0, -1):
+        if tokens[at].text != "having":
+            continue
+        first = at + 1 + (tokens[at + 1].text in ("first", "already"))
+        base = participle_base(tokens[first].text) if first < len(tokens) else None
+        if base:
+            done = Token(base, tokens[first].raw)
+            tokens[at : first + 1] = [Token("after", tokens[at].raw), Token("you", ""), done]
+    return tokens
+
+
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    tokens = _done_before(_said_first(tokens))
     words = [t.text for t in tokens]
     if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
         tokens.insert(0, Token("i", ""))  # need a screwdriver here
@@ -192,7 +252,8 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         last = kept[-1].text if kept else FULL_STOP
         begins = last in (*_BEFORE_VERBS, "after", "before")
-        if last in ("the", "a", "an", "my") and token.text in (COMMA, last):
+        broken_off = token.raw in DASHES
+        if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
             kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")

@@ -1,0 +1,215 @@
+"""Disfluencies: false starts, lost words, echoes and stutters, undone before anything is read.
+
+"The - no, forget that"; "put it in the, in the box"; "the, how is it called, the bowl"; "the lamp,
+yes, the lamp"; "the lamp I say"; "give me give me". See [Shriberg1994]: what is repaired stands
+before the interruption, what it is repaired with behind it. What is taken back by what it means
+("no, the blue one") is in :mod:`intents.english.corrections`.
+
+[Shriberg1994] E. Shriberg, Preliminaries to a Theory of Speech Disfluencies, UC Berkeley, 1994.
+"""
+
+import re
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.verbs import FIRST_WORDS, base_form
+
+_ARTICLES = lexicon.words("the a an my your our")
+_INTERRUPTS = lexicon.words("no sorry wait pardon forget scratch scrap oops i hang hold actually")
+"""What a false start breaks off before."""
+_HESITATION = re.compile(r"e+h+m+|u+h+m*|u+mm+|e+r+m+|h+m+|m+h+m+|a+h+m+|m{2,}|e+h+r+")
+_SOUNDS = lexicon.words("och oh ah er uh um eh ach well uhm hmm hm")
+_LOST = lexicon.phrases(
+    "what is it called,what was it called,what is it,what was it,what is that called,"
+    "what do you call it,what do you call them,what do you call that,what are they called,"
+    "how is it called,how do you call it,how do you say,how do you say it,how do they call it,"
+    "how is the word,what is the word,what is its name,what is the name,what is the thing,"
+    "whatsit,whatchamacallit,thingy,thingummy,you know,you know the one"
+)
+"""What is said while a word is sought."""
+_EMPHASIS = lexicon.phrases(
+    "yes,yeah,aye,right,i say,i said,i repeat,mind you,i tell you,i mean,that is,exactly"
+)
+_PREPOSITIONS = frozenset(
+    phrase[0] for table in (lexicon.LOCATIVES, lexicon.GOALWARDS, lexicon.SOURCEWARDS)
+    for phrase in table
+)  # fmt: skip
+_LOCATING = frozenset(phrase[0] for phrase in lexicon.LOCATIVES)
+_DENIES = lexicon.words("not no except but nor without")
+_SAYS = lexicon.words("say tell announce shout whisper repeat sing")
+_BEGINS = lexicon.words("so and just then well okay ok um like .")
+_STRESSES = lexicon.words("really very absolutely truly absolute")
+_RANKED = (
+    frozenset(phrase[0] for phrase in lexicon.SUPERLATIVES) | frozenset(lexicon.SIZES) | _STRESSES
+)
+"""The *really* biggest one."""
+_STATES = lexicon.words("is are was were left put forgot")
+_BEFORE_SIDES = lexicon.words("the to on at your my of far all a")
+"""Before "right" these make it a side."""
+_FAR = 8
+_LONGEST_ECHO = 4
+_STUTTERS = (3, 2)
+
+
+def fluent(tokens: list[Token]) -> list[Token]:
+    """The tokens without false starts and without what is said while a word is sought."""
+    kept = _denied_first(_as_one(_without_particles(tokens)))
+    for at in range(len(kept) - 2, -1, -1):
+        if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
+            continue
+        after = kept[at + 1].text
+        if after == COMMA:
+            kept = _resumed(kept, at)
+        elif at and after in _PREPOSITIONS and after == kept[at - 1].text:
+            del kept[at - 1 : at + 1]  # in the in the box
+    return kept
+
+
+def _without_particles(tokens: list[Token]) -> list[Token]:
+    """So *like* the cup is on the table, *right*, take it: words that only keep talk going."""
+    words = [token.text for token in tokens]
+    kept: list[Token] = []
+    for at, token in enumerate(tokens):
+        before = words[at - 1] if at else FULL_STOP
+        after = words[at + 1] if at + 1 < len(words) else FULL_STOP
+        goes_on = after in lexicon.DETERMINERS or base_form(after) in FIRST_WORDS
+        begun = words[max(0, at - _FAR) : at]
+        told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES
+        if _HESITATION.fullmatch(token.text):
+            continue
+        if token.text == "like" and before in _BEGINS and goes_on:
+            continue
+        if token.text == "right" and after == COMMA and told:
+            continue
+        if token.text in _STRESSES and before in _ARTICLES | _STRESSES and after in _RANKED:
+            continue
+        if words[at : at + 2] == ["at", "all"] and before in ("nothing", "anything", "there"):
+            continue
+        if words[at - 1 : at + 1] == ["at", "all"] and words[at - 2] in ("nothing", "anything"):
+            continue
+        kept.append(token)
+    return kept
+
+
+def _as_one(tokens: list[Token]) -> list[Token]:
+    """The cup, *the one* on the shelf, ...: the cup on the shelf."""
+    words = [token.text for token in tokens]
+    kept = list(tokens)
+    for at in range(len(words) - 4, 0, -1):
+        one = words[at : at + 2] == [COMMA, "the"] and words[at + 2] in lexicon.ONES
+        begun = max((n + 1 for n in range(at) if words[n] in (COMMA, FULL_STOP)), default=0)
+        denied = _DENIES.intersection(words[begun:at]) or words[at - 1] in lexicon.ONES
+        if one and words[at + 3] in _LOCATING and not denied:
+            kept[at : at + 3] = []
+    return kept
+
+
+def _denied_first(tokens: list[Token]) -> list[Token]:
+    """But the markers *no*, as learners say it: but not the markers."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 1, 2, -1):
+        closes = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
+        link = next((n for n in range(at - 2, max(-1, at - 6), -1) if words[n] == "but"), None)
+        if words[at] == "no" and closes and link is not None and words[at - 1].isalpha():
+            tokens.insert(link + 1, Token("not", tokens.pop(at).raw))
+            words.insert(link + 1, words.pop(at))
+    return tokens
+
+
+def unrepeated(tokens: list[Token]) -> list[Token]:
+    """The tokens without what is only said again: "the lamp, yes, the lamp"."""
+    kept = list(tokens)
+    for at in range(len(kept) - 1, 0, -1):
+        if kept[at : at + 1] and kept[at].text in (COMMA, FULL_STOP):
+            end = _echo_end(kept, at)
+            if end is not None:
+                kept[at:end] = []
+    return _unstuttered(kept)
+
+
+def _resumed(tokens: list[Token], at: int) -> list[Token]:
+    """The tokens without the article at ``at`` that a comma breaks off, if something goes on."""
+    words = [token.text for token in tokens]
+    start, end = at, at + 2
+    while end < len(words) and words[end] in _SOUNDS | {COMMA}:
+        end += 1
+    lost = _phrase_end(words, end, _LOST)
+    if lost is not None and words[lost : lost + 1] == [COMMA]:
+        end = lost + 1
+    word = words[end] if end < len(words) else FULL_STOP
+    if word in _PREPOSITIONS and words[at - 1] in _PREPOSITIONS:
+        start -= 1  # in the, in the box
+    elif word not in _ARTICLES | _INTERRUPTS:
+        start = at + 1  # the, um, bowl
+        end = end if lost is not None or end > at + 2 else start
+    rest = tokens[end:]
+    if lost is not None and words[-2:] == ["i", "mean"]:
+        del rest[-2:]
+    return tokens[:start] + rest
+
+
+def _echo_end(tokens: list[Token], at: int) -> int | None:
+    """Where the echo of what stands before the sign at ``at`` ends."""
+    words = [token.text for token in tokens]
+    start = at + 1
+    marked = _phrase_end(words, start, _EMPHASIS)
+    if marked is not None and words[marked : marked + 1] == [COMMA]:
+        start = marked + 1
+    for size in range(_LONGEST_ECHO, 1, -1):
+        same = at >= size and words[at - size : at] == words[start : start + size]
+        end = start + size
+        if same and words[start] in lexicon.DETERMINERS and not _goes_on(words, end):
+            return _past_emphasis(words, end)
+    before = words[max(0, at - _LONGEST_ECHO) : at]
+    pronoun = words[start + 1 : start + 2] in (["it"], ["them"], ["there"])
+    if words[start] in _PREPOSITIONS and words[start] in before and pronoun:
+        end = start + 2
+        return _past_emphasis(words, end) if _closes(words, end) else None
+    return None
+
+
+def _goes_on(words: list[str], end: int) -> bool:
+    """Whether the noun goes on: "the bottle, the bottle *opener*"."""
+    word = words[end] if end < len(words) else FULL_STOP
+    ends = word in (COMMA, FULL_STOP) or word in lexicon.FUNCTION_WORDS
+    return not ends and _phrase_end(words, end, _EMPHASIS) is None
+
+
+def _closes(words: list[str], end: int) -> bool:
+    return end >= len(words) or words[end] in (COMMA, FULL_STOP)
+
+
+def _past_emphasis(words: list[str], end: int) -> int:
+    """Past "I say", and past the comma before what belongs to the clause: ", *on the table*"."""
+    begin = end + (words[end : end + 1] == [COMMA])
+    marked = _phrase_end(words, begin, _EMPHASIS)
+    if marked is not None and _closes(words, marked):
+        end = marked
+    goes_on = words[end + 1 : end + 2]
+    comma = words[end : end + 1] == [COMMA]
+    return end + 1 if comma and goes_on and goes_on[0] in _PREPOSITIONS else end
+
+
+def _unstuttered(tokens: list[Token]) -> list[Token]:
+    """Bring me bring me: once; ... *give me give me*, after it was said: not at all."""
+    words = [token.text for token in tokens]
+    for size in _STUTTERS:
+        at = 0
+        while at + 2 * size <= len(words):
+            said = words[at : at + size]
+            plain = all(word.isalpha() for word in said) and not _SAYS.intersection(words[:at])
+            end = at + size
+            while plain and words[end : end + size] == said:
+                end += size
+            if end > at + size:
+                again = any(words[n : n + size] == said for n in range(at))
+                start = at if again else at + size
+                del tokens[start:end], words[start:end]
+            at += 1
+    return tokens
+
+
+def _phrase_end(words: list[str], at: int, table: frozenset[lexicon.Phrase]) -> int | None:
+    """Where the longest phrase of a table at a word ends."""
+    longest = min(len(words), at + 5)
+    return next((end for end in range(longest, at, -1) if tuple(words[at:end]) in table), None)
