@@ -5,8 +5,11 @@ a list of readings that makes sense of it (:mod:`intents.english.order`).
 """
 
 import re
+from copy import copy
+from dataclasses import fields
 from typing import NamedTuple
 
+from intents.english.clauses.parentheses import parentheses, said_to_others
 from intents.english.faithfulness import left_out, strings
 from intents.english.joining import carried
 from intents.english.offers import would_help
@@ -15,7 +18,14 @@ from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
 from intents.english.readings.asides import somebody_else
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Offered, Partly, Unclear, listing
+from intents.english.trouble import (
+    NotUnderstood,
+    Offered,
+    Partly,
+    ReadingError,
+    Unclear,
+    listing,
+)
 from intents.english.words import lexicon
 from intents.english.words.text import Text
 from intents.goals import (
@@ -62,8 +72,72 @@ class Understood(NamedTuple):
 def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood:
     """The goals of a whole sentence; ``history`` are those of the sentence before.
 
+    What is set off from the rest and cannot change what is asked is left out where the sentence
+    makes no sense with it, and that is remarked.
+
     Raises:
         ReadingError: Some of it makes no sense; the error says which part and why.
+    """
+    theirs = said_to_others(text)
+    remarks = [f"I take “{_quoted(text, span)}” as said to {who}" for span, who in theirs]
+    text = text.without([span for span, _ in theirs]) if theirs else text
+    spans = parentheses(text)
+    begun = copy(scope)
+    try:
+        return _remarked(_read(text, scope, history), remarks)
+    except ReadingError as error:
+        _restore(scope, begun)
+        if not spans:
+            raise
+        asides = listing([f"“{_quoted(text, span)}”" for span in spans], "and")
+        passed = _without(text, spans, scope, history, error)
+        return _remarked(passed, [*remarks, f"I pass over {asides}"])
+
+
+def _quoted(text: Text, span: tuple[int, int]) -> str:
+    return text.raw(*span).strip(" ,.;!?—–")
+
+
+def _without(
+    text: Text,
+    spans: list[tuple[int, int]],
+    scope: Scope,
+    history: tuple[Goal, ...],
+    error: ReadingError,
+) -> Understood:
+    """What a sentence asks for that makes no sense with its parentheses.
+
+    Raises:
+        ReadingError: It makes no sense without them either.
+    """
+    begun = copy(scope)
+    told = error
+    for joined in (False, True):
+        try:
+            understood = _read(text.without(spans, joined=joined), scope, history)
+            if understood.goals:
+                return understood
+        except ReadingError as other:
+            told = told if isinstance(told, Unclear) or joined else other
+        _restore(scope, begun)
+    raise told
+
+
+def _restore(scope: Scope, begun: Scope) -> None:
+    """Forget what was spoken of in an attempt that failed."""
+    for slot in fields(scope):
+        setattr(scope, slot.name, getattr(begun, slot.name))
+
+
+def _remarked(understood: Understood, remarks: list[str]) -> Understood:
+    return understood._replace(remarks=(*understood.remarks, *remarks))
+
+
+def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
+    """The goals of a sentence as it stands.
+
+    Raises:
+        ReadingError: Some of it makes no sense.
     """
     if text.phrase_end(_HELLO, 0) == len(text):
         return Understood((Greet(person=ME),))

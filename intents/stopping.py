@@ -61,6 +61,23 @@ _NOT_A_CRY = re.compile(
     r"then|the|a|last|next|until i say|till i say|i say|if i say|full)\s+(?:ever\s+)?$"
     r"|^(?:why|when|where|how|what|who|did|have|has|are|were)\b.*$"
 )
+_SOUND = re.compile(
+    r"a+h+|a+r+g+h*|o+h+|o+w+|e+k+|u+g+h+|(?:h[aeio]+){2,}h?|w+a+h*|n+o+|omf?g|oi+|"
+    r"(?:god|jesus|christ|crap|shit|fuck|damn|crikey|help|lol|wtf|ffs|bloody|yikes|heavens)"
+)
+"""What is called out before a cry."""
+_AGAIN = re.compile(r"\b(?:stop|halt|freeze)[\s!.,]+(?:stop|halt|freeze)\b(?!\s+(?:sign|button|by|at)\b)")
+"""Said twice in a row it is a cry wherever it stands."""
+_LETS_LIE = re.compile(
+    r"^(?:do not|don'?t|don t) move\s+(?:the|my|our|his|her|their|any of|those|these)\s+"
+    r"(?!robot|motors?\b|arms?\b|hands?\b|legs?\b|feet\b|foot\b|body\b|head\b|base\b|fingers?\b)\w"
+)
+"""Do not move *the cup*: a thing that is to stay where it is."""
+_AT_HOME = re.compile(
+    r"^\s+\w+ing\s+(?:your|his|her|the)\s+(?:little\s+|big\s+)?(?:sister|brother|mother|father|mum|mom|dad|"
+    r"cousin|dinner|supper|lunch|food|homework)\b"
+)
+"""Stop *poking your sister* is said to a child."""
 _GOES_ON = words("and then to the a an next every each last first this that bus train tram")
 """Before a last word "stop" these make it a step of a plan, or a noun."""
 _ON_THE_WAY = re.compile(
@@ -143,16 +160,23 @@ _CRIES = frozenset(map(_plain, _STOPS))
 
 
 def _cries(clause: str) -> bool:
-    if any(clause.startswith(phrase) for phrase in _PHRASES):
+    if any(clause.startswith(phrase) for phrase in _PHRASES) and not _LETS_LIE.match(clause):
+        return True
+    if _AGAIN.search(clause) and not _NOT_A_CRY.match(clause):
         return True
     found = list(_WORD.finditer(clause))
     for number, word in enumerate(found):
         if _is_cry(word.group()):
             if _is_meant(clause, word):
                 return True
-        elif number > 2 * _SHORT or (word.group() not in _BEFORE and len(found) > _SHORT):
+        elif number > 2 * _SHORT or (len(found) > _SHORT and not _leads_in(word.group())):
             return False
     return False
+
+
+def _leads_in(word: str) -> bool:
+    """Whether a word may come before a cry: "please", "aaah"."""
+    return word in _BEFORE or _SOUND.fullmatch(word) is not None
 
 
 def _ends_in_cry(clause: str) -> bool:
@@ -171,6 +195,8 @@ def _is_meant(clause: str, word: re.Match[str]) -> bool:
         return True  # what stands before it is no part of the cry
     before, after = clause[: word.start()], clause[word.end() :]
     if word.group() == "freeze" and _TO_THE_COLD.match(after):
+        return False
+    if word.group() == "stop" and _AT_HOME.match(after):
         return False
     return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after) or _A_THING.search(before))
 

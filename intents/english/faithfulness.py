@@ -51,11 +51,12 @@ _POSES = lexicon.words("kneel kneeling")
 """What is taken for a squat, and is none."""
 _ORDINALS = lexicon.words("second third fourth fifth")
 _BOARDS = lexicon.words("top upper bottom lower middle topmost uppermost")
-_CARRYING = (
+CARRYING = (
     frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES) | _SUPERLATIVE_WORDS | NUMBER_WORDS
     | frozenset(lexicon.COMPARATIVES) | lexicon.EMPTY_ADJECTIVES | _QUANTIFIERS | _LIMBS | _WAYS
     | _ORDINALS | _BOARDS | lexicon.CLOTHES
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
+"""Words of closed classes that say something by themselves: what, how many, which, in what way."""
 _OTHERS = lexicon.words(
     "x y wear whoever whatever whichever robot result total amount given being having "
     "went gone ended floor apartment house ok today fist"
@@ -89,7 +90,7 @@ def left_out(text: Text, goals: Iterable[Goal], passed: Iterable[tuple[int, int]
     while at < len(text):
         end, carried = (at + 1, True) if at in silent else _carried(text, at, told)
         if not carried:
-            grave = text.word(at) in _CARRYING - lexicon.EMPTY_ADJECTIVES
+            grave = text.word(at) in CARRYING - lexicon.EMPTY_ADJECTIVES
             slight = not grave and _describes(text, end, told)
             dropped.append(LeftOut(text.raw(at, end), slight))
         at = max(end, at + 1)
@@ -155,7 +156,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     verb = max((end for _, end in verbs_at(text.words, at)), default=at)
     if verb > at + 1 and word not in _POSES:
         return verb, True
-    if word in _CARRYING:
+    if word in CARRYING:
         return at + 1, told.speaks or _word_carried(text, at, told)
     return at + 1, told.speaks or _is_listed(word)
 
@@ -214,7 +215,7 @@ def _quantity_carried(text: Text, at: int, told: _Told) -> bool:
 def _before_noun(text: Text, at: int) -> bool:
     """Whether a name, or what stands before one, begins at a word."""
     word = text.word(at)
-    return text.name_at(at) is not None or word in _CARRYING or word in lexicon.OBJECT_NOUNS
+    return text.name_at(at) is not None or word in CARRYING or word in lexicon.OBJECT_NOUNS
 
 
 def _is_held(goal: Goal) -> bool:

@@ -7,6 +7,8 @@ from intents.letters import seen, unmixed
 
 COMMA = ","
 FULL_STOP = "."
+DASHES = ("—", "–", "--", "-")
+"""How a dash is written, which is a comma besides."""
 QUOTE = '"'
 """The text of a quoted token; what was quoted is in ``raw``."""
 
@@ -34,7 +36,7 @@ _TOKEN = re.compile(
     | (?P<word>[^\W_]+(?:'[^\W_]+)*)
     | (?P<degree>°)
     | (?P<stop>[.!?]+)
-    | (?P<comma>[,;:()]|--+|\s-\s)""",
+    | (?P<comma>[,;:()—]|--+|\s[-–](?=\s))""",
     re.VERBOSE,
 )
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"', "”": '"', "„": '"',
@@ -106,7 +108,7 @@ def tokenize(text: str) -> list[Token]:
         elif kind == "stop":
             tokens.append(Token(FULL_STOP, raw))
         elif kind == "comma":
-            tokens.append(Token(COMMA, raw))
+            tokens.append(Token(COMMA, raw.strip()))
         else:
             tokens.extend(_words(raw))
     return tokens

@@ -1,10 +1,12 @@
 """A sentence ready for the grammar: tokens, corrected, without fillers."""
 
 from collections.abc import Collection, Mapping
+from copy import copy
 from typing import TypeVar
 
-from intents.english.words.courtesy import courtesy_end
-from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
+from intents.english.words.courtesy import ADDRESSES, courtesy_end
+from intents.english.words.disfluency import fluent, unrepeated
+from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
     ALL,
@@ -75,7 +77,8 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        self.tokens: list[Token] = _colloquial(_unfinished(_without_fillers(corrected, self.index)))
+        plain = unrepeated(_without_fillers(fluent(corrected), self.index))
+        self.tokens: list[Token] = _colloquial(_unfinished(plain))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
@@ -112,6 +115,29 @@ class Text:
                 return end
         return None
 
+    def without(self, spans: Collection[tuple[int, int]], *, joined: bool = False) -> "Text":
+        """The text without the words of some segments, and without the signs left over.
+
+        Args:
+            spans: From where to where the segments stand.
+            joined: What stands before and after a segment between commas is one clause.
+        """
+        gone = {at for start, end in spans for at in range(start, end)}
+        if joined:
+            between = ((s - 1, e) for s, e in spans if {self.word(s - 1), self.word(e)} == {COMMA})
+            gone |= {at for signs in between for at in signs}
+        kept: list[Token] = []
+        for at, token in enumerate(self.tokens):
+            sign = token.text in (COMMA, FULL_STOP)
+            if at in gone or (sign and not kept):
+                continue
+            if sign and kept[-1].text in (COMMA, FULL_STOP):
+                token = max(token, kept.pop(), key=lambda sign: sign.text == FULL_STOP)
+            kept.append(token)
+        left, kept = copy(self), fluent(kept)
+        left.tokens, left.words, left._matches = kept, [t.text for t in kept], {}
+        return left
+
     def raw(self, start: int, end: int) -> str:
         """What was written from one word to another."""
         said = ""
@@ -140,7 +166,9 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
         said += [token.text for token in kept[len(said) :]]
         end = _filler_end(words, at) if words[at] in _FILLER_STARTS else _adverb_end(words, at)
         end = max(end or 0, courtesy_end(words, at, kept=said) or 0) or None
-        if end is None or index.match(words, at) or said[-1:] == ["say"]:
+        called = at and tokens[at - 1].raw in DASHES and words[at] in ADDRESSES  # in passing
+        named = end is not None and any(index.match(words, n) for n in range(at, end))
+        if end is None or named or called or said[-1:] == ["say"]:
             kept.append(tokens[at])
             at += 1
             continue
@@ -192,7 +220,8 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         last = kept[-1].text if kept else FULL_STOP
         begins = last in (*_BEFORE_VERBS, "after", "before")
-        if last in ("the", "a", "an", "my") and token.text in (COMMA, last):
+        broken_off = token.raw in DASHES
+        if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
             kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")

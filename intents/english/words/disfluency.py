@@ -1,0 +1,140 @@
+"""Disfluencies: false starts, lost words, echoes and stutters, undone before anything is read.
+
+"The - no, forget that"; "put it in the, in the box"; "the, how is it called, the bowl"; "the lamp,
+yes, the lamp"; "the lamp I say"; "give me give me". See [Shriberg1994]: what is repaired stands
+before the interruption, what it is repaired with behind it. What is taken back by what it means
+("no, the blue one") is in :mod:`intents.english.corrections`.
+
+[Shriberg1994] E. Shriberg, Preliminaries to a Theory of Speech Disfluencies, UC Berkeley, 1994.
+"""
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, Token
+
+_ARTICLES = lexicon.words("the a an my your our")
+_INTERRUPTS = lexicon.words("no sorry wait pardon forget scratch scrap oops i hang hold actually")
+"""What a false start breaks off before."""
+_SOUNDS = lexicon.words("och oh ah er uh um eh ach well uhm hmm hm")
+_LOST = lexicon.phrases(
+    "what is it called,what was it called,what is it,what was it,what is that called,"
+    "what do you call it,what do you call them,what do you call that,what are they called,"
+    "how is it called,how do you call it,how do you say,how do you say it,how do they call it,"
+    "how is the word,what is the word,what is its name,what is the name,what is the thing,"
+    "whatsit,whatchamacallit,thingy,thingummy,you know,you know the one"
+)
+"""What is said while a word is sought."""
+_EMPHASIS = lexicon.phrases(
+    "yes,yeah,aye,right,i say,i said,i repeat,mind you,i tell you,i mean,that is,exactly"
+)
+_PREPOSITIONS = frozenset(
+    phrase[0] for table in (lexicon.LOCATIVES, lexicon.GOALWARDS, lexicon.SOURCEWARDS)
+    for phrase in table
+)  # fmt: skip
+_SAYS = lexicon.words("say tell announce shout whisper repeat sing")
+_LONGEST_ECHO = 4
+_STUTTERS = (3, 2)
+
+
+def fluent(tokens: list[Token]) -> list[Token]:
+    """The tokens without false starts and without what is said while a word is sought."""
+    kept = list(tokens)
+    for at in range(len(kept) - 2, -1, -1):
+        if at < len(kept) - 2 and kept[at].text in _ARTICLES and kept[at + 1].text == COMMA:
+            kept = _resumed(kept, at)
+    return kept
+
+
+def unrepeated(tokens: list[Token]) -> list[Token]:
+    """The tokens without what is only said again: "the lamp, yes, the lamp"."""
+    kept = list(tokens)
+    for at in range(len(kept) - 1, 0, -1):
+        if kept[at : at + 1] and kept[at].text in (COMMA, FULL_STOP):
+            end = _echo_end(kept, at)
+            if end is not None:
+                kept[at:end] = []
+    return _unstuttered(kept)
+
+
+def _resumed(tokens: list[Token], at: int) -> list[Token]:
+    """The tokens without the article at ``at`` that a comma breaks off, if something goes on."""
+    words = [token.text for token in tokens]
+    start, end = at, at + 2
+    while end < len(words) and words[end] in _SOUNDS | {COMMA}:
+        end += 1
+    lost = _phrase_end(words, end, _LOST)
+    if lost is not None and words[lost : lost + 1] == [COMMA]:
+        end = lost + 1
+    word = words[end] if end < len(words) else FULL_STOP
+    if word in _PREPOSITIONS and words[at - 1] in _PREPOSITIONS:
+        start -= 1  # in the, in the box
+    elif word not in _ARTICLES | _INTERRUPTS:
+        start = at + 1  # the, um, bowl
+        end = end if lost is not None or end > at + 2 else start
+    return tokens[:start] + tokens[end:]
+
+
+def _echo_end(tokens: list[Token], at: int) -> int | None:
+    """Where the echo of what stands before the sign at ``at`` ends."""
+    words = [token.text for token in tokens]
+    start = at + 1
+    marked = _phrase_end(words, start, _EMPHASIS)
+    if marked is not None and words[marked : marked + 1] == [COMMA]:
+        start = marked + 1
+    for size in range(_LONGEST_ECHO, 1, -1):
+        same = at >= size and words[at - size : at] == words[start : start + size]
+        end = start + size
+        if same and words[start] in lexicon.DETERMINERS and not _goes_on(words, end):
+            return _past_emphasis(words, end)
+    before = words[max(0, at - _LONGEST_ECHO) : at]
+    pronoun = words[start + 1 : start + 2] in (["it"], ["them"], ["there"])
+    if words[start] in _PREPOSITIONS and words[start] in before and pronoun:
+        end = start + 2
+        return _past_emphasis(words, end) if _closes(words, end) else None
+    return None
+
+
+def _goes_on(words: list[str], end: int) -> bool:
+    """Whether the noun goes on: "the bottle, the bottle *opener*"."""
+    word = words[end] if end < len(words) else FULL_STOP
+    ends = word in (COMMA, FULL_STOP) or word in lexicon.FUNCTION_WORDS
+    return not ends and _phrase_end(words, end, _EMPHASIS) is None
+
+
+def _closes(words: list[str], end: int) -> bool:
+    return end >= len(words) or words[end] in (COMMA, FULL_STOP)
+
+
+def _past_emphasis(words: list[str], end: int) -> int:
+    """Past "I say", and past the comma before what belongs to the clause: ", *on the table*"."""
+    begin = end + (words[end : end + 1] == [COMMA])
+    marked = _phrase_end(words, begin, _EMPHASIS)
+    if marked is not None and _closes(words, marked):
+        end = marked
+    goes_on = words[end + 1 : end + 2]
+    comma = words[end : end + 1] == [COMMA]
+    return end + 1 if comma and goes_on and goes_on[0] in _PREPOSITIONS else end
+
+
+def _unstuttered(tokens: list[Token]) -> list[Token]:
+    """Bring me bring me: once; ... *give me give me*, after it was said: not at all."""
+    words = [token.text for token in tokens]
+    for size in _STUTTERS:
+        at = 0
+        while at + 2 * size <= len(words):
+            said = words[at : at + size]
+            plain = all(word.isalpha() for word in said) and not _SAYS.intersection(words[:at])
+            end = at + size
+            while plain and words[end : end + size] == said:
+                end += size
+            if end > at + size:
+                again = any(words[n : n + size] == said for n in range(at))
+                start = at if again else at + size
+                del tokens[start:end], words[start:end]
+            at += 1
+    return tokens
+
+
+def _phrase_end(words: list[str], at: int, table: frozenset[lexicon.Phrase]) -> int | None:
+    """Where the longest phrase of a table at a word ends."""
+    longest = min(len(words), at + 5)
+    return next((end for end in range(longest, at, -1) if tuple(words[at:end]) in table), None)
