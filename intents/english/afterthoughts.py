@@ -18,6 +18,8 @@ from intents.english.trouble import Partly, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
 
 
@@ -77,12 +79,43 @@ def _kind(query: ObjectQuery) -> tuple[str | None, str | None]:
 
 
 def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """Go to the shelf *after picking up the cup*; follow her *before coming back*."""
-    word = sentence.text.word(at)
-    if word not in ("after", "before") or not begins_clause(sentence.text, at + 1):
+    """Go to the shelf *after picking up the cup*; follow her *before coming back*.
+
+    "Only once you have ...", "not before you have ..." are after; "but before that ..." is before.
+    """
+    text = sentence.text
+    earlier = _earlier(text, at)
+    if earlier is not None:
+        other, end = clause_by_itself(sentence, earlier)
+        return [*other, *last], end
+    found = text.lookup(_AFTER, at)
+    after, start = found or (text.word(at) == "after", at + 1)
+    if (found is None and text.word(at) not in ("after", "before")) or not (
+        begins_clause(text, start) and last
+    ):
         return None
-    other, end = clause_by_itself(sentence, skip_openings(sentence.text, at + 1))
-    return ([*other, *last] if word == "after" else [*last, *other]), end
+    other, end = clause_by_itself(sentence, skip_openings(text, start))
+    return ([*other, *last] if after else [*last, *other]), end
+
+
+_AFTER = dict.fromkeys(
+    lexicon.phrases(
+        "once,when,as soon as,only after,only once,only when,only as soon as,not until,not before,"
+        "no sooner than,not earlier than"
+    ),
+    True,
+)
+"""Links between two clauses of which the second is done first."""
+_BEFORE_THAT = lexicon.phrases("before that,before this,before you do,before you do that,beforehand")
+
+
+def _earlier(text: Text, at: int) -> int | None:
+    """Where the clause begins that is to be done before the one before it: "but first wave"."""
+    if text.words[at - 2 : at] == ["but", "first"]:
+        return at
+    end = text.phrase_end(_BEFORE_THAT, at)
+    start = skip_openings(text, end) if end else at
+    return start if end and verbs_at(text.words, start) else None
 
 
 def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -1,12 +1,13 @@
 """What stands before a clause and asks for nothing: "and then", "could you", "step 1:"."""
 
+from intents.english.clauses.announcements import announced_end
 from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.phrase import is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
-from intents.english.words.verbs import verbs_at
+from intents.english.words.verbs import base_form, verbs_at
 
 _SEEN = lexicon.words(
     "a an any the my some anyone anybody someone somebody anything it them him her"
@@ -17,6 +18,7 @@ _IF_NOT = lexicon.phrases(
     "if they are not there,if you do not,if you can not"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
+_URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
@@ -33,11 +35,18 @@ def skip_openings(text: Text, at: int) -> int:
         if text.word(at) == "be" and text.words[at + 3 : at + 4] == ["and"]:
             at += 4  # be so kind and ...
             continue
-        end = _opening_end(text, at)
+        end = announced_end(text, at) or _opening_end(text, at) or _urging_end(text, at)
         if end is None:
             return at
         at = end
     return at
+
+
+def _urging_end(text: Text, at: int) -> int | None:
+    """*Do* bring it; *only* tell me; *simply* leave it there."""
+    bare = bool(verbs_at(text.words, at + 1)) and base_form(text.word(at + 1)) == text.word(at + 1)
+    urges = text.word(at) in _URGING and bare and not text.name_at(at + 1)
+    return at + 1 if urges else None
 
 
 def otherwise_end(text: Text, at: int) -> int | None:

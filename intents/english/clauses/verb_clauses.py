@@ -5,10 +5,16 @@ from collections.abc import Iterable
 from intents.english.clauses.questions import counted
 from intents.english.clauses.saying import answer, describe, inform, say, tell
 from intents.english.frames import FRAMES
-from intents.english.phrases.complements import Clause, Complement, ends_clause, read_complements
+from intents.english.phrases.complements import (
+    Clause,
+    Complement,
+    ends_clause,
+    first_with,
+    read_complements,
+)
 from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, SaidVerb, Sentence, not_understood
-from intents.english.trouble import ReadingError
+from intents.english.trouble import Misfit, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
@@ -92,6 +98,8 @@ def _in_sense(
     complements, end = read_complements(text, start)
     complements = without_favours(sense, complements)
     given_up = sense == "cancel" and text.word(first).endswith("ing")
+    if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
+        raise Misfit("that is not to be moved")
     if sense == "stop" or given_up:
         complements = []  # what is to be stopped or given up is all that is going on
         while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):

@@ -42,7 +42,7 @@ _PREDICATES = words(
 _RECEIVERS = words("him her me them us want wants")
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come")
-_ONCE = words("once when after")
+_ONCE = words("once when after until before")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -184,6 +184,14 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 2, 0, -1):
+        first = at + 1 + (words[at + 1] in ("first", "already"))
+        base = participle_base(words[first]) if words[at] == "having" and first < len(words) else None
+        if base:  # having closed the door
+            tokens[at : first + 1] = [
+                Token("after", tokens[at].raw), Token("you", ""), Token(base, tokens[first].raw)
+            ]  # fmt: skip
     words = [t.text for t in tokens]
     if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
         tokens.insert(0, Token("i", ""))  # need a screwdriver here
