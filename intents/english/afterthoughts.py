@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
 from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
 from intents.english.clauses.wishes import asks_end
-from intents.english.corrections import retraction_end
+from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
@@ -26,9 +26,12 @@ from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Presen
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Pick up the cup, no, *leave it*: what was asked last is not to be done."""
     text = sentence.text
-    end = retraction_end(text, at)
+    end = retraction_end(text, at) or named_retraction_end(text, at, last)
     apart = text.word(at - 1) in (COMMA, FULL_STOP, "no")
-    return ([], end) if end and apart and last else None
+    if not (end and apart and last):
+        return None
+    sentence.notes.passed.append((at, end))
+    return [], end
 
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -1,13 +1,15 @@
 """Taking back what was just said: "the red cup, no wait, the blue one"."""
 
+from intents.english.clauses.told import told_end
+from intents.english.faithfulness import strings
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import Locative, NounPhrase
-from intents.english.phrases.referents import is_person, to_object, to_person, to_place
+from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.substitution import substitute
 from intents.english.trouble import Misfit
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases
+from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases, words
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Goal, ObjectQuery
@@ -17,25 +19,68 @@ _MARKERS = phrases(
     "oh sorry,not that,no sorry,wait,oh no,oops,my mistake,i mean to say,sorry i meant,"
     "sorry i mean,no i mean,no i meant,no not that,not that one,not this one,"
     "no not that one,no not this one,wrong one,no make that,or better,better,on second thought,"
-    "on second thoughts,strike that,change that,not there"
+    "on second thoughts,strike that,change that,not there,scrap that,forget that,cancel that,"
+    "i wanted to say,i meant to say,i was going to say,i wanted to ask for,what i meant was,"
+    "what i mean is,what i meant is,i should say,i should have said,change of plan,change of plans,"
+    "i tell a lie,hold on,hang on,just kidding,only kidding,jk,i take that back,that is wrong,"
+    "my bad,silly me,stupid me,on reflection,come to think of it,i got that wrong,or no,"
+    "what am i saying,that i think of it,that i think about it,pardon,pardon me,i beg your pardon,"
+    "nah,nope,i misspoke,i said that wrong,wait a minute,wait a second,make it,whoops,let me see"
 )
+_LEADING = words("oh ah eh er uh um ach och well lol haha oops actually so ok okay wait sorry and")
+"""What may stand between markers, and begins none by itself."""
+_NEEDS_A_THING = phrases("make it,make that")
+"""These change what is to be had: "make it *a lemonade*", not "make it quick"."""
+_REASONS = words("needs wants has is was asked ordered wanted needed")
+"""How it is told why somebody or something was meant."""
 _BEHIND = phrases("i mean,i meant,rather,instead,i mean to say,sorry,that is")
 """What stands behind a correction rather than before it."""
-_OPENINGS = ("sorry", "oh", "wait")
+_OPENINGS = ("sorry", "oh", "wait", "pardon", "whoops")
 """Markers that open a new sentence as often as they take back the one before."""
 
 
 def _marker_end(text: Text, at: int) -> int | None:
-    """Where the marker of a correction ends, if one begins at a word."""
-    end = text.phrase_end(_MARKERS, at)
-    if end is None or (text.word(at) == "wait" and text.word(end) != COMMA):
+    """Where the marker of a correction ends, if one begins at a word.
+
+    What is only told may stand between two: "no wait, he had his nap, I mean the other room".
+    """
+    begin = at
+    while text.word(at) in _LEADING and _marker(text, at) is None and at < len(text):
+        at += 1 + (text.word(at + 1) == COMMA)
+    end = _marker(text, at)
+    if end is None or (text.word(begin) == "wait" and text.word(end) != COMMA and end == begin + 1):
         return None
-    while text.word(end) == COMMA or text.phrase_end(_MARKERS, end):
-        end = text.phrase_end(_MARKERS, end) or end + 1
+    while True:
+        following = end + (text.word(end) == COMMA)
+        while text.word(following) in _LEADING and following < len(text):
+            following += 1 + (text.word(following + 1) == COMMA)
+        further = _marker(text, following)
+        told = None if further or following == end else told_end(text, following)
+        if told is not None and text.word(told) == COMMA and _marker(text, told + 1):
+            further = told + 1
+        if further is None:
+            break
+        end = further
+    while text.word(end) in (COMMA, *_OPENINGS):
+        end += 1
     return end if end < len(text) else None
 
 
+def _marker(text: Text, at: int) -> int | None:
+    """Where one marker ends."""
+    end = text.phrase_end(_MARKERS, at)
+    if end is not None and tuple(text.words[at:end]) in _NEEDS_A_THING:
+        phrase = noun_phrase(text, end)
+        return end if phrase is not None and phrase.name("object", "category", "place") else None
+    return end
+
+
 _RETRACTS = phrases("leave it,leave that,leave them,leave it be,leave it alone,let it be")
+
+_LEAVES = phrases(
+    "forget,forget about,never mind,never mind about,leave,skip,drop,scratch,scrap,cancel,not,"
+    "do not bring,do not take,do not get,do not fetch,i do not need,i do not want"
+)
 
 
 def retraction_end(text: Text, at: int) -> int | None:
@@ -66,10 +111,15 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """No wait, the blue one; I mean go to the kitchen."""
     text, scope = sentence.text, sentence.scope
     end = _marker_end(text, at) or _told_apart(text, at, scope.object) or _meant(text, at)
+    denied = _past_denied(text, at if end is None else end, last, scope)
+    if denied is not None:
+        end = denied
     if end is None:
         return None
-    undone = retraction_end(text, end)
+    sentence.notes.passed.append((at, end))
+    undone = retraction_end(text, end) or named_retraction_end(text, end, last)
     if undone:
+        sentence.notes.passed.append((end, undone))
         return [], undone
     if verbs_at(text.words, end):
         return clause_by_itself(sentence, end)
@@ -93,7 +143,52 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if old is None:
         raise Misfit("I do not know what to correct")
     scope.mention(new)
-    return [substitute(g, old, new) for g in last], _past_marker(text, phrase.end)
+    end = _past_marker(text, phrase.end)
+    reason = _reason_end(text, phrase)
+    if reason is not None:
+        sentence.notes.passed.append((end, reason))
+    return [substitute(g, old, new) for g in last], reason or end
+
+
+def _reason_end(text: Text, phrase: NounPhrase) -> int | None:
+    """Joan *needs it*; Bob *was the one who asked for it*: where such a reason ends."""
+    end = phrase.end
+    if text.word(end) not in _REASONS and told_end(text, phrase.start) is None:
+        return None
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        if text.name_at(end):
+            return None
+        end += 1
+    return end
+
+
+def _past_denied(text: Text, at: int, last: list[Goal], scope: Scope) -> int | None:
+    """*Not Tom*, Bob asked for it: what was asked for is denied, and what is meant follows."""
+    phrase = noun_phrase(text, at + 1) if text.word(at) == "not" else None
+    if phrase is None or text.word(phrase.end) not in (COMMA, "but") or not phrase.names:
+        return None
+    said = set(strings(last))
+    if not any(name.name.lower() in said for name in phrase.names):
+        return None
+    after = phrase.end + 1 + (text.word(phrase.end + 1) == "but")
+    meant = noun_phrase(text, after) or _spot_after_preposition(text, after)
+    alike = meant is not None and {n.kind for n in meant.names} & {n.kind for n in phrase.names}
+    if not alike:
+        return None
+    if phrase.is_person:
+        scope.mention(to_person(phrase, scope))
+    return after
+
+
+def named_retraction_end(text: Text, at: int, last: list[Goal]) -> int | None:
+    """*Forget the blanket*: where a clause ends that leaves undone what was asked, by its name."""
+    start = text.phrase_end(_LEAVES, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.name("object", "category", "person") or phrase.places:
+        return None
+    closed = phrase.end >= len(text) or text.word(phrase.end) in (COMMA, FULL_STOP)
+    said = set(strings(last))
+    return phrase.end if closed and any(n.name.lower() in said for n in phrase.names) else None
 
 
 def _spot_after_preposition(text: Text, at: int) -> NounPhrase | None:

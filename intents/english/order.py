@@ -34,6 +34,7 @@ from intents.english.readings import (
     questions,
     remarks,
     repetition,
+    telegrams,
     time_clauses,
     trying,
     verb,
@@ -99,7 +100,7 @@ RULES = Rules(
         # What only tells something, and commands of nouns alone. A gap without "and" before it is
         # as doubtful as a telegram, which is a whole sentence.
         remarks.statement,
-        without_verb.telegram,
+        telegrams.telegram,
         ellipsis.gapped,
         remarks.told_of,
         # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on

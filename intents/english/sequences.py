@@ -46,16 +46,17 @@ def sequence(sentence: Sentence, at: int) -> Found:
         if changed:
             goals[last:], at = changed
             continue
-        wish = goals[-1:] if notes.wanted else []
-        notes.wanted = False
+        wish, notes.wanted = goals[-1:] if notes.wanted else [], False
         found, end = _one_more(here, at)
         notes.one_hand |= _names_hand(text.raw(begun, end), found)
         if not sentence.depth:
             notes.trace.append((text.raw(at, end), tuple(found)))
-        if not found:
+        if found:
+            clause_at = begun
+            last = _append(here, found, wish, text.words[begun : at + 1])
+        else:  # what is only told stands between a clause and what corrects it
             notes.passed.append((begun, end))
-        clause_at = begun
-        last = _append(here, found, wish, text.words[begun : at + 1])
+            notes.wanted = bool(wish)
         at = max(end, at + 1)
 
 

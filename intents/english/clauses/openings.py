@@ -83,9 +83,10 @@ def _opening_end(text: Text, at: int) -> int | None:
 def _is_seen(text: Text, at: int) -> bool:
     """Whether "can you see ..." asks after something, and not for it to be seen to the door."""
     named = text.name_at(at)
-    return text.word(at) in _SEEN or (
-        named is not None and text.word(named.end) not in ("to", "into")
-    )
+    if named is None:
+        return text.word(at) in _SEEN
+    along = text.word(named.end) in ("along", "over", "through", "back", "off", "out", "home")
+    return text.word(named.end + along) not in ("to", "into")
 
 
 def _numbering_end(text: Text, at: int) -> int | None:

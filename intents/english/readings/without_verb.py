@@ -2,11 +2,10 @@
 
 from intents.english.clauses.results import brought_about
 from intents.english.clauses.verb_clauses import framed
-from intents.english.phrases.complements import first_with, read_complements
+from intents.english.phrases.complements import read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.reading import Found, SaidVerb, Sentence
+from intents.english.reading import Found, Sentence
 from intents.english.trouble import Misfit, Unclear
-from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.verbs import verbs_at
 from intents.goals import Close, LookAt, Switch
 
@@ -58,30 +57,6 @@ def switched(sentence: Sentence, at: int) -> Found | None:
         return None
     found = brought_about(text, at, sentence.scope)
     return found if found and isinstance(found[0][0], Switch) else None
-
-
-def telegram(sentence: Sentence, at: int) -> Found | None:
-    """Red cup to the table."""
-    text = sentence.text
-    first = text.word(at - 1) in ("first", "firstly")
-    begins = all(not text.word(n)[0].isalnum() for n in range(at))
-    if not (begins or first) or sentence.before or verbs_at(text.words, at):
-        return None
-    complements, end = read_complements(text, at)
-    roles = [c.role for c in complements if c.role != "from"]
-    closed = end >= len(text) or text.word(end) in (COMMA, FULL_STOP)
-    bare = first_with(complements, "")
-    there = first and closed and roles == [""]
-    if there and bare and bare.phrase.places and bare.phrase.name("object"):
-        sentence.notes.verb = SaidVerb(at, at, ("put",))
-        return framed(sentence, "put", "put", complements, first=at, end=end)
-    if roles not in (["", "to"], ["", "into"]) or not closed:
-        return None
-    thing, where = (c.phrases[0] if c.phrases else None for c in complements if c.role != "from")
-    if not (thing and where and thing.name("object") and where.name("place")):
-        return None
-    sentence.notes.verb = SaidVerb(at, at, ("put",))
-    return framed(sentence, "put", "put", complements, first=at, end=end)
 
 
 def only_named(sentence: Sentence, at: int) -> None:

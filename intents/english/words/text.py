@@ -42,6 +42,7 @@ _PREDICATES = words(
 _RECEIVERS = words("him her me them us want wants")
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come")
+_POLITE = words("please please. please, please! pls plz thanks thanks. thanks! thanks,")
 _ONCE = words("once when after until before")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -54,6 +55,7 @@ class Text:
         words: Their lower-case texts.
         index: The names of the vocabulary.
         corrections: What was written, and what it was taken for.
+        polite: "Please" was said, so something is asked for.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
@@ -63,6 +65,7 @@ class Text:
         corrected: list[Token] = []
         self.corrections: list[tuple[str, str]] = []
         begins = True
+        self.polite = not _POLITE.isdisjoint(text.lower().split())
         for token in _without_name(tokenize(text), self.index):
             meant = speller.correct(token.text, begins=begins)
             begins = token.text in _BEFORE_VERBS
