@@ -57,6 +57,8 @@ RULES = Rules(
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
         remarks.left_somewhere,
+        # "You will find it there" is to look for it only where nothing more is asked.
+        remarks.found_there,
         needs.needed,
         remarks.feeling,
         # Constructions, whose verb is not the act: all of them before the verb with its own

@@ -19,7 +19,7 @@ from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import GoTo, Repeat
+from intents.goals import GoTo, Person, Repeat
 
 SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 """Senses whose complement is words."""
@@ -106,6 +106,9 @@ def _in_sense(
             end += 1
     verb = " ".join(text.words[at:first])
     clause = Clause(text, sense, verb, first, end, complements + fronted)
+    owners = [phrase.owner for c in complements for phrase in c.phrases if phrase.owner]
+    if owners and scope.person is None:
+        scope.person = Person(name=owners[0])  # take Leo's ball back to him
     goals = FRAMES[sense](clause, scope)
     sentence.notes.wanted = sense == "want"
     sentence.notes.particles = [c for c in complements if c.particle in ("on", "off", "out")]

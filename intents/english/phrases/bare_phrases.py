@@ -101,7 +101,7 @@ def _owned(text: Text, phrase: NounPhrase) -> NounPhrase | None:
     owned = _full(text, phrase.end + 1)
     if owned is None:
         return phrase
-    owned.start = phrase.start
+    owned.start, owned.owner = phrase.start, phrase.name("person")
     if phrase.name("room", "place") and owned.noun == "name":
         owned.places.append(Locative("in", phrase))
     return owned

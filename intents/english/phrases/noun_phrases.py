@@ -8,7 +8,7 @@ is for; `referents.py` turns it into an object, a person or a place.
 
 from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
-from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
+from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_at_it, is_content
 from intents.english.phrases.pronouns import part_of
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
@@ -221,7 +221,7 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
         end = read_appearance(text, phrase, at)
         if end:
             return end
-    if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
+    if (word in _LYING_AROUND or is_at_it(text, at)) and text.lookup(LOCATIVES, at + 1):
         return _locative(text, phrase, at + 1)
     if word in _LYING_AROUND and word not in ("left", "put"):
         end = _lying_there(text, phrase, at + 1)

@@ -1,6 +1,6 @@
 """The noun of a phrase: a name of the vocabulary, a word like "thing", or a word not known."""
 
-from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
+from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_at_it, is_content
 from intents.english.words import lexicon
 from intents.english.words.lexer import QUOTE
 from intents.english.words.lexicon import ALL, DETERMINERS, GENDERS, LEVELS
@@ -120,7 +120,7 @@ def _goes_on_unknown(text: Text, at: int) -> bool:
         return False
     if text.lookup(lexicon.SUPERLATIVES, at) or text.words[at : at + 2] == ["end", "up"]:
         return False
-    if text.word(at) == "before" and not text.name_at(at):
+    if (text.word(at) == "before" and not text.name_at(at)) or is_at_it(text, at):
         return False
     last = not is_content(text, at + 1) or bool(verbs_at(text.words, at + 1))
     if text.word(at) in text.index.colors and last:

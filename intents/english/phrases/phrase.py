@@ -4,10 +4,12 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from intents.english.words import lexicon
+from intents.english.words.dictionary import is_english
 from intents.english.words.lexer import singular
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.words.names import Name
 from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import Clothing, How, Part, Superlative
 
 Noun = Literal[
@@ -51,6 +53,7 @@ class NounPhrase:
         other: It is the one that was not spoken of.
         part: Which part of it is meant: "the other end of the table".
         without: What of it is not meant: "all cups except the red one".
+        owner: Whose it is, if that is a person.
         where: What was said, if the phrase is a place by what is there: "where the cup is".
     """
 
@@ -73,6 +76,7 @@ class NounPhrase:
     level: str = ""
     places: list[Locative] = field(default_factory=list[Locative])
     other: bool = False
+    owner: str = ""
     where: str = ""
     part: Part | None = None
     without: "NounPhrase | None" = None
@@ -127,3 +131,14 @@ def is_content(text: Text, at: int) -> bool:
     """Whether a word can be part of a noun: no function word, number or sign."""
     word = text.word(at)
     return word[0].isalpha() and word not in _NO_NOUN
+
+
+_LOCATING = frozenset(phrase[0] for phrase in lexicon.LOCATIVES)
+
+
+def is_at_it(text: Text, at: int) -> bool:
+    """Whether a participle only says how something is where it is: *hiding* behind the box."""
+    word = text.word(at)
+    if not word.endswith("ing") or text.word(at + 1) not in _LOCATING or text.name_at(at):
+        return False
+    return not verbs_at(text.words, at) and is_english(word)

@@ -5,6 +5,7 @@
 
 from intents.english.clauses.statements import IS, mention_phrase, stated
 from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
 from intents.english.reading import Found, Sentence
 from intents.english.substitution import substitute
 from intents.english.words import lexicon
@@ -15,24 +16,46 @@ from intents.goals import Person
 _KNOWN = lexicon.phrases(
     "i left,i put,i placed,i forgot,i saw,i dropped,i have left,i have put,i have forgotten,"
     "i have seen,i just saw,i just put,we left,we put,we have left,you left,you put,i keep,we keep,"
-    "we have,i have"
+    "we have,i have,i must have left,i might have left,i may have left,i think i left,"
+    "i have dropped,she left,he left,they left,he forgot,she forgot,somebody left,someone left"
 )
+_TAKEN_UP = lexicon.words("it them one ones that those")
 _SOMEWHERE = lexicon.words("somewhere here there yesterday earlier today just now around again")
 _SHORT = 4
 """What is said of somebody in so many words is a remark."""
 
 
 def left_somewhere(sentence: Sentence, at: int) -> Found | None:
-    """I left my comb on the bench: it is noted."""
+    """I left my comb on the bench: it is noted; I need my comb, *I left it on the bench*."""
     start = sentence.text.phrase_end(_KNOWN, at)
     phrase = noun_phrase(sentence.text, start) if start else None
-    if phrase is None or not phrase.name("object", "category"):
+    if phrase is None:
         return None
-    mention_phrase(phrase, sentence.scope)
+    if phrase.said in ("it", "them") and phrase.places:
+        _told_of_last(sentence, phrase)
+    elif phrase.name("object", "category"):
+        mention_phrase(phrase, sentence.scope)
+    else:
+        return None
     end, text = phrase.end, sentence.text
     while text.word(end) in _SOMEWHERE:
         end += 1
     return [], end
+
+
+def found_there(sentence: Sentence, at: int) -> Found | None:
+    """*You will find my comb on the bench*; bring it to me: it is told where that is."""
+    text = sentence.text
+    told = text.word(at) in ("find", "see") and text.word(at - 2) in ("you", "should")
+    phrase = noun_phrase(text, at + 1) if told else None
+    if phrase is None or not phrase.name("object", "category") or not phrase.places:
+        return None
+    rest = text.words[phrase.end :]
+    goes_on = text.word(phrase.end) in (COMMA, FULL_STOP) and not _TAKEN_UP.isdisjoint(rest)
+    if not goes_on:
+        return None
+    mention_phrase(phrase, sentence.scope)
+    return [], phrase.end
 
 
 def feeling(sentence: Sentence, at: int) -> Found | None:
@@ -47,6 +70,15 @@ def feeling(sentence: Sentence, at: int) -> Found | None:
             mention_phrase(phrase, sentence.scope)
         end = max(end + 1, phrase.end if phrase else end)
     return ([], end) if at + 2 < end < len(text) else None
+
+
+def _told_of_last(sentence: Sentence, phrase: NounPhrase) -> None:
+    """What is told of "it" is true of it in what was asked before."""
+    scope, was = sentence.scope, sentence.scope.object
+    mention_phrase(phrase, scope)
+    if was is not None and scope.object is not None:
+        now = scope.object
+        sentence.before[:] = [substitute(goal, was, now) for goal in sentence.before]
 
 
 def statement(sentence: Sentence, at: int) -> Found | None:

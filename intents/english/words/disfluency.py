@@ -10,6 +10,7 @@ before the interruption, what it is repaired with behind it. What is taken back 
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.verbs import FIRST_WORDS, base_form
 
 _ARTICLES = lexicon.words("the a an my your our")
 _INTERRUPTS = lexicon.words("no sorry wait pardon forget scratch scrap oops i hang hold actually")
@@ -31,16 +32,39 @@ _PREPOSITIONS = frozenset(
     for phrase in table
 )  # fmt: skip
 _SAYS = lexicon.words("say tell announce shout whisper repeat sing")
+_BEGINS = lexicon.words("so and just then well okay ok um like .")
+_STATES = lexicon.words("is are was were left put forgot")
+_BEFORE_SIDES = lexicon.words("the to on at your my of far all a")
+"""Before "right" these make it a side."""
+_FAR = 8
 _LONGEST_ECHO = 4
 _STUTTERS = (3, 2)
 
 
 def fluent(tokens: list[Token]) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
-    kept = list(tokens)
+    kept = _without_particles(tokens)
     for at in range(len(kept) - 2, -1, -1):
         if at < len(kept) - 2 and kept[at].text in _ARTICLES and kept[at + 1].text == COMMA:
             kept = _resumed(kept, at)
+    return kept
+
+
+def _without_particles(tokens: list[Token]) -> list[Token]:
+    """So *like* the cup is on the table, *right*, take it: words that only keep talk going."""
+    words = [token.text for token in tokens]
+    kept: list[Token] = []
+    for at, token in enumerate(tokens):
+        before = words[at - 1] if at else FULL_STOP
+        after = words[at + 1] if at + 1 < len(words) else FULL_STOP
+        goes_on = after in lexicon.DETERMINERS or base_form(after) in FIRST_WORDS
+        begun = words[max(0, at - _FAR) : at]
+        told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES
+        if token.text == "like" and before in _BEGINS and goes_on:
+            continue
+        if token.text == "right" and after == COMMA and told:
+            continue
+        kept.append(token)
     return kept
 
 
