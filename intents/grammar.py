@@ -31,11 +31,14 @@ from intents.english.words.text import Text
 from intents.goals import (
     Answer,
     Bring,
+    Count,
+    Find,
     Give,
     Goal,
     GoTo,
     Greet,
     If,
+    LookAt,
     Pause,
     Pick,
     Place,
@@ -48,6 +51,8 @@ from intents.goals import (
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
 )
+_LOOKING = (Find, Count, Tell, LookAt, If)
+"""Goals that leave things as they are."""
 _DANGLING = lexicon.words("to into onto from with towards the a an of")
 """Words that no command ends with."""
 
@@ -173,7 +178,8 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
     """
     if sentence.notes.forbidden and not goals:
         raise NotUnderstood("All right, I shall not")
-    known = " ".join(strings(goals))
+    handled = [goal for goal in each(goals) if not isinstance(goal, _LOOKING)]
+    known = " ".join(strings(handled))
     for said, names, away in sentence.notes.forbidden:
         kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
         if kept:

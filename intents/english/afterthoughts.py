@@ -20,7 +20,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
+from intents.goals import Answer, Condition, Find, ForEach, Goal, If, ObjectQuery, Present, Repeat
 
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -135,6 +135,27 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         end += 1
     if text.word(at) != "before":
         raise Partly(f"I cannot tell when that is, “{text.raw(at, end)}”", tuple(sentence.before))
+    sentence.notes.passed.append((at, end))
+    return last, end
+
+
+_ALL_OF_THEM = lexicon.phrases(
+    "both of them,all of them,both,the two of them,every one of them,each of them,the lot,"
+    "all of those,both of those,every last one,every single one,all three of them,the whole lot"
+)
+
+
+def all_of_them(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Bring the cups here, *both of them*: of several it says no more."""
+    text = sentence.text
+    end = text.phrase_end(_ALL_OF_THEM, at)
+    closed = end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
+    several = any(
+        isinstance(goal, ForEach) or getattr(getattr(goal, "object", None), "count", None)
+        for goal in last
+    )
+    if end is None or not (closed and several):
+        return None
     sentence.notes.passed.append((at, end))
     return last, end
 

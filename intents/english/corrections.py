@@ -165,15 +165,17 @@ def _reason_end(text: Text, phrase: NounPhrase) -> int | None:
 def _past_denied(text: Text, at: int, last: list[Goal], scope: Scope) -> int | None:
     """*Not Tom*, Bob asked for it: what was asked for is denied, and what is meant follows."""
     phrase = noun_phrase(text, at + 1) if text.word(at) == "not" else None
-    if phrase is None or text.word(phrase.end) not in (COMMA, "but") or not phrase.names:
-        return None
-    said = set(strings(last))
-    if not any(name.name.lower() in said for name in phrase.names):
+    if phrase is None or text.word(phrase.end) not in (COMMA, "but"):
         return None
     after = phrase.end + 1 + (text.word(phrase.end + 1) == "but")
     meant = noun_phrase(text, after) or _spot_after_preposition(text, after)
-    alike = meant is not None and {n.kind for n in meant.names} & {n.kind for n in phrase.names}
-    if not alike:
+    if meant is None:
+        return None
+    if phrase.noun == meant.noun == "one":  # not a small one, the largest one
+        return after
+    said = set(strings(last))
+    known = any(name.name.lower() in said for name in phrase.names)
+    if not (known and {n.kind for n in meant.names} & {n.kind for n in phrase.names}):
         return None
     if phrase.is_person:
         scope.mention(to_person(phrase, scope))

@@ -114,18 +114,19 @@ def as_wished(goal: Goal, wish: Goal) -> Goal:
 
 
 def or_else(before: list[Goal], goal: Goal) -> Goal:
-    """Bring a pear or, *if there is none*, a plum: one or the other, and not both."""
+    """Bring a pear (or), *if there is none*, a plum: one or the other, and not both."""
     last = before[-1] if before else None
     if not isinstance(goal, If) or not isinstance(last, Bring | Find | Give | Pick | Place):
         return goal
     holds = goal.condition
-    if not isinstance(holds, Present) or not holds.negated or holds.object != last.object:
+    if not isinstance(holds, Present) or not holds.negated or holds.object is None:
+        return goal
+    if last.object is None or holds.object not in (last.object, _bare(last.object)):
         return goal
     before.pop()
-    sought = last.object and replace(last.object, count=None)
+    sought = replace(last.object, count=None)
     there = replace(holds, object=sought, negated=False)
-    then = last if sought is None else replace(last, object=sought)
-    return If(condition=there, then=(then,), else_=goal.then)
+    return If(condition=there, then=(replace(last, object=sought),), else_=goal.then)
 
 
 _HOLDS = ("hold", "stay", "keep", "remain")

@@ -53,6 +53,7 @@ RULES = Rules(
         repetition.so_many_times,
         repetition.again,
         time_clauses.one_before_the_other,
+        time_clauses.not_until,
         # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
@@ -94,6 +95,7 @@ RULES = Rules(
         verb.verb,
         # What goes on from what was said before. After "and" a gap is likelier than a fronted
         # phrase: "find Emil at the sofa and Ada in the hall. Greet her" finds both.
+        ellipsis.served,
         ellipsis.likewise,
         ellipsis.follow_up,
         ellipsis.gapped_after_and,
@@ -107,6 +109,7 @@ RULES = Rules(
         remarks.told_of,
         # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
         # the table") is read above.
+        asides.released,
         asides.warned,
         asides.forbidden,
         asides.told,
@@ -118,6 +121,7 @@ RULES = Rules(
         correction,
         afterthoughts.left_undone,
         exclusions.excluded,
+        afterthoughts.all_of_them,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,

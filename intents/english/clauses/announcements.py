@@ -46,7 +46,7 @@ _ABOUT = lexicon.words("with that it this those all of them about around the fir
 def announced_end(text: Text, at: int) -> int | None:
     """Where an announcement ends that begins at a word."""
     end = text.phrase_end(_ANNOUNCED, at)
-    if end is not None and text.word(end) in _SIGNS:
+    if end is not None and (text.word(end) in _SIGNS or _commands(text, end)):
         return end
     return _list_end(text, at) or _done_end(text, at)
 
@@ -91,5 +91,8 @@ def _done_end(text: Text, at: int) -> int | None:
         end += 1
     while text.word(end) in _ABOUT:
         end += 1
-    commands = bool(verbs_at(text.words, end)) or text.word(end) in ("you", "please")
-    return end if text.word(end) in _SIGNS or commands else None
+    return end if text.word(end) in _SIGNS or _commands(text, end) else None
+
+
+def _commands(text: Text, at: int) -> bool:
+    return bool(verbs_at(text.words, at)) or text.word(at) in ("you", "please")

@@ -10,7 +10,19 @@ from intents.english.trouble import NotUnderstood
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import LOCATIVES, phrases
 from intents.english.words.text import Text
-from intents.goals import Condition, Find, Holding, ObjectQuery, Person, Present, State
+from intents.goals import (
+    Bring,
+    Condition,
+    Find,
+    Give,
+    Holding,
+    ObjectQuery,
+    Person,
+    Pick,
+    Place,
+    Present,
+    State,
+)
 
 IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
 """How a condition begins."""
@@ -86,7 +98,8 @@ def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     word = text.word(at)
     none = text.phrase_end(_NONE, at)
     if none and (scope.object or scope.person):
-        there = scope.object if scope.object and not scope.person_is_last else None
+        sought = isinstance(scope.last, Bring | Give | Pick | Place) and word == "there"
+        there = scope.object if sought or not scope.person_is_last else None
         person = None if there else scope.person
         return Present(object=there, person=person, negated=True), none
     if word == "there" and text.word(at + 1) in ("is", "are", "be"):

@@ -69,6 +69,10 @@ def _opening_end(text: Text, at: int) -> int | None:
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
     if text.word(at) == "mind" and not verbs_at(text.words, end):
         return None  # mind the step
+    if text.words[at : at + 2] in (["no", "need"], ["you", "need"]) and "not" in text.words[at : at + 3] + [
+        "not" if text.word(at) == "no" else ""
+    ]:
+        return None  # no need to come; you need not come
     if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
         return None  # no milk for Emil
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")

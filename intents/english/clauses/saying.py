@@ -33,7 +33,7 @@ def content_end(text: Text, at: int) -> int:
     while end < len(text) and text.word(end) != FULL_STOP:
         aside = text.word(end) in ("she", "he", "they") and text.word(end + 1) in ("is", "are")
         if aside and end > at + 1 and text.word(end - 1) not in lexicon.WH:
-            return end
+            return end - (text.word(end - 1) == COMMA)
         after = connector_end(text, end) if text.word(end) != COMMA else end + 1
         if after and text.word(end) == COMMA:
             after = connector_end(text, after) or after

@@ -5,6 +5,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase, is_content
 from intents.english.phrases.premodifiers import read_adjectives, read_quantity
 from intents.english.phrases.pronouns import free_relative, pronoun
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.properties import property_of
 from intents.english.words.text import Text
 
@@ -84,11 +85,18 @@ def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """A phrase without a noun: "the blue", "the largest", "all of them", "two"."""
     if text.word(at) == "of" and not phrase.superlative:
         return at if phrase.count else None
+    if phrase.determiner in ("some", "any") and at == phrase.start + 1 and _ends(text, at):
+        phrase.noun, phrase.said = "pronoun", "it"  # if there is milk, bring me some
+        return at
     told_apart = phrase.color or phrase.size or phrase.superlative or phrase.level or phrase.other
     if phrase.determiner and told_apart:
         phrase.noun, phrase.said = "one", "one"
         return at
     return None
+
+
+def _ends(text: Text, at: int) -> bool:
+    return at >= len(text) or text.word(at) in (COMMA, FULL_STOP, "and", "from", "then")
 
 
 def _owned(text: Text, phrase: NounPhrase) -> NounPhrase | None:

@@ -17,6 +17,7 @@ from intents.goals import (
     Find,
     Give,
     Goal,
+    GoTo,
     LookAt,
     ObjectQuery,
     Open,
@@ -88,7 +89,9 @@ class Scope:
         if isinstance(goal, Find | LookAt) and goal.object and goal.object.name:
             kinds = {n.kind for n in self.index.exact(goal.object.name)}
             self.mention(goal.object.name if kinds and kinds <= {"place", "room"} else None)
-        self.last = goal
+        returns = isinstance(goal, GoTo) and goal.place == OPERATOR
+        if not (returns and isinstance(self.last, Count | Tell)):
+            self.last = goal  # count them, come back and tell me the number
         for nested in ("goals", "then", "else_"):
             for inner in cast("tuple[Goal, ...]", getattr(goal, nested, ())):
                 self.mention_goal(inner)

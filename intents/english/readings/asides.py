@@ -30,6 +30,13 @@ _FORBIDS = lexicon.phrases(
     "do not you,do not ever,pay no attention to,take no notice of,pay no heed to,never mind about,"
     "leave alone,under no circumstances,on no account,in no case"
 )
+_RELEASES = lexicon.phrases(
+    "need not,you need not,do not need to,you do not need to,do not have to,you do not have to,"
+    "there is no need to,there is no need for you to,no need to,no need for you to,"
+    "it is not necessary to,not necessary to,do not bother to,do not bother with,i do not need you to,"
+    "it does not need to,you can skip,do not trouble to"
+)
+"""What takes an obligation away."""
 _KEEPS_AWAY = lexicon.phrases(
     "keep away from,stay away from,keep off,stay off,keep out of,stay out of,stay clear of,"
     "keep clear of,steer clear of,keep your distance from,keep your hands off,stay outside,"
@@ -68,6 +75,17 @@ def warned(sentence: Sentence, at: int) -> Found | None:
     return None if start is None else ([], _clause_end(text, start, links=True))
 
 
+def released(sentence: Sentence, at: int) -> Found | None:
+    """You need not come back; no need to bring it: not asked for, and not forbidden either."""
+    text = sentence.text
+    start = text.phrase_end(_RELEASES, at)
+    if sentence.depth or start is None or start >= len(text):
+        return None
+    end = _clause_end(text, start, links=False)
+    _mention(sentence, start, end)
+    return [], end
+
+
 def forbidden(sentence: Sentence, at: int) -> Found | None:
     """Don't touch my phone; keep away from the stove; no juice for Leo."""
     text = sentence.text
@@ -81,7 +99,7 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
     said = text.words[at:end]
     if end == start or (text.word(at) == "no" and not is_content(text, start)):
         return None
-    _mention(sentence, start, end)
+    _mention(sentence, start, end, described=True)
     if not _SAFE.intersection(said):
         names = _names(text, start, end)
         sentence.notes.forbidden.append(Forbidden(text.raw(at, end), names, away is not None))

@@ -7,7 +7,7 @@ from intents.english.frames.devices import device_names
 from intents.english.phrases.complements import Complement, ends_clause, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
-from intents.english.phrases.referents import Scope, is_person, to_object, to_person
+from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.english.words.verbs import verbs_at
@@ -27,6 +27,7 @@ from intents.goals import (
     LookAt,
     Meet,
     Open,
+    Person,
     Pick,
     Place,
     Switch,
@@ -34,8 +35,22 @@ from intents.goals import (
 )
 
 _TOO = lexicon.phrases("too,also,as well,likewise")
+_SERVES = lexicon.phrases(
+    "will do,would do,will do me,will do fine,will do me fine,will do nicely,will do just fine,"
+    "will do me nicely,is fine,is okay,is good,is good enough,will be fine,would be fine,"
+    "is fine too,will do too,does it,will have to do,is fine by me,is fine with me,works,works too,"
+    "will serve,is also fine,would also do,is all right,will be all right,would be okay"
+)
+"""How it is said that another thing is as good."""
 _MORE = lexicon.phrases("more,some more,further,again more")
-_A_BIT_MORE = lexicon.phrases(
+_A_BIT_SERVES = lexicon.phrases(
+    "will do,would do,will do me,will do fine,will do me fine,will do nicely,will do just fine,"
+    "will do me nicely,is fine,is okay,is good,is good enough,will be fine,would be fine,"
+    "is fine too,will do too,does it,will have to do,is fine by me,is fine with me,works,works too,"
+    "will serve,is also fine,would also do,is all right,will be all right,would be okay"
+)
+"""How it is said that another thing is as good."""
+_MORE = lexicon.phrases(
     "a bit more,a little more,a bit further,a little further,a bit farther,a little farther,"
     "a touch more,a tad more,slightly more,slightly further,a little bit more,a bit longer,"
     "a little longer,just a bit more,just a little more"
@@ -58,6 +73,20 @@ def likewise(sentence: Sentence, at: int) -> Found | None:
     if phrase is None or end is None or not before or not ends_clause(text, end):
         return None
     found = _with_another(_inner(before[-1]), phrase, sentence.scope)
+    return (found, end) if found else None
+
+
+def served(sentence: Sentence, at: int) -> Found | None:
+    """If there is none, *the bread will do*: the same with another."""
+    text, last = sentence.text, sentence.scope.last
+    at += text.word(at) in ("just", "then", "only")
+    phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
+    end = text.phrase_end(_SERVES, phrase.end) if phrase else None
+    if phrase is None or end is None or last is None or not phrase.name("object", "category"):
+        return None
+    if not (sentence.depth and ends_clause(text, end)):
+        return None
+    found = _with_another(_inner(last), phrase, sentence.scope)
     return (found, end) if found else None
 
 
@@ -142,7 +171,18 @@ def gapped(sentence: Sentence, at: int) -> Found | None:
     if not told or not goes_on(sentence.text, end):
         return None
     kept = [(s, said.first) for s in said.senses if s not in SPEECH and s != "count"]
-    return first_that_fits(sentence, kept, said.at, list(sentence.notes.particles), resumed=at)
+    found = first_that_fits(sentence, kept, said.at, list(sentence.notes.particles), resumed=at)
+    me = any(p.noun in ("operator", "here") for c in complements for p in c.phrases)
+    return found if found is None or me else (_to_the_same(sentence, found[0]), found[1])
+
+
+def _to_the_same(sentence: Sentence, goals: list[Goal]) -> list[Goal]:
+    """Bring Ada the cup, then *the bottle*: to her as well."""
+    last = sentence.scope.last
+    if not isinstance(last, Bring | Give) or not isinstance(last.to, Person):
+        return goals
+    to = last.to
+    return [replace(g, to=to) if isinstance(g, Bring) and g.to == ME else g for g in goals]
 
 
 def _has_direction(goal: Goal) -> bool:

@@ -7,7 +7,7 @@ from intents.english.phrases.complements import Complement, ends_clause, read_co
 from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.words import lexicon
-from intents.english.words.lexer import COMMA
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.english.words.verbs import verbs_at
 from intents.goals import GoTo, Wait
@@ -24,6 +24,7 @@ _ARRIVED = lexicon.phrases(
     "after you get to,after you reach"
 )
 _GIVE_IT = lexicon.phrases("give it,take,give me")
+_NOT = lexicon.phrases("do not,do not you,never,you do not,you must not,must not")
 _IN_A_WHILE = lexicon.words("in after")
 
 
@@ -38,6 +39,24 @@ def one_before_the_other(sentence: Sentence, at: int) -> Found | None:
         sentence.scope.mention_goal(goal)
     other, end = clause_by_itself(sentence, skip_openings(text, end))
     return ([*other, *one] if word == "before" else [*one, *other]), end
+
+
+def not_until(sentence: Sentence, at: int) -> Found | None:
+    """Do not go there *until you have* closed the door: the other one first."""
+    text = sentence.text
+    start = text.phrase_end(_NOT, at)
+    if start is None or not verbs_at(text.words, start):
+        return None
+    link = start
+    while not (link >= len(text) or text.word(link) in ("until", "before", FULL_STOP)):
+        link += 1
+    if text.word(link + 1) != "you" or not verbs_at(text.words, link + 2):
+        return None
+    later, end = clause_by_itself(sentence, start)
+    if end not in (link, link - 1):
+        return None
+    first, end = clause_by_itself(sentence, link + 2)
+    return [*first, *later], end
 
 
 def until_told(sentence: Sentence, at: int) -> Found | None:

@@ -74,11 +74,12 @@ _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
     "very please do think there is any chance that of me trouble bother ask it us we bothering "
-    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do"
+    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do "
+    "should shall obliged indebted delighted much most"
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
-    "appreciate grateful perhaps happen hoping hope possible might maybe"
+    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted delighted"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
@@ -93,6 +94,7 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
     begins = not kept or kept[-1] in (*_SIGNS, "and", "so", "well", "then")
     return (
         _gracious(words, at)
+        or _with_cherries(words, at)
         or (_hedge(words, at) if begins else None)
         or (_prelude(words, at) if begins else None)
         or _tag(words, at, kept)
@@ -134,6 +136,19 @@ def _hedge(words: list[str], at: int) -> int | None:
     said = words[at:end]
     hedged = _HEDGED.intersection(said) and "you" in said and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
+
+
+def _with_cherries(words: list[str], at: int) -> int | None:
+    """Pretty please *with sugar on top and a cherry*."""
+    if words[at] != "with" or "please" not in words[max(0, at - 4) : at]:
+        return None
+    top = next((n for n in range(at + 2, min(len(words), at + 6)) if words[n] in ("top", "it")), 0)
+    if not top or words[top - 1] != "on":
+        return None
+    end = top + 1
+    while _word(words, end) not in _SIGNS and words[end] not in FIRST_WORDS and end < top + 6:
+        end += 1
+    return end
 
 
 def _prelude(words: list[str], at: int) -> int | None:

@@ -33,6 +33,11 @@ _PREPOSITIONS = frozenset(
 )  # fmt: skip
 _SAYS = lexicon.words("say tell announce shout whisper repeat sing")
 _BEGINS = lexicon.words("so and just then well okay ok um like .")
+_STRESSES = lexicon.words("really very absolutely truly absolute ve")
+_RANKED = (
+    frozenset(phrase[0] for phrase in lexicon.SUPERLATIVES) | frozenset(lexicon.SIZES) | _STRESSES
+)
+"""The *really* biggest one."""
 _STATES = lexicon.words("is are was were left put forgot")
 _BEFORE_SIDES = lexicon.words("the to on at your my of far all a")
 """Before "right" these make it a side."""
@@ -63,6 +68,12 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         if token.text == "like" and before in _BEGINS and goes_on:
             continue
         if token.text == "right" and after == COMMA and told:
+            continue
+        if token.text in _STRESSES and before in _ARTICLES | _STRESSES and after in _RANKED:
+            continue
+        if words[at : at + 2] == ["at", "all"] and before in ("nothing", "anything", "there"):
+            continue
+        if words[at - 1 : at + 1] == ["at", "all"] and words[at - 2] in ("nothing", "anything"):
             continue
         kept.append(token)
     return kept

@@ -67,7 +67,7 @@ _WHOLE = {
     "goto": ("go", "to"), "won't": ("will", "not"), "can't": ("can", "not"),
     "cannot": ("can", "not"), "i'm": ("i", "am"), "whats": ("what", "is"),
     "wheres": ("where", "is"), "whos": ("who", "is"), "theres": ("there", "is"),
-    "ya": ("you",), "yer": ("your",), "dont": ("do", "not"), "gimme": ("give", "me"),
+    "ya": ("you",), "em": ("them",), "needn't": ("need", "not"), "yer": ("your",), "dont": ("do", "not"), "gimme": ("give", "me"),
     "lemme": ("let", "me"), "wanna": ("want", "to"), "gonna": ("going", "to"),
     "gotta": ("have", "to"), "u": ("you",), "pls": ("please",), "plz": ("please",),
     "isn't": ("is", "not"), "ok": ("okay",), "til": ("until",), "teh": ("the",),

@@ -214,6 +214,7 @@ FILLERS = phrases(
     "wherever i go,everywhere she goes,everywhere he goes,everywhere i go,see if you can,"
     "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
     "while you are here,while you are out,while you are passing,after all,"
+    "on your way back,on the way back,on your way out,on your way past,on your way there,"
     "as fast as you can,as quick as you can,as quickly as you can,"
     "as fast as possible,as quickly as possible,quick as you can"
 ) | {(",", "like", ",")}
@@ -341,6 +342,7 @@ SYNONYMS = tuple(
         "nightstand,bedside table,night stand",
         "office,study",
         "coke,coca cola,cola,coca",
+        "orange juice,oj",
         "crisps,chips,potato chips",
         "mug,coffee mug",
         "desk,writing desk",
