@@ -86,12 +86,12 @@ def read(text: Text, scope: Scope, history: tuple[Goal, ...] = ()) -> Understood
     theirs = said_to_others(text)
     remarks = [f"I take “{_quoted(text, span)}” as said to {who}" for span, who in theirs]
     text = text.without([span for span, _ in theirs]) if theirs else text
-    spans = parentheses(text)
     begun = copy(scope)
     try:
         return _remarked(_read(text, scope, history), remarks)
     except ReadingError as error:
         _restore(scope, begun)
+        spans = parentheses(text)
         if not spans:
             raise
         asides = listing([f"“{_quoted(text, span)}”" for span in spans], "and")

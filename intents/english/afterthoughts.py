@@ -7,7 +7,12 @@
 from msgspec.structs import replace
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
-from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
+from intents.english.clauses.openings import (
+    begins_clause,
+    nothing_end,
+    otherwise_end,
+    skip_openings,
+)
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.noun_phrases import tells_when
@@ -57,7 +62,8 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
             mention(
                 holds, sentence.scope, met=False
             )  # go out if the cup is not there, otherwise fetch it
-        other, end = sequence(sentence.inner(), otherwise)
+        nothing = nothing_end(text, otherwise)
+        other, end = ([], nothing) if nothing else sequence(sentence.inner(), otherwise)
         return [If(condition=holds, then=tuple(last), else_=tuple(other))], end
     if end < len(text) and text.word(end) != FULL_STOP:
         return None

@@ -18,6 +18,11 @@ _IF_NOT = lexicon.phrases(
     "if they are not there,if you do not,if you can not"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
+_NOTHING = lexicon.phrases(
+    "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,leave it be,"
+    "leave them,never mind,forget it,forget about it,leave it there,leave it where it is,"
+    "leave everything as it is,let it be,nothing at all,do nothing at all,do not worry"
+)
 _URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
@@ -55,6 +60,12 @@ def otherwise_end(text: Text, at: int) -> int | None:
     if asked and text.word(asked) == COMMA:
         return asked
     return text.phrase_end(lexicon.ELSE, at)
+
+
+def nothing_end(text: Text, at: int) -> int | None:
+    """Where "nothing" ends that is to be done otherwise, if no more is said."""
+    end = text.phrase_end(_NOTHING, skip_openings(text, at))
+    return end if end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)) else None
 
 
 def _opening_end(text: Text, at: int) -> int | None:

@@ -81,6 +81,7 @@ _IDIOMS = lexicon.phrases(
     "on the other hand,that said,having said that,be that as it may,god willing,with any luck,"
     "with a bit of luck,in all honesty,in fairness,at long last,at last,so be it,what else,"
     "no more no less,nothing more nothing less,that is a promise,i promise,i promise you,"
+    "with a cherry on top,with a cherry on the cake,with knobs on,with bells on,with sugar on top,"
     "no ifs no buts,no questions asked,at my age,in this weather,in this house,at your age"
 )
 """Comments whose words say something else where they stand by themselves."""
@@ -100,7 +101,7 @@ _CHANGES = (
         for table in (lexicon.LOCATIVES, lexicon.GOALWARDS, lexicon.SOURCEWARDS)
         for phrase in table
     )
-) - lexicon.words("good")  # fmt: skip
+) - lexicon.BODY_NOUNS - lexicon.words("good")  # fmt: skip
 """With one of these in it a segment may change what is asked."""
 _LINKS = lexicon.words("and so but well oh now")
 _SWIFT = lexicon.words("quick fast swift speedy sharp quickly")
@@ -124,11 +125,11 @@ def said_to_others(text: Text) -> list[tuple[Span, str]]:
     """
     found: list[tuple[Span, str]] = []
     for at in range(len(text)):
-        begins = at and text.word(at - 1) in _SIGNS
+        begins = text.word(at - 1) in _SIGNS if at else _spoken_to(text)
         end = _called(text, at) if begins else None
         if end is None or text.word(end) != COMMA:
             continue
-        within = text.tokens[at - 1].raw in DASHES
+        within = at > 0 and text.tokens[at - 1].raw in DASHES
         close = _dash_after(text, end) if within else None
         known = text.name_at(at) is not None
         if close is None and (text.word(at - 1) != FULL_STOP or not known):
@@ -138,6 +139,13 @@ def said_to_others(text: Text) -> list[tuple[Span, str]]:
             continue
         found.append(((at, stop), text.raw(at, end)))
     return found
+
+
+def _spoken_to(text: Text) -> bool:
+    """Whether what is said first is said to somebody else: "Ada, shoes! *And you*, bring me ..."."""
+    stop = _next_stop(text, 0)
+    after = stop + 1 + (text.word(stop + 1) == "and")
+    return stop < len(text) and text.word(after) == "you" and not verbs_at(text.words, after + 1)
 
 
 def _called(text: Text, at: int) -> int | None:
@@ -197,12 +205,12 @@ def _is_idle(text: Text, start: int, end: int) -> bool:
         return True
     if any(text.name_at(n) or text.index.partial(text.word(n)) for n in range(start, end)):
         return False
-    forms = (_is_epithet, _is_thing_again, _is_swift)
+    forms = (_is_epithet, _is_thing_again, _is_swift, _is_address)
     if any(form(text, start, end) for form in forms):
         return True
     if any(_may_change(text.word(n)) for n in range(start, end)) or _orders(text, start, end):
         return False
-    forms = (_is_exclaimed, _is_wished, _is_comment, _is_taken_up, _is_address)
+    forms = (_is_exclaimed, _is_wished, _is_comment, _is_taken_up)
     return any(form(text, start, end) for form in forms)
 
 
@@ -273,8 +281,16 @@ def _is_taken_up(text: Text, start: int, end: int) -> bool:
 
 def _is_address(text: Text, start: int, end: int) -> bool:
     """My tin friend; you rusty old rascal."""
-    called = text.word(end - 1) in ADDRESSES and end - start < _EPITHET
-    return called and text.word(start) in ("you", "my", "dear", "good", "old")
+    called = text.word(end - 1) in ADDRESSES and end - start <= _EPITHET
+    mine = text.word(start) in ("you", "my", "dear", "good", "old")
+    return called and mine and _only_evaluates(text, start, end)
+
+
+def _only_evaluates(text: Text, start: int, end: int) -> bool:
+    """Whether words say no more than what somebody thinks of somebody or something."""
+    harmless = lexicon.EMPTY_ADJECTIVES | _EVALUATES | lexicon.DETERMINERS | set(lexicon.SIZES)
+    said = [word for word in text.words[start:end] if word not in harmless]
+    return not any(map(_may_change, said)) and not _orders(text, start, end)
 
 
 def _is_epithet(text: Text, start: int, end: int) -> bool:
@@ -286,8 +302,7 @@ def _is_epithet(text: Text, start: int, end: int) -> bool:
     )
     if not person or end - start > _EPITHET or _orders(text, start, end):
         return False
-    harmless = lexicon.EMPTY_ADJECTIVES | _EVALUATES | frozenset(lexicon.SIZES)
-    if any(_may_change(word) and word not in harmless for word in text.words[start:end]):
+    if not _only_evaluates(text, start, end):
         return False
     determined = text.word(start) in ("the", "that", "what", "such", "my", "a", "an")
     return (determined and end - start > 1) or text.word(start) in _EVALUATES
@@ -301,11 +316,8 @@ def _is_thing_again(text: Text, start: int, end: int) -> bool:
         return False
     meant = [match for n in range(_before(text, start), start) if (match := text.name_at(n))]
     things = [name for match in meant for name in match.names if name.kind == "object"]
-    plain = text.words[start : end - 1]
-    harmless = lexicon.EMPTY_ADJECTIVES | _EVALUATES | lexicon.DETERMINERS | set(lexicon.SIZES)
-    if any(_may_change(word) and word not in harmless for word in plain):
-        return False
-    return bool(things) and not text.index.variants(things[-1].name)
+    plain = _only_evaluates(text, start, end - 1)
+    return plain and bool(things) and not text.index.variants(things[-1].name)
 
 
 def _is_swift(text: Text, start: int, end: int) -> bool:

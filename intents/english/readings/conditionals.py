@@ -1,7 +1,7 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
-from intents.english.clauses.openings import otherwise_end
+from intents.english.clauses.openings import nothing_end, otherwise_end
 from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
@@ -46,7 +46,8 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if otherwise:
         if sentence.scope.object == spoken_of:
             mention(holds, sentence.scope, met=unless)
-        other, end = sequence(sentence.inner(), otherwise)
+        nothing = nothing_end(text, otherwise)
+        other, end = ([], nothing) if nothing else sequence(sentence.inner(), otherwise)
     if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end

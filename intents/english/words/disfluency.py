@@ -105,7 +105,10 @@ def _resumed(tokens: list[Token], at: int) -> list[Token]:
     elif word not in _ARTICLES | _INTERRUPTS:
         start = at + 1  # the, um, bowl
         end = end if lost is not None or end > at + 2 else start
-    return tokens[:start] + tokens[end:]
+    rest = tokens[end:]
+    if lost is not None and words[-2:] == ["i", "mean"]:
+        del rest[-2:]
+    return tokens[:start] + rest
 
 
 def _echo_end(tokens: list[Token], at: int) -> int | None:
