@@ -25,7 +25,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import Answer, Condition, Find, ForEach, Goal, If, ObjectQuery, Present, Repeat
+from intents.goals import Answer, Bring, Condition, Find, ForEach, Goal, If, ObjectQuery, Pick, Place, Present, Repeat
 
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -115,7 +115,10 @@ _AFTER = dict.fromkeys(
     True,
 )
 """Links between two clauses of which the second is done first."""
-_BEFORE_THAT = lexicon.phrases("before that,before this,before you do,before you do that,beforehand")
+_BEFORE_THAT = lexicon.phrases(
+    "before that,before this,before you do,before you do that,beforehand,before anything else,"
+    "before you do anything else,before doing anything else,before all else"
+)
 
 
 def _earlier(text: Text, at: int) -> int | None:
@@ -160,10 +163,17 @@ def all_of_them(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         isinstance(goal, ForEach) or getattr(getattr(goal, "object", None), "count", None)
         for goal in last
     )
-    if end is None or not (closed and several):
+    if end is None or not closed:
         return None
     sentence.notes.passed.append((at, end))
-    return last, end
+    return (last if several else [_of_all(goal) for goal in last]), end
+
+
+def _of_all(goal: Goal) -> Goal:
+    query = getattr(goal, "object", None)
+    if not isinstance(goal, Bring | Pick | Place) or not isinstance(query, ObjectQuery):
+        return goal
+    return replace(goal, object=replace(query, count="all"))
 
 
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

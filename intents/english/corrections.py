@@ -55,15 +55,28 @@ def _marker_end(text: Text, at: int) -> int | None:
         while text.word(following) in _LEADING and following < len(text):
             following += 1 + (text.word(following + 1) == COMMA)
         further = _marker(text, following)
-        told = None if further or following == end else told_end(text, following)
+        apart = following > end or text.word(end) == FULL_STOP
+        following += text.word(following) == FULL_STOP
+        told = _told_end(text, following) if apart and not further else None
         if told is not None and text.word(told) == COMMA and _marker(text, told + 1):
             further = told + 1
+        elif told is not None and text.word(at) == "no" and verbs_at(text.words, told + 1):
+            return told + 1  # no hang on, it is Ada who wants it, bring it to Ada
         if further is None:
             break
         end = further
     while text.word(end) in (COMMA, *_OPENINGS):
         end += 1
     return end if end < len(text) else None
+
+
+def _told_end(text: Text, at: int) -> int | None:
+    """Where a statement ends, or a question one asks oneself: "what do I need a hammer for"."""
+    if text.word(at) in ("what", "why", "how") and "i" in text.words[at + 1 : at + 4]:
+        while at < len(text) and text.word(at) not in (COMMA, FULL_STOP):
+            at += 1
+        return at
+    return told_end(text, at)
 
 
 def _marker(text: Text, at: int) -> int | None:
@@ -122,6 +135,7 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         sentence.notes.passed.append((end, undone))
         return [], undone
     if verbs_at(text.words, end):
+        scope.person_is_last = False  # "them" is what was to be fetched, not for whom
         return clause_by_itself(sentence, end)
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
     if phrase is None:

@@ -12,7 +12,22 @@ from intents.english.trouble import Misfit, NotUnderstood, Partly
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
-from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
+from intents.goals import (
+    Bring,
+    Cancel,
+    Close,
+    Find,
+    Give,
+    Goal,
+    Open,
+    Pause,
+    Pick,
+    Place,
+    Resume,
+    Stop,
+    Switch,
+    each,
+)
 
 _NAMED_HAND = re.compile(
     r"\b(with|using|use|in) (of |your |the )*(left|right|both|two|one) (of )?(your |the )?"
@@ -132,7 +147,16 @@ def _ends_inner(text: Text, at: int) -> bool:
 
 def _once(goals: list[Goal]) -> bool:
     """Whether goals say no more when they are said twice: never mind, forget it."""
-    return all(isinstance(goal, Cancel | Stop | Pause | Resume | Place) for goal in goals)
+    return all(
+        isinstance(goal, Cancel | Stop | Pause | Resume | Place | Open | Close | Switch)
+        or (isinstance(goal, Bring | Give | Pick | Find) and _is_that_one(goal))
+        for goal in goals
+    )
+
+
+def _is_that_one(goal: Bring | Give | Pick | Find) -> bool:
+    """Whether it is of one thing in particular, which cannot be fetched twice."""
+    return goal.object is not None and goal.object.count is None
 
 
 def _names_hand(said: str, goals: list[Goal]) -> bool:

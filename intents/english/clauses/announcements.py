@@ -15,7 +15,9 @@ _SHOWS = lexicon.phrases(
     "here is,here are,this is,these are,that is,there is,there are,i have,i have got,we have,"
     "we have got,i need,i want,do,you do,you have,you have got,now"
 )
-_SOME = lexicon.phrases("a few,some,several,a couple of,the following,another,just,only,these,this")
+_SOME = lexicon.phrases(
+    "a few,some,several,a couple of,the following,another,just,only,these,this,the,a,an,my,one"
+)
 _LIKE_WHAT = lexicon.words("more quick small little simple easy last other further tiny short")
 _THINGS = lexicon.words(
     "thing things job jobs task tasks errand errands favour favours favor favors chore chores "
@@ -30,8 +32,16 @@ _FOR_YOU = lexicon.words(
 _WHAT = lexicon.phrases("here is what,this is what,that is what,what you do is,what you do is this")
 _ANNOUNCED = lexicon.phrases(
     "do this,do the following,do as follows,the following,as follows,in this order,in that order,"
-    "only then,not before that,not before,no sooner,not sooner,not earlier,no earlier,not until then"
+    "only then,not before that,not before,no sooner,not sooner,not earlier,no earlier,"
+    "not until then,not a second earlier,not a moment earlier,not a minute earlier,"
+    "not a second sooner,not a moment sooner,not a minute sooner,not a second before,"
+    "not a moment before,first things first,to begin with,to start with,for a start,for starters"
 )
+_THEN = lexicon.phrases("only then,not until then,not before that,only after that")
+_FIRST_OF_ALL = lexicon.phrases(
+    "before anything else,before you do anything else,before doing anything else,before all else"
+)
+"""At the beginning these say no more than "first"; later they turn the order round."""
 _WHEN = lexicon.phrases(
     "once,when,after,as soon as,only once,only when,only after,only as soon as,whenever"
 )
@@ -46,8 +56,14 @@ _ABOUT = lexicon.words("with that it this those all of them about around the fir
 def announced_end(text: Text, at: int) -> int | None:
     """Where an announcement ends that begins at a word."""
     end = text.phrase_end(_ANNOUNCED, at)
-    if end is not None and (text.word(end) in _SIGNS or _commands(text, end)):
+    if end is not None and text.word(end) in _SIGNS:
         return end
+    then = text.phrase_end(_THEN, at)
+    if then is not None and _commands(text, then):
+        return then
+    first = text.phrase_end(_FIRST_OF_ALL, at)
+    if first is not None and not any(word[0].isalnum() for word in text.words[:at]):
+        return first
     return _list_end(text, at) or _done_end(text, at)
 
 
@@ -57,14 +73,11 @@ def _list_end(text: Text, at: int) -> int | None:
     if what is not None:
         return _sign_after(text, what)
     n = text.phrase_end(_SHOWS, at) or at
-    begin = n
-    counted = number(text.words, n)
-    n = counted.end if counted else text.phrase_end(_SOME, n) or n
-    n += text.word(n) == "the"
+    while counted := text.phrase_end(_SOME, n) or getattr(number(text.words, n), "end", None):
+        n = counted
     while text.word(n) in _LIKE_WHAT:
         n += 1
-    told = n > begin or begin > at
-    if not told or text.word(n) not in _THINGS or text.name_at(n):
+    if n == at or text.word(n) not in _THINGS or text.name_at(n):
         return None
     return _sign_after(text, n + 1)
 

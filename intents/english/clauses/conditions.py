@@ -32,7 +32,10 @@ _EMPTY_HANDED = phrases(
     "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"
     "you carry nothing,you are carrying nothing,you are empty handed,both hands are empty"
 )
-_NONE = phrases("there is none,there are none,there is not one,there is not any,it is not there")
+_NONE = phrases(
+    "there is none left,there are none left,there is not any left,there are not any left,"
+    "there is none,there are none,there is not one,there is not any,it is not there"
+)
 _SO = phrases(
     "so,it is,they are,there is,there are,there is one,there is any,it is there,they are there,"
     "that is so,that is the case,that is true,you do,you can,he is,she is,yes"

@@ -82,6 +82,8 @@ _IDIOMS = lexicon.phrases(
     "with a bit of luck,in all honesty,in fairness,at long last,at last,so be it,what else,"
     "no more no less,nothing more nothing less,that is a promise,i promise,i promise you,"
     "with a cherry on top,with a cherry on the cake,with knobs on,with bells on,with sugar on top,"
+    "the one and only,for crying out loud,quick,quick quick,hurry,hurry up,chop chop,come on,"
+    "there there,now now,come now,and i mean it,i mean it,whatever,either way,i am serious,"
     "no ifs no buts,no questions asked,at my age,in this weather,in this house,at your age"
 )
 """Comments whose words say something else where they stand by themselves."""

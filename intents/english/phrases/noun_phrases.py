@@ -126,6 +126,8 @@ def tells_when(text: Text, at: int) -> bool:
         return True
     if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
         return False  # until he reaches the door: that is where to
+    if text.word(at + 1) in ("i", "we", "they") and text.word(at + 2)[0].isalpha():
+        return True
     subject = bare_phrase(text, at + 1)
     if subject is None or subject.end >= len(text):
         return False

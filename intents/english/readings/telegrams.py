@@ -12,7 +12,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 
-_GOALS = ("to", "into", "at")
+_GOALS = ("to", "into", "at", "for")
 _ON_OR_IN = ("on", "in", None)
 
 
@@ -33,7 +33,9 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
         where, end = _in_next_segment(text, end) or (None, end)
     if where is None and not rest:
         where = _set_apart(sentence, things, at)
-    if where is None or not (where.phrase.is_spot or _is_receiver(where)):
+    if where is None or not (where.phrase.is_spot or _is_receiver(where) or where.role == "into"):
+        return None
+    if where.role == "for" and not (text.polite or all(map(_is_some, things.phrases))):
         return None
     verb = "bring" if _is_receiver(where) else "put"
     sentence.notes.verb = SaidVerb(at, at, ("bring" if _is_receiver(where) else "put",))
@@ -47,12 +49,12 @@ def _begins(sentence: Sentence, at: int) -> bool:
 
 
 def _are_things(complement: Complement) -> bool:
-    names = [phrase.name("object", "category") for phrase in complement.phrases]
-    return bool(names) and all(names)
+    things = [p.name("object", "category") or p.noun == "object" for p in complement.phrases]
+    return bool(things) and all(things)
 
 
 def _is_receiver(complement: Complement) -> bool:
-    return complement.role == "to" and complement.phrase.is_person
+    return complement.role in ("to", "for") and complement.phrase.is_person
 
 
 def _closes(text: Text, at: int) -> bool:
@@ -67,7 +69,8 @@ def _in_next_segment(text: Text, at: int) -> tuple[Complement, int] | None:
     where = complements[0] if len(complements) == 1 and complements[0].phrases else None
     if where is None or not _closes(text, end) or where.role not in (*_GOALS, ""):
         return None
-    if len(where.phrases) > 1 or not where.phrase.name("place", "room"):
+    container = where.role == "into" and where.phrase.name("object")
+    if len(where.phrases) > 1 or not (where.phrase.name("place", "room") or container):
         return None
     if where.role == "":
         if not where.phrase.name("place"):
@@ -92,4 +95,4 @@ def _set_apart(sentence: Sentence, things: Complement, at: int) -> Complement | 
 def _is_some(phrase: NounPhrase) -> bool:
     """Whether it is no particular thing: "two bowls", "a bowl"."""
     some = isinstance(phrase.count, int) or phrase.determiner in ("a", "an", "some")
-    return some or phrase.count == "all"
+    return some or phrase.count == "all" or not phrase.determiner

@@ -61,7 +61,7 @@ _TAILS = lexicon.phrases(
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
     "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
     "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
-    "for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,yaar,"
+    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,yaar,"
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
@@ -177,7 +177,9 @@ def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
         return None
     for end in range(min(len(words), at + 6), at, -1):
         if tuple(words[at:end]) in _TAILS and _closes(words, end):
-            ambiguous = words[at:end] in (["right"], ["no"], ["all", "right"], ["that"])
+            ambiguous = words[at:end] in (
+                ["right"], ["no"], ["all", "right"], ["that"], ["whatever"]
+            )  # fmt: skip
             return end if not ambiguous or kept[-1] == COMMA else None
     end = at + 2 + (_word(words, at + 1) in ("not", "nt"))
     tagged = words[at] in _TAGS and _word(words, end - 1) in _TAGGED

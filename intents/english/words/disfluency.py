@@ -8,6 +8,8 @@ before the interruption, what it is repaired with behind it. What is taken back 
 [Shriberg1994] E. Shriberg, Preliminaries to a Theory of Speech Disfluencies, UC Berkeley, 1994.
 """
 
+import re
+
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
 from intents.english.words.verbs import FIRST_WORDS, base_form
@@ -15,6 +17,7 @@ from intents.english.words.verbs import FIRST_WORDS, base_form
 _ARTICLES = lexicon.words("the a an my your our")
 _INTERRUPTS = lexicon.words("no sorry wait pardon forget scratch scrap oops i hang hold actually")
 """What a false start breaks off before."""
+_HESITATION = re.compile(r"e+h+m+|u+h+m*|u+mm+|e+r+m+|h+m+|m+h+m+|a+h+m+|m{2,}|e+h+r+")
 _SOUNDS = lexicon.words("och oh ah er uh um eh ach well uhm hmm hm")
 _LOST = lexicon.phrases(
     "what is it called,what was it called,what is it,what was it,what is that called,"
@@ -65,6 +68,8 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         goes_on = after in lexicon.DETERMINERS or base_form(after) in FIRST_WORDS
         begun = words[max(0, at - _FAR) : at]
         told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES
+        if _HESITATION.fullmatch(token.text):
+            continue
         if token.text == "like" and before in _BEGINS and goes_on:
             continue
         if token.text == "right" and after == COMMA and told:

@@ -42,8 +42,9 @@ _PREDICATES = words(
 _RECEIVERS = words("him her me them us want wants")
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come")
+_CASES = words("on onto in into to from off under behind at")
 _POLITE = words("please please. please, please! pls plz thanks thanks. thanks! thanks,")
-_ONCE = words("once when after until before")
+_ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
@@ -126,9 +127,10 @@ class Text:
             joined: What stands before and after a segment between commas is one clause.
         """
         gone = {at for start, end in spans for at in range(start, end)}
-        if joined:
-            between = ((s - 1, e) for s, e in spans if {self.word(s - 1), self.word(e)} == {COMMA})
-            gone |= {at for signs in between for at in signs}
+        for start, end in spans:
+            goes_on = joined or self.word(end + 1) in _CASES  # put the cup, bless it, *on* the table
+            if goes_on and self.word(start - 1) == self.word(end) == COMMA:
+                gone |= {start - 1, end}
         kept: list[Token] = []
         for at, token in enumerate(self.tokens):
             sign = token.text in (COMMA, FULL_STOP)
@@ -187,6 +189,13 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1, 2, -1):
+        link = next((n for n in range(at - 1, 0, -1) if words[n] in ("but", COMMA, FULL_STOP)), 0)
+        last = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
+        if words[at] == "first" and last and words[link] == "but" and words[at - 1] != "but":
+            tokens.insert(link + 1, tokens.pop(at))  # but close the door *first*
+            words.insert(link + 1, words.pop(at))
     words = [t.text for t in tokens]
     for at in range(len(words) - 2, 0, -1):
         first = at + 1 + (words[at + 1] in ("first", "already"))
