@@ -66,7 +66,9 @@ _SOUND = re.compile(
     r"(?:god|jesus|christ|crap|shit|fuck|damn|crikey|help|lol|wtf|ffs|bloody|yikes|heavens)"
 )
 """What is called out before a cry."""
-_AGAIN = re.compile(r"\b(?:stop|halt|freeze)[\s!.,]+(?:stop|halt|freeze)\b(?!\s+(?:sign|button|by|at)\b)")
+_AGAIN = re.compile(
+    r"\b(?:stop|halt|freeze)[\s!.,]+(?:stop|halt|freeze)\b(?!\s+(?:sign|button|by|at)\b)"
+)
 """Said twice in a row it is a cry wherever it stands."""
 _LETS_LIE = re.compile(
     r"^(?:do not|don'?t|don t) move\s+(?:the|my|our|his|her|their|any of|those|these)\s+"

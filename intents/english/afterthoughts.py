@@ -25,7 +25,20 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import Answer, Bring, Condition, Find, ForEach, Goal, If, ObjectQuery, Pick, Place, Present, Repeat
+from intents.goals import (
+    Answer,
+    Bring,
+    Condition,
+    Find,
+    ForEach,
+    Goal,
+    If,
+    ObjectQuery,
+    Pick,
+    Place,
+    Present,
+    Repeat,
+)
 
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -25,7 +25,7 @@ _MARKERS = phrases(
     "i tell a lie,hold on,hang on,just kidding,only kidding,jk,i take that back,that is wrong,"
     "my bad,silly me,stupid me,on reflection,come to think of it,i got that wrong,or no,"
     "what am i saying,that i think of it,that i think about it,pardon,pardon me,i beg your pardon,"
-    "nah,nope,i misspoke,i said that wrong,wait a minute,wait a second,make it,whoops,let me see"
+    "nah,nope,i misspoke,i said that wrong,make it,whoops"
 )
 _LEADING = words("oh ah eh er uh um ach och well lol haha oops actually so ok okay wait sorry and")
 """What may stand between markers, and begins none by itself."""
@@ -33,6 +33,7 @@ _NEEDS_A_THING = phrases("make it,make that")
 """These change what is to be had: "make it *a lemonade*", not "make it quick"."""
 _REASONS = words("needs wants has is was asked ordered wanted needed")
 """How it is told why somebody or something was meant."""
+_PAUSES = phrases("hold on,hang on")
 _BEHIND = phrases("i mean,i meant,rather,instead,i mean to say,sorry,that is")
 """What stands behind a correction rather than before it."""
 _OPENINGS = ("sorry", "oh", "wait", "pardon", "whoops")
@@ -44,11 +45,10 @@ def _marker_end(text: Text, at: int) -> int | None:
 
     What is only told may stand between two: "no wait, he had his nap, I mean the other room".
     """
-    begin = at
     while text.word(at) in _LEADING and _marker(text, at) is None and at < len(text):
         at += 1 + (text.word(at + 1) == COMMA)
     end = _marker(text, at)
-    if end is None or (text.word(begin) == "wait" and text.word(end) != COMMA and end == begin + 1):
+    if end is None or (text.word(at) == "wait" and text.word(end) != COMMA and end == at + 1):
         return None
     while True:
         following = end + (text.word(end) == COMMA)
@@ -84,7 +84,11 @@ def _marker(text: Text, at: int) -> int | None:
     end = text.phrase_end(_MARKERS, at)
     if end is not None and tuple(text.words[at:end]) in _NEEDS_A_THING:
         phrase = noun_phrase(text, end)
-        return end if phrase is not None and phrase.name("object", "category", "place") else None
+        known = phrase is not None and phrase.name("object", "category", "place")
+        return end if phrase is not None and (known or phrase.noun == "one") else None
+    pause = end is not None and tuple(text.words[at:end]) in _PAUSES
+    if end is not None and pause and text.word(end) not in (COMMA, FULL_STOP):
+        return None  # hold on to the rail
     return end
 
 

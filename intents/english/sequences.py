@@ -87,7 +87,8 @@ def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: li
     goals, scope = sentence.before, sentence.scope
     if wish and same_object(wish[0], found[:1]):
         found[0] = as_wished(found[0], goals.pop())
-    if goals and found and ("or" in opening[:-1] or opening[-1] == "if"):
+    failing = opening[-1] == "if" and not isinstance(goals[-1] if goals else None, Find)
+    if goals and found and (failing or "or" in opening[:-1]):
         found[0] = or_else(goals, found[0])
     if goals and found:
         found[0] = joined(goals, found[0], first=opening[-1])

@@ -19,10 +19,11 @@ _IF_NOT = lexicon.phrases(
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
 _NOTHING = lexicon.phrases(
-    "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,leave it be,"
-    "leave them,never mind,forget it,forget about it,leave it there,leave it where it is,"
+    "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,"
+    "leave it be,leave them,never mind,forget it,forget about it,leave it there,leave it where it is,"
     "leave everything as it is,let it be,nothing at all,do nothing at all,do not worry"
 )
+_NEED_NOT = ["you", "need", "not"]
 _URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
@@ -80,9 +81,7 @@ def _opening_end(text: Text, at: int) -> int | None:
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")
     if text.word(at) == "mind" and not verbs_at(text.words, end):
         return None  # mind the step
-    if text.words[at : at + 2] in (["no", "need"], ["you", "need"]) and "not" in text.words[at : at + 3] + [
-        "not" if text.word(at) == "no" else ""
-    ]:
+    if text.words[at : at + 2] == ["no", "need"] or text.words[at : at + 3] == _NEED_NOT:
         return None  # no need to come; you need not come
     if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
         return None  # no milk for Emil

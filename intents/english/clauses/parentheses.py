@@ -60,6 +60,11 @@ _CALLS = lexicon.words(
     "grandma grandpa granny nana love pet dear son everyone everybody"
 )
 """Who may be called in the midst of a sentence, besides those whose names are known."""
+_BEING = lexicon.words(
+    "honest frank truthful serious sincere straight fair reasonable nice kind good great lovely "
+    "sweet brave quick fast snappy a an my"
+)
+"""What one is asked to be that is no way to do something: "be honest", and not "be discreet"."""
 _COMMENTING = lexicon.words(
     "honestly frankly seriously really truly luckily sadly obviously unfortunately fortunately "
     "hopefully apparently admittedly happily clearly evidently naturally personally thankfully "
@@ -144,7 +149,7 @@ def said_to_others(text: Text) -> list[tuple[Span, str]]:
 
 
 def _spoken_to(text: Text) -> bool:
-    """Whether what is said first is said to somebody else: "Ada, shoes! *And you*, bring me ..."."""
+    """Whether what is said first is said to somebody else: "Ada, shoes! *And you*, bring ..."."""
     stop = _next_stop(text, 0)
     after = stop + 1 + (text.word(stop + 1) == "and")
     return stop < len(text) and text.word(after) == "you" and not verbs_at(text.words, after + 1)
@@ -268,7 +273,7 @@ def _is_wished(text: Text, start: int, end: int) -> bool:
 def _is_comment(text: Text, start: int, end: int) -> bool:
     """Be honest; honestly; they are like rusty hinges."""
     if text.word(start) == "be" and 1 < end - start < _EPITHET:
-        return not verbs_at(text.words, start + 1)
+        return text.word(start + 1) in _BEING
     if end - start == 1 and text.word(start) in _COMMENTING and text.word(start).endswith("ly"):
         return True
     return told_end(text, start) == end

@@ -34,7 +34,8 @@ _RELATIVE_FILLERS = lexicon.words(
 
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
-    "laying hanging remain remains remaining stays stands sits lies rests lie waiting staying working relaxing"
+    "laying hanging remain remains remaining stays stands sits lies rests lie waiting "
+    "staying working relaxing"
 )
 
 

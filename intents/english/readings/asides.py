@@ -33,8 +33,8 @@ _FORBIDS = lexicon.phrases(
 _RELEASES = lexicon.phrases(
     "need not,you need not,do not need to,you do not need to,do not have to,you do not have to,"
     "there is no need to,there is no need for you to,no need to,no need for you to,"
-    "it is not necessary to,not necessary to,do not bother to,do not bother with,i do not need you to,"
-    "it does not need to,you can skip,do not trouble to"
+    "it is not necessary to,not necessary to,do not bother to,do not bother with,"
+    "i do not need you to,it does not need to,you can skip,do not trouble to"
 )
 """What takes an obligation away."""
 _KEEPS_AWAY = lexicon.phrases(

@@ -43,14 +43,7 @@ _SERVES = lexicon.phrases(
 )
 """How it is said that another thing is as good."""
 _MORE = lexicon.phrases("more,some more,further,again more")
-_A_BIT_SERVES = lexicon.phrases(
-    "will do,would do,will do me,will do fine,will do me fine,will do nicely,will do just fine,"
-    "will do me nicely,is fine,is okay,is good,is good enough,will be fine,would be fine,"
-    "is fine too,will do too,does it,will have to do,is fine by me,is fine with me,works,works too,"
-    "will serve,is also fine,would also do,is all right,will be all right,would be okay"
-)
-"""How it is said that another thing is as good."""
-_MORE = lexicon.phrases(
+_A_BIT_MORE = lexicon.phrases(
     "a bit more,a little more,a bit further,a little further,a bit farther,a little farther,"
     "a touch more,a tad more,slightly more,slightly further,a little bit more,a bit longer,"
     "a little longer,just a bit more,just a little more"

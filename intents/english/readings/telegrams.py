@@ -8,7 +8,7 @@ from intents.english.clauses.verb_clauses import framed
 from intents.english.phrases.complements import Complement, read_complements
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.reading import Found, SaidVerb, Sentence
-from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 
@@ -86,7 +86,7 @@ def _set_apart(sentence: Sentence, things: Complement, at: int) -> Complement | 
     first = text.word(at - 1) in ("first", "firstly")
     wanted = text.polite and all(_is_some(phrase) for phrase in things.phrases)
     where: Locative | None = last.places[-1] if last.places and (first or wanted) else None
-    if where is None or where.how not in _ON_OR_IN or not where.of.is_spot:
+    if where is None or where.how not in _ON_OR_IN or not where.of.name("place"):
         return None
     last.places.pop()
     return Complement(role="at", how=where.how, phrases=[where.of])
@@ -95,4 +95,5 @@ def _set_apart(sentence: Sentence, things: Complement, at: int) -> Complement | 
 def _is_some(phrase: NounPhrase) -> bool:
     """Whether it is no particular thing: "two bowls", "a bowl"."""
     some = isinstance(phrase.count, int) or phrase.determiner in ("a", "an", "some")
-    return some or phrase.count == "all" or not phrase.determiner
+    plural = phrase.said.split()[-1] != singular(phrase.said.split()[-1])
+    return some or phrase.count == "all" or (plural and not phrase.determiner)

@@ -61,7 +61,8 @@ _TAILS = lexicon.phrases(
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
     "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
     "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
-    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,yaar,"
+    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,"
+    "yaar,"
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
@@ -79,7 +80,8 @@ _HEDGES = lexicon.words(
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
-    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted delighted"
+    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted "
+    "delighted"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"

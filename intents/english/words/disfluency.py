@@ -53,8 +53,13 @@ def fluent(tokens: list[Token]) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
     kept = _without_particles(tokens)
     for at in range(len(kept) - 2, -1, -1):
-        if at < len(kept) - 2 and kept[at].text in _ARTICLES and kept[at + 1].text == COMMA:
+        if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
+            continue
+        after = kept[at + 1].text
+        if after == COMMA:
             kept = _resumed(kept, at)
+        elif at and after in _PREPOSITIONS and after == kept[at - 1].text:
+            del kept[at - 1 : at + 1]  # in the in the box
     return kept
 
 

@@ -147,7 +147,8 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
         "on": "on,on or in,on and in,in or on,in and on,on or at,on top of,upon,atop,atop of",
         "in": "in,right in,out in,down in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,in at",
-        "near": "near,next to,next of,close to,by,beside,besides,alongside,nearby,near to,at the side of,"
+        "near": "near,next to,next of,close to,by,beside,besides,alongside,nearby,near to,"
+        "at the side of,"
         "in the vicinity of,against",
         "under": "under,underneath,below,beneath,from under,from underneath,"
         "from below,from beneath,at the bottom of",

@@ -128,7 +128,9 @@ class Text:
         """
         gone = {at for start, end in spans for at in range(start, end)}
         for start, end in spans:
-            goes_on = joined or self.word(end + 1) in _CASES  # put the cup, bless it, *on* the table
+            goes_on = (
+                joined or self.word(end + 1) in _CASES
+            )  # put the cup, bless it, *on* the table
             if goes_on and self.word(start - 1) == self.word(end) == COMMA:
                 gone |= {start - 1, end}
         kept: list[Token] = []
@@ -136,9 +138,8 @@ class Text:
             sign = token.text in (COMMA, FULL_STOP)
             if at in gone or (sign and not kept):
                 continue
-            if sign and kept[-1].text in (COMMA, FULL_STOP):
-                token = max(token, kept.pop(), key=lambda sign: sign.text == FULL_STOP)
-            kept.append(token)
+            doubled = kept.pop() if sign and kept[-1].text in (COMMA, FULL_STOP) else token
+            kept.append(doubled if doubled.text == FULL_STOP else token)
         left, kept = copy(self), fluent(kept)
         left.tokens, left.words, left._matches = kept, [t.text for t in kept], {}
         return left
@@ -187,23 +188,34 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
-def _unfinished(tokens: list[Token]) -> list[Token]:
-    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+def _said_first(tokens: list[Token]) -> list[Token]:
+    """Bring the cup, but close the door *first*: but first close the door."""
     words = [t.text for t in tokens]
     for at in range(len(words) - 1, 2, -1):
         link = next((n for n in range(at - 1, 0, -1) if words[n] in ("but", COMMA, FULL_STOP)), 0)
         last = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
         if words[at] == "first" and last and words[link] == "but" and words[at - 1] != "but":
-            tokens.insert(link + 1, tokens.pop(at))  # but close the door *first*
+            tokens.insert(link + 1, tokens.pop(at))
             words.insert(link + 1, words.pop(at))
-    words = [t.text for t in tokens]
-    for at in range(len(words) - 2, 0, -1):
-        first = at + 1 + (words[at + 1] in ("first", "already"))
-        base = participle_base(words[first]) if words[at] == "having" and first < len(words) else None
-        if base:  # having closed the door
-            tokens[at : first + 1] = [
-                Token("after", tokens[at].raw), Token("you", ""), Token(base, tokens[first].raw)
-            ]  # fmt: skip
+    return tokens
+
+
+def _done_before(tokens: list[Token]) -> list[Token]:
+    """*Having closed* the door: after you close the door."""
+    for at in range(len(tokens) - 2, 0, -1):
+        if tokens[at].text != "having":
+            continue
+        first = at + 1 + (tokens[at + 1].text in ("first", "already"))
+        base = participle_base(tokens[first].text) if first < len(tokens) else None
+        if base:
+            done = Token(base, tokens[first].raw)
+            tokens[at : first + 1] = [Token("after", tokens[at].raw), Token("you", ""), done]
+    return tokens
+
+
+def _unfinished(tokens: list[Token]) -> list[Token]:
+    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    tokens = _done_before(_said_first(tokens))
     words = [t.text for t in tokens]
     if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
         tokens.insert(0, Token("i", ""))  # need a screwdriver here

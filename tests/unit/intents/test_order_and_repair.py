@@ -101,7 +101,8 @@ SAME = [
      "see how many buckets are in the yard, come back"),
     # conditions and what is left
     ("if there are oats in the chest, bring me some, and if there aren't, well, the carrot will do",
-     "if there are oats in the chest, bring me the oats in the chest, otherwise bring me the carrot"),
+     "if there are oats in the chest, bring me the oats in the chest, "
+     "otherwise bring me the carrot"),
     ("bring Bram the oats from the chest; if there are none, bring him the carrot",
      "if there are oats in the chest, bring the oats in the chest to Bram, "
      "otherwise bring Bram the carrot"),

@@ -53,11 +53,15 @@ def goals_of(said: str) -> object:
             "put the kettle on the stove",
         ),
         ("bring me the jam, hand on heart", "hand on heart", "bring me the jam"),
-        ("take the hammer to Tove, quick as lightning", "quick as lightning", "take Tove the hammer"),
+        (
+            "take the hammer to Tove, quick as lightning",
+            "quick as lightning",
+            "take Tove the hammer",
+        ),
         ("bring me the basket, for pity's sake", "for pity's sake", "bring me the basket"),
         ("bring me the jam, you rusty old chap", "you rusty old chap", "bring me the jam"),
     ],
-)  # fmt: skip
+)
 def test_it_is_passed_over_and_that_is_said(said: str, passed: str, plainly: str) -> None:
     outcome = parse(said, FARM)
     assert isinstance(outcome, Goals), outcome
@@ -133,16 +137,22 @@ def test_a_list_of_people_is_no_call() -> None:
     ("said", "plainly"),
     [
         ("bring me the, how is it called, the ladle", "bring me the ladle"),
-        ("is there a jar in the, och what's it called, on the bench I mean", "is there a jar on the bench"),
+        (
+            "is there a jar in the, och what's it called, on the bench I mean",
+            "is there a jar on the bench",
+        ),
         ("set the jar, yes, the jar, on the bench", "set the jar on the bench"),
         ("hang up the lantern, the lantern I say, on the hook", "hang up the lantern on the hook"),
         ("gimme gimme the jam", "give me the jam"),
         ("bring me bring me the jam", "bring me the jam"),
-        ("so like the jam is on the dresser right, take it to Odd", "take the jam on the dresser to Odd"),
+        (
+            "so like the jam is on the dresser right, take it to Odd",
+            "take the jam on the dresser to Odd",
+        ),
         ("bring me the jam, pretty please with honey on top and nuts", "bring me the jam"),
         ("bring me the really very biggest jar", "bring me the biggest jar"),
     ],
-)  # fmt: skip
+)
 def test_disfluencies_are_undone(said: str, plainly: str) -> None:
     assert goals_of(said) == goals_of(plainly)
 
