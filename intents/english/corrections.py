@@ -158,6 +158,8 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         new = to_person(phrase, scope)
     else:
         new = to_object(phrase, scope)
+    if old is None and isinstance(new, ObjectQuery):
+        old = next((query for goal in last if (query := getattr(goal, "object", None))), None)
     if old is None:
         raise Misfit("I do not know what to correct")
     scope.mention(new)

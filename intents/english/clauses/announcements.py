@@ -50,7 +50,10 @@ _ALL_THAT = lexicon.words(
     "first one job task thing things and"
 )
 _DONE = lexicon.words("done finished complete completed over sorted through ready accomplished")
-_ABOUT = lexicon.words("with that it this those all of them about around the first one job task")
+_ABOUT = lexicon.words(
+    "with that it this those all of them about around the first one job task whatever what you are "
+    "doing"
+)
 
 
 def announced_end(text: Text, at: int) -> int | None:

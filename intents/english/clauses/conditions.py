@@ -24,7 +24,9 @@ from intents.goals import (
     State,
 )
 
-IF = phrases("if,in case,when,whenever,unless,only if,as long as,provided that,once,as soon as")
+IF = phrases(
+    "if,in case,when,whenever,unless,only if,only when,as long as,provided that,once,as soon as"
+)
 """How a condition begins."""
 _WHEN = phrases("when,once,as soon as,whenever")
 _EMPTY_HANDED = phrases(

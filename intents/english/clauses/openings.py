@@ -18,10 +18,12 @@ _IF_NOT = lexicon.phrases(
     "if they are not there,if you do not,if you can not"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
+_NUMERALS = lexicon.words("one two three four five")
 _NOTHING = lexicon.phrases(
     "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,"
-    "leave it be,leave them,never mind,forget it,forget about it,leave it there,leave it where it is,"
-    "leave everything as it is,let it be,nothing at all,do nothing at all,do not worry"
+    "leave it be,leave them,never mind,forget it,forget about it,leave it there,"
+    "leave it where it is,leave everything as it is,let it be,nothing at all,"
+    "do nothing at all,do not worry"
 )
 _NEED_NOT = ["you", "need", "not"]
 _URGING = lexicon.words("do only simply merely")
@@ -107,7 +109,8 @@ def _numbering_end(text: Text, at: int) -> int | None:
     """*Step 1:* go to the table. *2.* Take the cup."""
     numeral = at + (text.word(at) in ("step", "number", "task"))
     end = numeral + 1
-    numbered = text.word(numeral).isdecimal() and text.word(end) in (COMMA, FULL_STOP)
+    numbered = text.word(numeral).isdecimal() or text.word(numeral) in _NUMERALS
+    numbered = numbered and text.word(end) in (COMMA, FULL_STOP)
     return end + 1 if numbered and end < len(text) else None
 
 

@@ -88,7 +88,9 @@ _IDIOMS = lexicon.phrases(
     "no more no less,nothing more nothing less,that is a promise,i promise,i promise you,"
     "with a cherry on top,with a cherry on the cake,with knobs on,with bells on,with sugar on top,"
     "the one and only,for crying out loud,quick,quick quick,hurry,hurry up,chop chop,come on,"
-    "there there,now now,come now,and i mean it,i mean it,whatever,either way,i am serious,"
+    "anyway,anyways,anyhow,moving on,you are done,then you are done,"
+    "that is it for today,let me think,let me see,let us see,there there,now now,come now,"
+    "and i mean it,i mean it,whatever,either way,i am serious,"
     "no ifs no buts,no questions asked,at my age,in this weather,in this house,at your age"
 )
 """Comments whose words say something else where they stand by themselves."""
@@ -287,7 +289,11 @@ def _is_taken_up(text: Text, start: int, end: int) -> bool:
 
 
 def _is_address(text: Text, start: int, end: int) -> bool:
-    """My tin friend; you rusty old rascal."""
+    """My tin friend; you absolute legend."""
+    you = text.word(start) == "you" and 1 < end - start <= _EPITHET
+    plain = not (_may_be_verb(text.word(start + 1)) or verbs_at(text.words, start + 1))
+    if you and plain and text.word(start + 1) not in lexicon.FUNCTION_WORDS:
+        return _only_evaluates(text, start, end)
     called = text.word(end - 1) in ADDRESSES and end - start <= _EPITHET
     mine = text.word(start) in ("you", "my", "dear", "good", "old")
     return called and mine and _only_evaluates(text, start, end)

@@ -10,6 +10,7 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
+from intents.english.words.lexer import FULL_STOP
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Balance,
@@ -61,7 +62,10 @@ def likewise(sentence: Sentence, at: int) -> Found | None:
     text, before = sentence.text, sentence.before or list(sentence.history)
     phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
     end = text.phrase_end(_TOO, phrase.end) if phrase else None
-    if phrase and end is None and text.word(at - 1) == "then" and _is_put(before, phrase):
+    linked = text.word(at - 1) == "then" or (
+        text.word(at - 1) == "and" and text.word(at - 2) in (FULL_STOP, "oh")
+    )
+    if phrase and end is None and linked and _is_put(before, phrase):
         end = phrase.end  # put the cup in the sink, then the bowl
     if phrase is None or end is None or not before or not ends_clause(text, end):
         return None

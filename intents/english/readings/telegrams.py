@@ -35,7 +35,9 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
         where = _set_apart(sentence, things, at)
     if where is None or not (where.phrase.is_spot or _is_receiver(where) or where.role == "into"):
         return None
-    if where.role == "for" and not (text.polite or all(map(_is_some, things.phrases))):
+    if where.role == "for" and not (
+        text.polite or all(map(_is_some, things.phrases)) or _is_bare(things)
+    ):
         return None
     verb = "bring" if _is_receiver(where) else "put"
     sentence.notes.verb = SaidVerb(at, at, ("bring" if _is_receiver(where) else "put",))
@@ -55,6 +57,11 @@ def _are_things(complement: Complement) -> bool:
 
 def _is_receiver(complement: Complement) -> bool:
     return complement.role in ("to", "for") and complement.phrase.is_person
+
+
+def _is_bare(things: Complement) -> bool:
+    """Bottle for Ada: a telegram, whatever is asked politely or not."""
+    return not any(phrase.determiner for phrase in things.phrases)
 
 
 def _closes(text: Text, at: int) -> bool:

@@ -61,8 +61,8 @@ _TAILS = lexicon.phrases(
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
     "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
     "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
-    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,for god 's sake,lah,na,"
-    "yaar,"
+    "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,"
+    "for god 's sake,lah,na,yaar,"
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
@@ -97,6 +97,7 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
     return (
         _gracious(words, at)
         or _with_cherries(words, at)
+        or _excuse(words, at)
         or (_hedge(words, at) if begins else None)
         or (_prelude(words, at) if begins else None)
         or _tag(words, at, kept)
@@ -138,6 +139,16 @@ def _hedge(words: list[str], at: int) -> int | None:
     said = words[at:end]
     hedged = _HEDGED.intersection(said) and "you" in said and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
+
+
+def _excuse(words: list[str], at: int) -> int | None:
+    """*Sorry to bother you again, but* could you ..."""
+    if words[at : at + 2] != ["sorry", "to"] or words[at + 3 : at + 4] != ["you"]:
+        return None
+    end = at + 4
+    while _word(words, end) in ("again", "with", "this", "that", "so", "late", "early", "but"):
+        end += 1
+    return end
 
 
 def _with_cherries(words: list[str], at: int) -> int | None:

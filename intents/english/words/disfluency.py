@@ -34,9 +34,11 @@ _PREPOSITIONS = frozenset(
     phrase[0] for table in (lexicon.LOCATIVES, lexicon.GOALWARDS, lexicon.SOURCEWARDS)
     for phrase in table
 )  # fmt: skip
+_LOCATING = frozenset(phrase[0] for phrase in lexicon.LOCATIVES)
+_DENIES = lexicon.words("not no except but nor without")
 _SAYS = lexicon.words("say tell announce shout whisper repeat sing")
 _BEGINS = lexicon.words("so and just then well okay ok um like .")
-_STRESSES = lexicon.words("really very absolutely truly absolute ve")
+_STRESSES = lexicon.words("really very absolutely truly absolute")
 _RANKED = (
     frozenset(phrase[0] for phrase in lexicon.SUPERLATIVES) | frozenset(lexicon.SIZES) | _STRESSES
 )
@@ -51,7 +53,7 @@ _STUTTERS = (3, 2)
 
 def fluent(tokens: list[Token]) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
-    kept = _without_particles(tokens)
+    kept = _as_one(_without_particles(tokens))
     for at in range(len(kept) - 2, -1, -1):
         if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
             continue
@@ -86,6 +88,19 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         if words[at - 1 : at + 1] == ["at", "all"] and words[at - 2] in ("nothing", "anything"):
             continue
         kept.append(token)
+    return kept
+
+
+def _as_one(tokens: list[Token]) -> list[Token]:
+    """The cup, *the one* on the shelf, ...: the cup on the shelf."""
+    words = [token.text for token in tokens]
+    kept = list(tokens)
+    for at in range(len(words) - 4, 0, -1):
+        one = words[at : at + 2] == [COMMA, "the"] and words[at + 2] in lexicon.ONES
+        begun = max((n + 1 for n in range(at) if words[n] in (COMMA, FULL_STOP)), default=0)
+        denied = _DENIES.intersection(words[begun:at]) or words[at - 1] in lexicon.ONES
+        if one and words[at + 3] in _LOCATING and not denied:
+            kept[at : at + 3] = []
     return kept
 
 

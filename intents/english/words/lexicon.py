@@ -216,6 +216,7 @@ FILLERS = phrases(
     "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
     "while you are here,while you are out,while you are passing,after all,"
     "on your way back,on the way back,on your way out,on your way past,on your way there,"
+    "now that i think of it,now that i think about it,"
     "as fast as you can,as quick as you can,as quickly as you can,"
     "as fast as possible,as quickly as possible,quick as you can"
 ) | {(",", "like", ",")}
