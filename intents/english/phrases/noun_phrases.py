@@ -32,6 +32,7 @@ _RELATIVE_FILLERS = lexicon.words(
 ) - {"stands", "sits", "lies"}  # fmt: skip
 
 
+_WHOSE = lexicon.words("my your our his her their the")
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
     "laying hanging remain remains remaining stays stands sits lies rests lie waiting "
@@ -100,7 +101,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if inner.name("room"):
         phrase.places.append(Locative("in", inner))
         return inner.end
-    return None
+    part = phrase.name("object") and inner.name("object") and inner.determiner in _WHOSE
+    return inner.end if part else None  # the charger of my laptop
 
 
 def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:

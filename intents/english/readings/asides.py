@@ -151,7 +151,10 @@ def _mention(sentence: Sentence, start: int, end: int, *, described: bool = Fals
 
 
 def _described(sentence: Sentence, at: int) -> ObjectQuery | None:
-    """The thing at a word with where it is: "Ada rang about the pen *that is on my desk*"."""
+    """The thing at a word with what is said of it: "about the *red* pen *that is on my desk*"."""
+    before = lexicon.DETERMINERS | set(lexicon.SIZES) | set(sentence.text.index.colors)
+    while sentence.text.word(at - 1) in before:
+        at -= 1
     phrase = noun_phrase(sentence.text, at)
     try:
         thing = phrase and to_object(phrase, sentence.scope)

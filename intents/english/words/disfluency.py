@@ -53,7 +53,7 @@ _STUTTERS = (3, 2)
 
 def fluent(tokens: list[Token]) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
-    kept = _as_one(_without_particles(tokens))
+    kept = _denied_first(_as_one(_without_particles(tokens)))
     for at in range(len(kept) - 2, -1, -1):
         if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
             continue
@@ -102,6 +102,18 @@ def _as_one(tokens: list[Token]) -> list[Token]:
         if one and words[at + 3] in _LOCATING and not denied:
             kept[at : at + 3] = []
     return kept
+
+
+def _denied_first(tokens: list[Token]) -> list[Token]:
+    """But the markers *no*, as learners say it: but not the markers."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 1, 2, -1):
+        closes = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
+        link = next((n for n in range(at - 2, max(-1, at - 6), -1) if words[n] == "but"), None)
+        if words[at] == "no" and closes and link is not None and words[at - 1].isalpha():
+            tokens.insert(link + 1, Token("not", tokens.pop(at).raw))
+            words.insert(link + 1, words.pop(at))
+    return tokens
 
 
 def unrepeated(tokens: list[Token]) -> list[Token]:

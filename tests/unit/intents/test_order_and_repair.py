@@ -95,6 +95,7 @@ SAME = [
     ("no need to bring me the brush, just hang it on the hook", "hang the brush on the hook"),
     ("do not touch the saddle; only tell me whether it is on the rack",
      "tell me whether the saddle is on the rack"),
+    ("bring me all the feed, but the oats no", "bring me all the feed but not the oats"),
     ("bring Ilse the oats, then the carrot", "bring Ilse the oats, bring Ilse the carrot"),
     ("bring the buckets here, both of them", "bring the buckets here"),
     ("see how many buckets are in the yard, come back and tell me the number",
