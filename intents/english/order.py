@@ -50,6 +50,7 @@ RULES = Rules(
         # first has to find her, and before "if there is a cup", which is a question as well.
         conditionals.conditional,
         repetition.for_each,
+        repetition.for_each_room,
         repetition.so_many_times,
         repetition.again,
         time_clauses.one_before_the_other,
