@@ -299,10 +299,14 @@ class Balance(_Goal, frozen=True, kw_only=True):
 
 
 class Gesture(_Goal, frozen=True, kw_only=True):
-    """Wave, point, nod, shake_head, bow, thumbs_up ...; at says towards whom or what."""
+    """Wave, point, nod, shake_head, bow, thumbs_up ...; at says towards whom or what.
+
+    ``side`` is the hand or arm it is done with.
+    """
 
     kind: str
     at: str | None = None
+    side: Side | None = None
 
 
 class Wait(_Goal, frozen=True, kw_only=True):
@@ -370,7 +374,30 @@ class State(_Slots, frozen=True, tag="state", tag_field="is", kw_only=True):
     negated: bool = False
 
 
-Condition = Present | Holding | State
+class AllOf(_Slots, frozen=True, tag="all", tag_field="is", kw_only=True):
+    """Every one of several conditions holds."""
+
+    of: "tuple[Condition, ...]"
+
+
+class AnyOf(_Slots, frozen=True, tag="any", tag_field="is", kw_only=True):
+    """At least one of several conditions holds."""
+
+    of: "tuple[Condition, ...]"
+
+
+Simple = Present | Holding | State
+"""A condition of one thing."""
+Condition = Simple | AllOf | AnyOf
+
+
+def simple_conditions(condition: Condition) -> Iterator[Simple]:
+    """What a condition is made of, in the order said."""
+    if isinstance(condition, AllOf | AnyOf):
+        for one in condition.of:
+            yield from simple_conditions(one)
+    else:
+        yield condition
 
 
 class If(_Goal, frozen=True, kw_only=True):

@@ -127,7 +127,8 @@ def _goal(goal: Goal) -> str:  # noqa: PLR0912 - one line a kind of goal
         case g.Balance():
             return _balance(goal)
         case g.Gesture():
-            return _GESTURES.get(goal.kind, goal.kind) + _at(goal.at)
+            hand = f" with my {goal.side} hand" if goal.side else ""
+            return _GESTURES.get(goal.kind, goal.kind) + _at(goal.at) + hand
         case g.Wait():
             return "wait" if goal.duration_s is None else f"wait {_seconds(goal.duration_s)}"
         case g.Report():
@@ -203,6 +204,12 @@ def _balance(goal: g.Balance) -> str:
 
 def condition(holds: g.Condition) -> str:
     """A condition as a clause: "the cup is on the table"."""
+    if isinstance(holds, g.AllOf | g.AnyOf):
+        link = " and " if isinstance(holds, g.AllOf) else " or "
+        return link.join(
+            f"({condition(one)})" if isinstance(one, g.AllOf | g.AnyOf) else condition(one)
+            for one in holds.of
+        )
     no = " not" if holds.negated else ""
     if isinstance(holds, g.Present):
         return f"{_subject(holds.object, holds.person)} is{no} there"

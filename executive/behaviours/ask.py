@@ -8,6 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage
+from intents.context import verdict_of
 
 Answer = Literal["continue", "give up"]
 ANSWERS: tuple[Answer, ...] = get_args(Answer)
@@ -16,6 +17,16 @@ PATIENCE_S = 300.0
 """How long a person may take to help."""
 ALONE_S = 5.0
 """How long it is waited where nobody is said to be there."""
+
+
+def answer_of(text: str) -> Answer | None:
+    """The answer that a line is, also as a mere yes or no; None if it is none."""
+    wanted = text.casefold().strip(" .!")
+    verdict = verdict_of(text)
+    plain: Answer | None = next((answer for answer in ANSWERS if answer == wanted), None)
+    if plain is not None or verdict is None:
+        return plain
+    return "continue" if verdict else "give up"
 
 
 class AskForHelp(Behaviour):

@@ -1,13 +1,27 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from msgspec.structs import replace
+
+from intents.english.clauses.compounds import condition
+from intents.english.clauses.conditions import IF, as_soon_as, mention
+from intents.english.clauses.coordination import link_at
 from intents.english.clauses.openings import nothing_end, otherwise_end
-from intents.english.phrases.noun_phrases import tells_when
+from intents.english.phrases.noun_phrases import noun_phrase, tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear
+from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear, listing
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.goals import Goal, If, Person, Present
+from intents.english.words.text import Text
+from intents.goals import (
+    Condition,
+    Goal,
+    Holding,
+    If,
+    ObjectQuery,
+    Person,
+    Present,
+    simple_conditions,
+)
 
 
 def conditional(sentence: Sentence, at: int) -> Found | None:
@@ -27,15 +41,18 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     except NotUnderstood:
         _on_what_is_unseen(sentence, at, start)
         raise
+    _all_was_read(sentence, end)
     soon = as_soon_as(text, at, holds)
     if soon:
-        return [soon], end + (text.word(end) == COMMA)
+        return [*soon], end + (text.word(end) == COMMA)
     unless = text.word(at) == "unless"
     mention(holds, sentence.scope, met=not unless)
     spoken_of = sentence.scope.object
     end += text.word(end) == COMMA
     end += text.word(end) == "then"
+    begun = end
     then, end = sequence(sentence.inner(), end)
+    _one_is_it(text, (begun, end), holds)
     if not then:
         raise Unclear("What shall I do then?")
     skipped = end
@@ -51,6 +68,55 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+
+def _all_was_read(sentence: Sentence, end: int) -> None:
+    """Refuse a condition of which a part was not read: it would be dropped.
+
+    Raises:
+        NotUnderstood: That is so.
+    """
+    text = sentence.text
+    link = link_at(text, end)
+    if link is None:
+        return
+    stop = link.start
+    while stop < len(text) and text.word(stop) not in (COMMA, FULL_STOP):
+        stop += 1
+    if link.joint != ",":
+        raise NotUnderstood(f"I cannot check “{text.raw(end, stop)}”")
+    subject = noun_phrase(text, link.start)
+    if subject is not None and text.word(subject.end) in ("is", "are") and stop < len(text):
+        raise NotUnderstood(f"I cannot tell what “{text.raw(link.start, stop)}” is there for")
+
+
+def _one_is_it(text: Text, clause: tuple[int, int], holds: Condition) -> None:
+    """If the cup is here and the pen is there, bring *it*: which of them?
+
+    Raises:
+        Unclear: "It" may be either, and neither is held.
+    """
+    simple = list(simple_conditions(holds))
+    held = [one for one in simple if isinstance(one, Holding) and not one.negated]
+    things = {
+        replace(one.object, at=None, relation=None)
+        for one in simple
+        if isinstance(one, Present | Holding) and one.object not in (None, ObjectQuery())
+    }
+    if len(things) < 2 or len(held) == 1:
+        return
+    for at in range(*clause):
+        match = text.name_at(at)
+        if match and match.of("object"):
+            return
+        if text.word(at) == "it":
+            names = tuple(sorted(_named(one) for one in things))
+            raise Unclear(f"What is “it”, {listing(names)}?", choices=names, said="it")
+
+
+def _named(query: ObjectQuery) -> str:
+    words = [query.size, query.color, query.name or query.category or "thing"]
+    return " ".join(["the", *(word for word in words if word)])
 
 
 def _while(sentence: Sentence, at: int) -> int | None:
