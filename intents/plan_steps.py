@@ -21,6 +21,10 @@ class NoSuchStep(Exception):
     """It is not in the plan; ``str()`` says so to people."""
 
 
+class NoSuchNumber(NoSuchStep):
+    """The plan has no step of that number."""
+
+
 _EMPTY = lexicon.DETERMINERS | lexicon.words(
     "step steps number numbers no point points one ones and of to in on at into with it them that "
     "this do thing things , putting bringing taking put bring take get fetch"
@@ -52,7 +56,13 @@ class Pointing:
         words = which.split()
         if _ALL.issuperset(words):
             raise NoSuchStep("That is all of it: say “no”.")
-        return self._by_number(words) or self._by_words(which, words)
+        try:
+            return self._by_number(words) or self._by_words(which, words)
+        except NoSuchNumber:
+            spoken_of = self._fitting(words)  # “say three”
+            if spoken_of:
+                return spoken_of
+            raise
 
     def _by_number(self, words: list[str]) -> set[int]:
         """Those that are called by numbers; none if there are other words."""
@@ -70,7 +80,7 @@ class Pointing:
             numbers = list(range(numbers[0], numbers[1] + 1))
         wrong = [n for n in numbers if n not in self._numbers.values()]
         if wrong:
-            raise NoSuchStep(f"There is no step {wrong[0]}.")
+            raise NoSuchNumber(f"There is no step {wrong[0]}.")
         return {at for at, goal in enumerate(self._goals) if self._numbers[id(goal)] in numbers}
 
     def _by_words(self, which: str, words: list[str]) -> set[int]:

@@ -13,7 +13,16 @@ from msgspec.structs import replace
 from intents.english.words.lexer import tokenize
 from intents.goals import Goal
 from intents.outcomes import Question
-from intents.plan_steps import NoSuchStep, Pointing, Steps, kept, moved, swapped, without
+from intents.plan_steps import (
+    NoSuchNumber,
+    NoSuchStep,
+    Pointing,
+    Steps,
+    kept,
+    moved,
+    swapped,
+    without,
+)
 from intents.prohibitions import broken
 from intents.risks import risk
 from intents.vocabulary import Vocabulary
@@ -74,7 +83,7 @@ def _made(
         try:
             goals = change.made(goals, Pointing(goals, vocabulary, shown=plan))
         except NoSuchStep as why:
-            if not change.certain:
+            if not change.certain and not isinstance(why, NoSuchNumber):
                 return None, ""
             told += f"{why} "
     return goals, told

@@ -60,6 +60,8 @@ def parse_all(
     for text in [*texts, *(_lines(file) if file else ())]:
         if show_prompt and fallback is None:
             write_json(_would_ask(text, names, context))
+        if fallback is not None:
+            fallback.trouble = ""
         outcome, _ = hear(text, names, context=context, fallback=fallback)
         if as_json:
             write_json(to_record(text, outcome))

@@ -232,11 +232,17 @@ def _read(said: str, text: str, vocabulary: Vocabulary, context: Context) -> Out
         allowed.fault(goals, vocabulary)
         or allowed.steering(goals)
         or _not_there(goals, context)
-        or broken(
-            goals, (*(turn.text for turn in context.said if turn.who == "person"), text), vocabulary
-        )
+        or broken(goals, (*_standing(context), text), vocabulary)
     )
     return wrong or Goals(goals=goals, parser="model")
+
+
+def _standing(context: Context) -> list[str]:
+    """What a person has said by itself; what was said of a plan has changed that plan."""
+    turns = zip(context.said, context.said[1:], strict=False)
+    return [
+        one.text for one, reply in turns if one.who == "person" and "Shall I?" not in reply.text
+    ]
 
 
 def _not_there(goals: tuple[Goal, ...], context: Context) -> str:

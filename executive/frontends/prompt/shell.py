@@ -270,8 +270,10 @@ class Shell:
         """
         robot = self.robot
         state = self._state()
-        if self._model is not None and not robot.busy:
-            self._model.begin_mission()
+        if self._model is not None:
+            self._model.trouble = ""
+            if not robot.busy:
+                self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
         if self._stopped_since:  # it may have taken as long as a language model does
@@ -301,6 +303,10 @@ class Shell:
             foresee_s=lambda: foresight.takes_s(asked[0], robot.where, asked[1]) if asked else None,
         )
 
+    def _tell_trouble(self) -> None:
+        if self._model is not None and self._model.trouble:
+            self.out(f"The language model was of no help: {self._model.trouble}.")
+
     def _unable(self, goals: tuple[Goal, ...]) -> str:
         """Why goals that a language model makes cannot be done."""
         return unable(goals, self.robot.where, held=self._held(), state=self._state())
@@ -317,10 +323,10 @@ class Shell:
             self.answer(turn.text)
         elif isinstance(turn, Question):
             self.answer(turn.question)
+            self._tell_trouble()
         elif isinstance(turn, Refusal):
             self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
-            if self._model is not None and self._model.trouble:
-                self.out(f"The language model was of no help: {self._model.trouble}.")
+            self._tell_trouble()
         else:
             # an answer ("no, the blue one") says nothing by itself: the job is called what it means
             steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
