@@ -24,6 +24,7 @@ class Answer(NamedTuple):
 
 _OUTCOMES: dict[str, Kind] = {
     "question": "question", "ask": "question", "clarification": "question", "clarify": "question",
+    "needs_clarification": "question",
     "refusal": "refusal", "refuse": "refusal", "refused": "refusal", "error": "refusal",
     "impossible": "refusal",
 }  # fmt: skip
@@ -47,15 +48,11 @@ def _framed(value: object) -> Answer | None:
         return Answer("goals", goals) if goals and all(map(_is_goal, goals)) else None
     if not isinstance(value, dict):
         return None
-    frame = cast("Frame", value)
-    inner = (
-        next((frame[key] for key in _WRAPPED if key in frame), None) if len(frame) == 1 else None
-    )
-    if inner is not None:
-        return _framed(inner)
+    frame = {key.lower(): one for key, one in cast("Frame", value).items()}
     if _is_goal(frame):
         return Answer("goals", [frame])
-    return _of_frame(frame)
+    inner = next((frame[key] for key in _WRAPPED if isinstance(frame.get(key), list | dict)), None)
+    return _of_frame(frame) or (_framed(inner) if inner is not None else None)
 
 
 def _of_frame(frame: Frame) -> Answer | None:
@@ -63,12 +60,16 @@ def _of_frame(frame: Frame) -> Answer | None:
     kind: Kind | None = _OUTCOMES.get(said.strip().lower()) if isinstance(said, str) else None
     text = next((str(frame[key]) for key in _TEXTS if isinstance(frame.get(key), str)), "")
     held = next((frame[key] for key in _GOALS if isinstance(frame.get(key), list | dict)), None)
-    goals = cast("list[object]", [held] if isinstance(held, dict) else held or [])
+    if isinstance(held, dict):  # one goal, or several by their numbers
+        several = cast("Frame", held)
+        held = list(several.values()) if all(key.isdecimal() for key in several) else [several]
+    goals = cast("list[object]", held or [])
     if kind is None and not goals:
         kind = next((_OUTCOMES[key] for key in ("question", "refusal") if frame.get(key)), None)
     if kind is not None:
         return Answer(kind, [], text)
-    return Answer("goals", goals) if goals or said == "goals" else None
+    said_goals = isinstance(said, str) and said.lower() == "goals"
+    return Answer("goals", goals) if goals or said_goals else None
 
 
 def _is_goal(value: object) -> bool:

@@ -5,6 +5,7 @@ a bare name. They are read as if a person had said them: by the names of the voc
 phrases of the grammar. What nobody would understand stays as it is, and is refused by the checks.
 """
 
+import re
 from typing import Any, cast
 
 import msgspec
@@ -28,6 +29,8 @@ _NESTED = ("goals", "then", "else")
 _SPEECH = {"say": "what"}
 _HOW = {"in_front_of": "in_front", "left_of": "left", "right_of": "right", "next_to": "near",
         "beside": "near", "inside": "in", "on_top_of": "on", "below": "under"}  # fmt: skip
+_IN_BRACKETS = re.compile(r"([^()]+) \(([^()]+)\)")
+_AT = re.compile(r"^(?:(?:on|in|at|into|onto|from) )?(?:the )?")
 _MAX_NESTING = 20
 """Of what a model wrote; the goals themselves may be nested less deep."""
 
@@ -147,6 +150,8 @@ class _Mending:
 
     def _read(self, words: str) -> Slots | None:
         """What a noun phrase describes; None if it is none, or of nothing that is known."""
+        behind = _IN_BRACKETS.fullmatch(words)  # "cup (red)"
+        words = f"{behind[2]} {behind[1]}" if behind else words
         text = Text(words.replace("_", " "), self._vocabulary)
         try:
             phrase = noun_phrase(text, 0)
@@ -205,7 +210,7 @@ class _Mending:
         """A name as the vocabulary spells it, for one in any spelling; else what was said."""
         if not isinstance(said, str):
             return said
-        plain = " ".join(said.replace("_", " ").lower().removeprefix("the ").split())
+        plain = _AT.sub("", " ".join(said.replace("_", " ").lower().split()))
         names = self._index.exact(plain)
         found = next((n.name for kind in kinds for n in names if n.kind == kind), None)
         return plain if found is None and plain != said.lower() else found or said

@@ -19,12 +19,12 @@ _TOKEN = re.compile(r"<\|[^|<>]{1,40}\|>")
 _STRING = r'"(?:[^"\\]|\\.)*"'
 _UNJSON = re.compile(
     rf"(?P<kept>{_STRING})|(?P<single>'(?:[^'\\]|\\.)*')|(?P<comment>//[^\n]*|\#[^\n]*)"
-    r"|(?P<word>\b(?:True|False|None)\b)",
+    r"|(?P<word>\b(?:True|False|None)\b)|(?P<key>\b[A-Za-z_]\w{0,40})(?=\s{0,9}:)",
     re.DOTALL,
 )
 _TRAILING = re.compile(rf"({_STRING})|,(?=\s*[}}\]])", re.DOTALL)
 _WORDS = {"True": "true", "False": "false", "None": "null"}
-_OPENS = re.compile(r"""[{\[](?=\s{0,80}["'{}\[\]])""")
+_OPENS = re.compile(r"""[{\[](?=\s{0,80}(?:["'{}\[\]]|\w{1,40}\s{0,9}:))""")
 """A bracket that opens JSON, not an aside [like this one]."""
 _CLOSING = {"{": "}", "[": "]"}
 
@@ -109,12 +109,14 @@ def _decoded(text: str) -> object:
 
 
 def _mended(text: str) -> str:
-    """JSON from what is nearly JSON: comments, Python's quotes and words, trailing commas."""
+    """JSON from what is nearly JSON: comments, bare keys, Python's quotes, trailing commas."""
 
     def json_of(found: re.Match[str]) -> str:
         if found["single"]:
             inner = found["single"][1:-1].replace("\\'", "'").replace('"', '\\"')
             return f'"{inner}"'
+        if found["key"]:
+            return f'"{found["key"]}"'
         return found["kept"] or _WORDS.get(found["word"] or "", "")
 
     return _TRAILING.sub(lambda found: found[1] or "", _UNJSON.sub(json_of, text))

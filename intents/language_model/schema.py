@@ -40,6 +40,7 @@ _STEERING = frozenset(kind.__name__ for kind in allowed.STEERING)
 _LEFT_OUT = {*_STEERING, "Pose2"}
 """Coordinates are for programs: a model is told none."""
 _BARE = {"type": "string"}
+_SPOKEN = {"type": "string", "maxLength": allowed.MAX_SPOKEN}
 
 
 @lru_cache(maxsize=4)
@@ -48,7 +49,7 @@ def answer_schema(vocabulary: Vocabulary) -> Schema:
     defs = _definitions(vocabulary)
     goals = {"type": "array", "items": {"$ref": f"{_REF}Goal"}, "minItems": 1,
              "maxItems": allowed.MAX_GOALS}  # fmt: skip
-    text = {"type": "string", "maxLength": allowed.MAX_SPOKEN}
+    text = _SPOKEN
     outcomes = {"goals": ("goals", goals), "question": ("text", text), "refusal": ("text", text)}
     return {
         "type": "object",
@@ -74,6 +75,7 @@ def _definitions(vocabulary: Vocabulary) -> Schema:
     ]  # fmt: skip
     structs = {name: _plain(one) for name, one in made[1].items() if name not in _LEFT_OUT}
     del structs["GoTo"]["properties"]["pose"]
+    structs["Say"]["properties"]["what"] = _SPOKEN
     known = _names(vocabulary)
     for choice, slots in _CHOICES.items():
         for struct, slot in (place.split(".") for place in slots):

@@ -35,8 +35,8 @@ _OTHER_KINDS = {
 _KIND_OF = {other: kind for kind, others in _OTHER_KINDS.items() for other in others.split()}
 _OTHER_SLOTS: dict[str, dict[str, str]] = {
     "go_to": {"place": "destination location target to room"},
-    "find": {"object": "item thing target"},
-    "pick": {"object": "item thing target"},
+    "find": {"object": "item thing target", "at": "location from place"},
+    "pick": {"object": "item thing target", "at": "location from place"},
     "place": {"object": "item thing", "in": "into inside",
               "on": "onto to destination location place"},
     "bring": {"object": "item thing", "to": "destination recipient person location place on"},
@@ -64,11 +64,17 @@ _ON_OR_OFF = {"turn_on": True, "switch_on": True, "turn_off": False, "switch_off
               "on": True, "off": False}  # fmt: skip
 
 
+def _tag_of(goal: Slots) -> str:
+    """Where a goal says its kind, empty if nowhere; in calls of functions it is the "name"."""
+    tags = (*_TAGS, "name") if any(isinstance(goal.get(key), dict) for key in NESTS) else _TAGS
+    return next((tag for tag in tags if isinstance(goal.get(tag), str)), "")
+
+
 def goal_kind(goal: Slots) -> str | None:
     """What a goal calls itself, in lower case; None if it is no goal."""
-    for tag in _TAGS:
-        if isinstance(goal.get(tag), str):
-            return _snake(goal[tag])
+    tag = _tag_of(goal)
+    if tag:
+        return _snake(goal[tag])
     only = _snake(next(iter(goal))) if len(goal) == 1 else ""
     return only if only in KINDS and isinstance(next(iter(goal.values())), dict) else None
 
@@ -78,7 +84,7 @@ def in_our_words(goal: Slots) -> Slots:
     said = goal_kind(goal)
     if said is None:
         return goal
-    tag = next((tag for tag in _TAGS if isinstance(goal.get(tag), str)), "")
+    tag = _tag_of(goal)
     slots = {key: value for key, value in goal.items() if key != tag} if tag else next(
         iter(goal.values())
     )  # fmt: skip
@@ -96,6 +102,10 @@ def in_our_words(goal: Slots) -> Slots:
     for slot, value in slots.items():
         name = renamed.get(slot, slot)
         ours[name if name not in taken else slot] = value
+    if kind in ("find", "pick") and "at" in ours and "object" in ours:
+        thing = ours["object"]
+        said_at = {"at": ours.pop("at")}
+        ours["object"] = said_at | (thing if isinstance(thing, dict) else {"name": thing})
     if kind == "switch" and isinstance(ours.get("on"), str):
         ours["on"] = _ON_OR_OFF.get(ours["on"].lower(), ours["on"])
     return ours
@@ -113,4 +123,5 @@ def _flat(slots: Slots) -> Slots:
 
 
 def _snake(name: str) -> str:
+    name = name.lower() if name.isupper() else name
     return snake_case(name.strip().replace(" ", "_").replace("-", "_")).replace("__", "_")

@@ -367,7 +367,7 @@ def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
     assert "The language model was of no help: " in text
 
 
-SAY = '{"outcome": "goals", "goals": [{"goal": "say", "what": "one"}, {"goal": "say", "what": "two"}]}'
+SAY = '{"goals": [{"goal": "say", "what": "one"}, {"goal": "say", "what": "two"}]}'
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,8 @@ def test_a_reply_is_read_as_it_is_meant_or_not_at_all(case: Case, server: Server
 @pytest.mark.parametrize(
     "said",
     ["{" * 50_000, "[" * 50_000, '{"' * 30_000, "<think>" * 9_000, "['" * 30_000, '["[",' * 12_000,
-     "</think>{" * 7_000, "<|" * 30_000, "{'a': " * 10_000, '{"a":"' + "\\" * 60_000, ",]" * 30_000],
+     "</think>{" * 7_000, "<|" * 30_000, "{'a': " * 10_000,
+     '{"a":"' + "\\" * 60_000, ",]" * 30_000],
     ids=range(11),
 )  # fmt: skip
 def test_no_text_makes_it_look_twice(said: str) -> None:

@@ -63,7 +63,8 @@ def test_words_change_a_plan_or_are_none_of_its(said: str, left: list[int] | Non
 
 @pytest.mark.parametrize(
     ("said", "told"),
-    [("skip nine", "There is no step 9."), ("9 first", "There is no step 9."), ("skip the piano", "No step speaks of “the piano”"),
+    [("skip nine", "There is no step 9."), ("9 first", "There is no step 9."),
+     ("skip the piano", "No step speaks of “the piano”"),
      ("skip one to six", "Nothing is left"), ("skip all of it", "say “no”"),
      ("first one", "That is so already")],
 )  # fmt: skip
