@@ -23,7 +23,7 @@ from intents.plan_steps import (
     swapped,
     without,
 )
-from intents.prohibitions import broken
+from intents.prohibitions import broken, prohibitions
 from intents.risks import risk
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
@@ -63,7 +63,9 @@ def changed(
     if all(changes):
         goals, told = _made([change for change in changes if change], plan, vocabulary)
     else:
-        against = {n for n, goal in enumerate(plan) if broken((goal,), (text,), vocabulary)}
+        against = set[int]()
+        if prohibitions(text, vocabulary):
+            against = {n for n, goal in enumerate(plan) if broken((goal,), (text,), vocabulary)}
         goals, told = without(plan, against) if against else None, ""
     if goals is None:
         return None

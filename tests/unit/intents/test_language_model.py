@@ -426,6 +426,19 @@ def test_what_a_person_forbade_is_kept_to_whatever_a_model_says() -> None:
         assert "never go near the sink" in model.trouble or "plate" in model.trouble
 
 
+def test_what_was_forbidden_of_a_plan_changed_that_plan_and_no_later_one() -> None:
+    with serving(RIGHT) as server:
+        dialogue = Dialogue(WORDS, fallback=LanguageModel(endpoint(server.url)))
+        dialogue.hear("tidy up")
+        changed = dialogue.hear("yes, but don't touch the plate")
+        assert isinstance(changed, Question)
+        assert len(changed.goals) == 1
+        dialogue.hear("no")
+        again = dialogue.hear("tidy up")
+    assert isinstance(again, Question)
+    assert len(again.goals) == 2
+
+
 def test_what_was_said_before_and_the_open_question_are_told() -> None:
     ask = Reply(content=json.dumps({"outcome": "question", "text": "Where does it belong?"}))
     with serving(
