@@ -11,13 +11,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.intents import own
 from executive.meaning.knowledge import Knowledge
 from intents.speech.audio import RATE_HZ, Resampler, Samples
 from intents.vocabulary import Vocabulary
 from sim.reality import Simulation
 
 HERE = Path(__file__).resolve().parent
-HOME = HERE.parent / "intents" / "own.vocab.json"
 VOICES = ("en-us", "en-gb+f2", "en-us+f4", "en-gb-x-rp+m3")
 """Of espeak-ng: American and British, male and female; all were used for tuning."""
 SPEEDS_WPM = (130, 160, 190)
@@ -79,7 +79,7 @@ def vocabularies() -> dict[str, Vocabulary]:
     shipped = {
         name: Knowledge(Simulation().world(name).map).vocabulary() for name in ("kitchen", "bench")
     }
-    return {**shipped, "home": Vocabulary.from_json(HOME.read_bytes())}
+    return {**shipped, "home": own.vocabulary()}
 
 
 def spoken(text: str, voice: str, speed_wpm: int) -> Samples:
