@@ -94,6 +94,11 @@ class Endpointer:
         """Whether somebody speaks now."""
         return bool(self._speech)
 
+    @property
+    def begin_s(self) -> float:
+        """Where what is being said begins in the stream."""
+        return _seconds(self._count - len(self._speech))
+
     def push(self, sound: Samples) -> list[Utterance]:
         """What has paused or ended with this block."""
         sound = np.concatenate([self._rest, sound])
@@ -103,11 +108,9 @@ class Endpointer:
         return [utterance for utterance in ended if utterance is not None]
 
     def last(self, span_s: float) -> Utterance | None:
-        """The last seconds of what is being said, if it goes on for so long already."""
-        count = frames(span_s)
-        if len(self._speech) < count:
-            return None
-        return self._piece(self._speech[-count:], quiet=self._quiet, ended=False)
+        """The last seconds of what is being said; None if nobody speaks."""
+        speech = self._speech[-frames(span_s) :]
+        return self._piece(speech, quiet=self._quiet, ended=False) if speech else None
 
     def flush(self) -> Utterance | None:
         """What has not ended when the stream does; everything is forgotten."""
@@ -158,13 +161,13 @@ class Endpointer:
     def _begin_anew(self, words_db: float) -> None:
         """Leave out what was no speech, if this is so much louder."""
         loud = frames(self._set.begin_s)
-        levels_db = [level_db for _, level_db in self._speech[self._spoken_from :]]
-        if (
-            len(levels_db) >= frames(self._set.anew_s)
-            and min(levels_db[-loud:]) > words_db + self._set.begin_db
-            and is_steady(levels_db[:-loud])
-        ):
-            self._background.take(mean_db(levels_db[:-loud]))
+        if len(self._speech) - self._spoken_from < frames(self._set.anew_s):
+            return
+        if min(level_db for _, level_db in self._speech[-loud:]) <= words_db + self._set.begin_db:
+            return
+        before_db = [level_db for _, level_db in self._speech[self._spoken_from : -loud]]
+        if is_steady(before_db):
+            self._background.take(mean_db(before_db))
             self._begin(self._speech[-frames(self._set.before_s) - loud :])
 
     def _cut(self) -> Utterance:
@@ -185,9 +188,7 @@ class Endpointer:
         self.forget()
         return piece
 
-    def _piece(
-        self, speech: list[tuple[Samples, float]], *, quiet: int, ended: bool
-    ) -> Utterance:
+    def _piece(self, speech: list[tuple[Samples, float]], *, quiet: int, ended: bool) -> Utterance:
         return Utterance(
             sound=np.concatenate([frame for frame, _ in speech]),
             begin_s=_seconds(self._count - len(speech)),
