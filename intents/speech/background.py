@@ -22,7 +22,7 @@ STEADY_S = 1.5
 STEADY_DB = 9.5
 """That much is little, from the quietest to the loudest tenth."""
 BELOW_MEAN_DB = 1.5
-"""The lowest level of white noise is so far below its mean; so is that of other steady sound taken."""
+"""The lowest level of white noise is so far below its mean; so other steady sound is taken."""
 _WINDOW = np.hanning(2 * FRAME)
 _BAND = slice(200 * 2 * FRAME // RATE_HZ, 3_800 * 2 * FRAME // RATE_HZ)
 """Hum, rumble, a constant offset and hiss say nothing about speech."""
@@ -51,6 +51,7 @@ class Background:
 
     Attributes:
         level_db: of the last 50 ms [dB of full scale].
+        floor_db: of the background.
     """
 
     def __init__(self, memory_s: float, faint_db: float) -> None:
@@ -60,7 +61,7 @@ class Background:
             memory_s: the lowest level of so long is background.
             faint_db: the background is never below this.
         """
-        self.level_db = SILENCE_DB
+        self.level_db = self.floor_db = SILENCE_DB
         self._faint_db = faint_db
         self._steady_db = SILENCE_DB
         self._last = np.zeros(FRAME, np.float32)
@@ -81,7 +82,8 @@ class Background:
         full = len(self._recent_db) == self._recent_db.maxlen
         if full and self._count % _EVERY == 0 and is_steady(self._recent_db):
             self.take(float(np.median(self._recent_db)))
-        return self.level_db - max(min(self._levels_db), self._steady_db, self._faint_db)
+        self.floor_db = max(min(self._levels_db), self._steady_db, self._faint_db)
+        return self.level_db - self.floor_db
 
     def take(self, mean_db: float) -> None:
         """Take note that sound of a level is background."""

@@ -1,7 +1,7 @@
 """Words that follow no grammar: whatever people say, likeliest what they say of a world.
 
 The language model is counted in sentences that `wordings.jsgf` and `commands.jsgf` make up with the
-names of a vocabulary; any other of the common words of English may stand between them, so that other
+names of a vocabulary; any other common word of English may stand between them, so that other
 speech is heard as other words.
 """
 
@@ -20,14 +20,16 @@ from intents.speech.frontend import prepared_from
 from intents.speech.grammar import rules
 from intents.speech.ngrams import arpa, sentence
 from intents.speech.rejection import Fit
-from intents.speech.spotting import Written
+from intents.speech.spotting import CRYING, Written
 from intents.vocabulary import Vocabulary
 
 SENTENCES = 12_000
 """So many are made up; twice as many bring no more."""
 OTHER_WORDS = 0.15
 """How likely a word is none of those that the sentences would have there."""
-_NAME = "wording"
+CRIES = 4_000
+"""So many are made up for the other model, in which cries are likelier than anything else."""
+_NAME, _CRIED = "wording", "cried"
 _SEED = 1
 
 
@@ -37,32 +39,48 @@ class Dictation:
     def __init__(self, vocabulary: Vocabulary, *, wake_word: str = "") -> None:
         """Make the language model; takes about a second."""
         made = rules(vocabulary, "wordings.jsgf", wake_word=wake_word)
-        rng = random.Random(_SEED)
-        sentences = [sentence(made, _NAME, rng) for _ in range(SENTENCES)]
-        others = common_words()
-        words = {word for one in sentences for word in one}.union(others)
         self._decoder = Decoder(FOR_MODELS)
-        self._decoder.add_model(_NAME, arpa(sentences, others, OTHER_WORDS), words)
+        others = common_words()
+        for name, count in ((_NAME, SENTENCES), (_CRIED, CRIES)):
+            rng = random.Random(_SEED)
+            sentences = [sentence(made, name, rng) for _ in range(count)]
+            words = {word for one in sentences for word in one}.union(others)
+            self._decoder.add_model(name, arpa(sentences, others, OTHER_WORDS), words)
 
     def words(self, values: Cepstra, power: NDArray[np.float64]) -> list[Fit]:
         """The words of an utterance: its centred cepstra, and the mean square of each frame."""
         return self._decoder.decoded(_NAME, values, power)
 
-    def written(self, sound: Samples) -> list[Written]:
-        """The words of some seconds of sound, by whomever, with their places."""
+    def cried(self, sound: Samples) -> list[Written]:
+        """The words of some seconds of sound, by whomever, with cries wherever they may be."""
         data, begin_s = prepared_from(sound)
         if not data:
             return []
-        fits = self.words(centred(cepstra(data)), power_of(data))
+        values, power = centred(cepstra(data)), power_of(data)
+        found = self._decoder.decoded(_CRIED, values, power)
+        if not any(fit.word in CRYING for fit in found):
+            return []
+        free = self.words(values, power)
         return [
             Written(
                 fit.word,
                 begin_s + fit.begin * HOP / RATE_HZ,
                 begin_s + (fit.begin + fit.frames) * HOP / RATE_HZ,
                 fit.score / fit.frames,
+                _score_there(free, fit) - fit.score / fit.frames,
             )
-            for fit in fits
+            for fit in found
         ]
+
+
+def _score_there(fits: list[Fit], there: Fit) -> float:
+    """How well words fit where another one was found [nat/frame]; nothing fits if there is none."""
+    end, total, count = there.begin + there.frames, 0.0, 0
+    for fit in fits:
+        both = min(end, fit.begin + fit.frames) - max(there.begin, fit.begin)
+        if both > 0:
+            total, count = total + both * fit.score / fit.frames, count + both
+    return total / count if count else 0.0
 
 
 def common_words() -> dict[str, float]:

@@ -115,8 +115,10 @@ class Ear:
         found: list[Spoken | None] = []
         step = round(EVERY_S * RATE_HZ)
         for at in range(0, len(sound), step):
-            found += [self._understood(one) for one in self._endpointer.push(sound[at : at + step])]
-            found.append(self._cried(speaking=speaking))
+            pieces = self._endpointer.push(sound[at : at + step])
+            paused = any(not one.ended for one in pieces)
+            found.append(self._cried(speaking=speaking, paused=paused))
+            found += [self._understood(one) for one in pieces]
         return [one for one in found if one is not None]
 
     def finish(self) -> list[Spoken]:
@@ -129,18 +131,19 @@ class Ear:
         """Take note of what the robot says."""
         self._own.append((self._now_s, _plain(text)))
 
-    def _cried(self, *, speaking: bool) -> Spoken | None:
+    def _cried(self, *, speaking: bool, paused: bool) -> Spoken | None:
         """A cry in what is being said; None if there is none, or it has been heeded already."""
         if self._spotter is None or not (self.at_work or speaking):
             return None
         last = self._endpointer.last(SPAN_S)
-        if last is None or last.end_s - self._spotted_s < EVERY_S:
+        if last is None or (last.end_s - self._spotted_s < EVERY_S and not paused):
             return None
         begin_s = self._endpointer.begin_s
         if begin_s <= self._stopped_s:
             return None
         self._spotted_s = last.end_s
-        cry = self._spotter.spotted(last.sound, last.begin_s, whole=last.begin_s == begin_s)
+        whole = last.begin_s == begin_s
+        cry = self._spotter.spotted(last.sound, last.begin_s, whole=whole, paused=paused)
         if cry is None:
             return None
         if cry.stops:

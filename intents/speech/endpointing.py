@@ -27,6 +27,7 @@ class Endpoints(msgspec.Struct, frozen=True, kw_only=True):
             only, that begins it anew.
         end_db: above the background, below which it has ended.
         below_db: below the words so far, the same.
+        far_db: so far above the background nothing is background.
         faint_db: below this level [dB of full scale] nothing is speech.
         begin_s: for so long, to begin.
         pause_s: for so long, to be told as a pause.
@@ -40,6 +41,7 @@ class Endpoints(msgspec.Struct, frozen=True, kw_only=True):
     begin_db: float = 8.0
     end_db: float = 5.0
     below_db: float = 10.0
+    far_db: float = 12.0
     faint_db: float = -70.0
     begin_s: float = 0.08
     pause_s: float = 0.2
@@ -104,17 +106,20 @@ class Endpointer:
         sound = np.concatenate([self._rest, sound])
         whole = len(sound) // FRAME * FRAME
         self._rest = sound[whole:]
-        ended = (self._frame(frame) for frame in sound[:whole].reshape(-1, FRAME))
+        ended = [self._frame(frame) for frame in sound[:whole].reshape(-1, FRAME)]
         return [utterance for utterance in ended if utterance is not None]
 
     def last(self, span_s: float) -> Utterance | None:
         """The last seconds of what is being said; None if nobody speaks."""
         speech = self._speech[-frames(span_s) :]
-        return self._piece(speech, quiet=self._quiet, ended=False) if speech else None
+        if not speech or self._is_background(len(speech)):
+            return None
+        return self._piece(speech, quiet=self._quiet, ended=False)
 
     def flush(self) -> Utterance | None:
         """What has not ended when the stream does; everything is forgotten."""
-        utterance = self._end() if self._speech else None
+        voiced = self._speech and not self._is_background(len(self._speech))
+        utterance = self._end() if voiced else None
         self.forget()
         return utterance
 
@@ -139,13 +144,29 @@ class Endpointer:
         self._speech.append(heard)
         self._power += 10.0 ** (heard[1] / 10.0)
         self._begin_anew(words_db)
-        if self._quiet >= frames(self._set.end_s):
+        ends = self._quiet >= frames(self._set.end_s)
+        paused = below and self._quiet == frames(self._set.pause_s)
+        too_long = len(self._speech) >= frames(self._set.longest_s)
+        if (ends or paused or too_long) and self._is_background(len(self._speech)):
+            self._background.take(self._words_db)
+            self.forget()
+        elif ends:
             return self._end()
-        if len(self._speech) >= frames(self._set.longest_s):
+        elif too_long:
             return self._cut()
-        if below and self._quiet == frames(self._set.pause_s):
+        elif paused:
             return self._piece(self._speech, quiet=self._quiet, ended=False)
         return None
+
+    def _is_background(self, count: int) -> bool:
+        """Whether the last frames, but for a pause after them, swing too little for a voice.
+
+        What is far louder than the background is none: a cry may be one long vowel.
+        """
+        begin = max(self._spoken_from, len(self._speech) - count)
+        levels_db = [level_db for _, level_db in self._speech[begin : -self._quiet or None]]
+        near = self._words_db < self._background.floor_db + self._set.far_db
+        return near and len(levels_db) >= frames(self._set.anew_s) and is_steady(levels_db)
 
     @property
     def _words_db(self) -> float:

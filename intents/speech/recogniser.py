@@ -8,7 +8,6 @@ import msgspec
 
 from intents.speech.audio import Samples
 
-
 SURE = 0.5
 """What is less doubtful may be acted on without asking."""
 

@@ -94,12 +94,12 @@ class Weights(msgspec.Struct, frozen=True, kw_only=True):
 
 
 OF_COMMAND = Weights(
-    seen=Features(worst=0.358, mean=0.263, length=-1.196, chance=0.0, rarest=0.0, unsaid=-8.092),
-    gap=-1.139, same=-0.212, agree=2.718, bias=7.932,
+    seen=Features(worst=0.371, mean=0.296, length=-1.047, chance=0.0, rarest=0.0, unsaid=-7.134),
+    gap=-0.899, same=1.285, agree=1.774, bias=6.796,
 )  # fmt: skip
 OF_FREE = Weights(
-    seen=Features(worst=0.179, mean=1.311, length=0.572, chance=0.059, rarest=0.007, unsaid=0.0),
-    gap=0.0, same=1.22, agree=2.878, bias=6.007,
+    seen=Features(worst=0.135, mean=1.472, length=0.51, chance=0.07, rarest=0.002, unsaid=0.0),
+    gap=0.0, same=1.014, agree=2.938, bias=6.423,
 )  # fmt: skip
 """Fitted to sentences of `benchmarks.speech` that are for tuning, said by strangers in nine voices,
 clean and in white noise at 15 dB."""
