@@ -5,7 +5,7 @@ from __future__ import annotations
 from difflib import SequenceMatcher
 from typing import NamedTuple
 
-from intents.outcomes import Goals
+from intents.outcomes import Goals, Refusal
 from intents.parser import parse
 from intents.speech.rejection import (
     DOUBTFUL,
@@ -28,6 +28,10 @@ the command has more than a few words [nat/frame]: a cry is misheard as one or t
 five that happen to fit."""
 WORST_CRY = -8.5
 """How badly the words of a cry may fit [nat/frame]."""
+SHORT_CRY = 3
+"""Words: a longer cry among free words has to be believed like other words to be heeded."""
+MEANS_NOTHING = 2.0
+"""So much more doubtful are free words that ask for nothing: talk beside it is passed over."""
 CRY_ALONE = 0.05
 """Share of the power of an utterance that may fall on no word of a cry."""
 
@@ -72,13 +76,18 @@ def chosen(found: Found, vocabulary: Vocabulary, *, replying: bool) -> Choice:
         command = cry
     if not command or not free:
         return Choice(command or free, DOUBTFUL if command or free else 0.0)
-    for fits, other in ((command, free), (free, command)):
-        if is_stop(text_of(fits)) and mean_score(fits) > mean_score(other) - AS_WELL:
-            return Choice(fits)
+    if is_stop(text_of(command)) and mean_score(command) > mean_score(free) - AS_WELL:
+        return Choice(command)
     agree = _same(text_of(command), text_of(free), vocabulary)
     of_command = doubt_of_command(command, free, agree=agree)
     of_free = doubt_of_free(free, command, agree=agree)
-    if is_stop(text_of(command)) or of_free < of_command:
+    if is_stop(text_of(free)):
+        if len(free) <= SHORT_CRY or of_free < 1.0:
+            return Choice(free)
+        free, of_free = [], DOUBTFUL
+    elif isinstance(parse(text_of(free), vocabulary), Refusal):
+        of_free *= MEANS_NOTHING
+    if is_stop(text_of(command)) or (free and of_free < of_command):
         return Choice(free, of_free, _otherwise(free, command))
     return Choice(command, of_command, _otherwise(command, free))
 

@@ -26,9 +26,15 @@ OPTIONS: dict[str, Any] = {
     "lm": None, "bestpath": False, "loglevel": "FATAL", "compallsen": True,
 }  # fmt: skip
 """All senones scored, for rejection needs the best; no lattice, which loses words."""
-FOR_AUTOMATA = {"beam": 1e-80, "pbeam": 1e-80, "wbeam": 1e-60, "wip": 0.05, "lw": 4.0}
+FOR_AUTOMATA: dict[str, Any] = {
+    "beam": 1e-80,
+    "pbeam": 1e-80,
+    "wbeam": 1e-60,
+    "wip": 0.05,
+    "lw": 4.0,
+}
 """Wide beams, few insertions."""
-FOR_MODELS = {
+FOR_MODELS: dict[str, Any] = {
     "beam": 1e-60, "pbeam": 1e-60, "wbeam": 1e-40, "wip": 0.3, "lw": 6.5, "fwdflat": False
 }  # fmt: skip
 """One pass: a second over the words found, wider beams and other weights (4 to 9) gain nothing."""

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from intents.outcomes import Goals
 from intents.parser import parse
 from intents.speech import wav
 from intents.speech.audio import RATE_HZ
@@ -77,7 +78,7 @@ def test_an_answer_is_heard_only_as_an_answer(recogniser):
     heard = recogniser.recognise(answer, replying=True)
     assert heard.text.startswith("yes")
     assert heard.believed
-    assert "yes" not in recogniser.recognise(answer).text
+    assert not isinstance(parse(recogniser.recognise(answer).text, KITCHEN), Goals)
 
 
 def test_the_same_sound_gives_the_same_words(recogniser):
