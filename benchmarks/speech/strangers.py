@@ -1,4 +1,4 @@
-"""`python -m benchmarks.speech.strangers`: what becomes of ordinary wordings and cries of strangers.
+"""`python -m benchmarks.speech.strangers`: what becomes of what strangers ask and cry.
 
 Nine voices of three synthesisers (espeak-ng, flite, festival) say them, each for the first time, in
 silence, in white noise, or while eight people talk. Takes come in random order, so that a part of

@@ -8,7 +8,7 @@ import msgspec
 
 from intents.speech.audio import Samples
 
-SURE = 0.5
+SURE = 0.4
 """What is less doubtful may be acted on without asking."""
 
 
