@@ -172,7 +172,8 @@ class Ear:
         self._early = None
         halted, self._halted = self._halted, None
         kind, text, why = self._judged(heard, utterance)
-        if halted is not None and kind == "ignored":
+        if halted is not None and (kind == "ignored" or not (is_halt(text) or is_stay(text))):
+            heard = Heard(text=halted.text, took_s=heard.took_s)  # the two do not agree: only halt
             kind, text, why = "sentence", halted.text, ""
         elif kind == "sentence":
             self._recogniser.learn()

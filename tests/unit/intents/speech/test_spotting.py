@@ -63,15 +63,16 @@ def test_what_does_not_fit_is_no_cry(score, gap):
 class Told:
     """Writes what it is told, one text a time."""
 
-    def __init__(self, *texts):
+    def __init__(self, *texts, heard=None):
         self.texts = list(texts)
+        self.heard = heard or Heard(text="the weather is nice", doubt=1.5)
 
     def cried(self, sound):
         text = self.texts.pop(0) if len(self.texts) > 1 else self.texts[0]
         return written(text, begin_s=0.5)
 
     def recognise(self, sound, *, replying=False):
-        return Heard(text="the weather is nice", doubt=1.5)
+        return self.heard
 
     def learn(self):
         pass
@@ -119,6 +120,15 @@ def test_a_halt_comes_first_and_what_is_asked_after():
     found = listened(Told("wait"))
     assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), ("sentence", "wait")]
     assert found[0][0] < 3.0 < found[1][0]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("wave", "wait"), ("wait go to the table", "wait go to the table")],
+)
+def test_after_a_halt_only_what_agrees_with_it_is_done(text, told):
+    found = listened(Told("wait", heard=Heard(text=text)))
+    assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), ("sentence", told)]
 
 
 def test_nothing_is_spotted_of_a_robot_that_is_not_at_work():
