@@ -50,7 +50,8 @@ def main(
     dictation = Dictation(vocabulary)
     recogniser = Sphinx(vocabulary, dictation=dictation)
     count, busy_s, sound_s = Counter[str](), 0.0, 0.0
-    for number, take in enumerate(_takes(what)[: takes or None]):
+    taken = _takes(what)[: takes or None]
+    for number, take in enumerate(taken):
         sound = _stream(take, noise, snr_db, number)
         begun_s = time.process_time()
         recogniser.speakers = ()
@@ -61,7 +62,7 @@ def main(
             said = "; ".join(f"{one.kind} {one.text!r} {one.doubt:.2f}" for one in heard)
             print(f"{take.voice} | {take.line.text} | {said}", flush=True)
     for kind, often in count.most_common():
-        print(f"{kind}: {often} of {number + 1}")
+        print(f"{kind}: {often} of {len(taken)}")
     print(f"real-time factor {busy_s / sound_s:.2f}; {machine.describe()}")
 
 
