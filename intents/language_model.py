@@ -9,7 +9,6 @@ goes wrong with it is a value in :attr:`LanguageModel.trouble`; the robot then g
 """
 
 import ipaddress
-import math
 import time
 from collections.abc import Callable
 from typing import Any, cast
@@ -25,6 +24,7 @@ from intents.vocabulary import Vocabulary
 from intents.wire import Unusable, Wire
 
 MAX_REPAIRS = 2
+MAX_DEADLINE_S = 600.0
 _FORBIDDEN = (401, 403)
 
 
@@ -64,7 +64,7 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         base_url: Up to and without "/chat/completions"; no other host is ever spoken to. In the
             clear (http) on this machine only.
         model: Its name there.
-        deadline_s: Time for one request, repairs included [s].
+        deadline_s: Time for one request, repairs included [s]; up to ten minutes.
         max_calls: Calls in one mission.
         max_tokens: Tokens in one mission, prompts included.
         answer_tokens: Tokens of one answer.
@@ -88,8 +88,8 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             raise ValueError(f"base_url {self.base_url!r}: only https leaves this machine")
         if min(self.deadline_s, self.max_calls, self.max_tokens, self.answer_tokens) <= 0:
             raise ValueError("deadline_s and the limits have to be more than 0")
-        if not math.isfinite(self.deadline_s):
-            raise ValueError("deadline_s has to be a number of seconds")
+        if not self.deadline_s <= MAX_DEADLINE_S:  # nor NaN
+            raise ValueError(f"deadline_s: at most {MAX_DEADLINE_S:g} s are waited for an answer")
 
     @property
     def host(self) -> str:
@@ -101,6 +101,7 @@ def _address(base_url: str) -> httpx.URL:
     """The address as the client understands it; raises ValueError if it is none to send to."""
     try:
         url = httpx.URL(base_url)
+        url.raw_host.decode("ascii").encode("idna")  # as who looks it up will: labels of 63 letters
     except (httpx.InvalidURL, UnicodeError):
         raise ValueError(f"base_url {base_url!r} is no http address") from None
     if url.scheme not in ("http", "https") or not url.host or (url.port or 0) > 65535:

@@ -102,7 +102,7 @@ TREES: dict[str, str | bytes | Make] = {
     "unknown-leaf": _tree("<Explode/>"),
     "unknown-c1": _tree('<Action ID="&#x9b;31m"/>'),
     "unknown-bidi": _tree('<Action ID="&#x202e;gnp"/>'),
-    "unknown-long": _tree(f"<{'x' * 100_000}/>"),
+    "unknown-long": _tree(f"<{'x' * 1_900_000}/>"),
     "name-bidi": _tree('<Explode name="&#x202e;gnp"/>'),
     "script": _tree('<Script code="x := 1"/>'),
     "pre-condition": _tree('<AlwaysSuccess _skipIf="x==1"/>'),
