@@ -20,11 +20,11 @@ from intents.parser import hear
 from intents.vocabulary import Names, Vocabulary
 from intents.wording import in_words
 from robot import plain_data
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError, Problem, shortened
 from robot.yaml_nodes import read_text
 
 MAX_NAMES = 200_000
-"""Bytes of a vocabulary: some thousand names, more than any one world has."""
+"""Bytes of a vocabulary; of its names, see `intents.vocabulary.MOST_NAMES`."""
 MAX_SENTENCES = 10_000_000
 """Bytes of a file of sentences: some 100 000."""
 
@@ -102,14 +102,15 @@ def _lines(file: Path) -> Iterable[str]:
 
 def _words(text: str, outcome: Outcome) -> str:
     """An outcome for people: what is understood, from which words, and the goals."""
+    text = shortened(text)
     if isinstance(outcome, Goals):
         goals = [msgspec.json.encode(goal).decode() for goal in to_builtins(outcome.goals)]
         lines = [text, f"  understood: {in_words(outcome.goals)}", *_why(outcome)]
         return "\n".join([*lines, *(f"  {goal}" for goal in goals)])
     if isinstance(outcome, Question):
         choices = [f"    - {choice.label}" for choice in outcome.choices]
-        return "\n".join([text, f"  question: {outcome.question}", *choices])
-    return f"{text}\n  refused: {outcome.reason}"
+        return "\n".join([text, f"  question: {shortened(outcome.question)}", *choices])
+    return f"{text}\n  refused: {shortened(outcome.reason)}"
 
 
 def _why(outcome: Goals) -> list[str]:

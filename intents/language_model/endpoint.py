@@ -1,10 +1,12 @@
 """Where a language model is, what it may cost, and the secret that its host knows us by."""
 
 import ipaddress
-import math
 
 import httpx
 import msgspec
+
+
+MAX_DEADLINE_S = 600.0
 
 
 class Key:
@@ -47,7 +49,7 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         base_url: Up to and without "/chat/completions"; no other host is ever spoken to. In the
             clear (http) on this machine only.
         model: Its name there.
-        deadline_s: Time for one request, a repair included [s].
+        deadline_s: Time for one request, a repair included [s]; up to ten minutes.
         max_calls: Calls in one mission.
         max_tokens: Tokens in one mission, prompts included.
         answer_tokens: Tokens of one answer, thoughts included.
@@ -71,8 +73,8 @@ class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             raise ValueError(f"base_url {self.base_url!r}: only https leaves this machine")
         if min(self.deadline_s, self.max_calls, self.max_tokens, self.answer_tokens) <= 0:
             raise ValueError("deadline_s and the limits have to be more than 0")
-        if not math.isfinite(self.deadline_s):
-            raise ValueError("deadline_s has to be a number of seconds")
+        if not self.deadline_s <= MAX_DEADLINE_S:  # nor NaN
+            raise ValueError(f"deadline_s: at most {MAX_DEADLINE_S:g} s are waited for an answer")
 
     @property
     def host(self) -> str:
@@ -84,6 +86,7 @@ def _address(base_url: str) -> httpx.URL:
     """The address as the client understands it; raises ValueError if it is none to send to."""
     try:
         url = httpx.URL(base_url)
+        url.raw_host.decode("ascii").encode("idna")  # as who looks it up will: labels of 63 letters
     except (httpx.InvalidURL, UnicodeError):
         raise ValueError(f"base_url {base_url!r} is no http address") from None
     if url.scheme not in ("http", "https") or not url.host or (url.port or 0) > 65535:
