@@ -370,7 +370,30 @@ class State(_Slots, frozen=True, tag="state", tag_field="is", kw_only=True):
     negated: bool = False
 
 
-Condition = Present | Holding | State
+class AllOf(_Slots, frozen=True, tag="all", tag_field="is", kw_only=True):
+    """Every one of several conditions holds."""
+
+    of: "tuple[Condition, ...]"
+
+
+class AnyOf(_Slots, frozen=True, tag="any", tag_field="is", kw_only=True):
+    """At least one of several conditions holds."""
+
+    of: "tuple[Condition, ...]"
+
+
+Simple = Present | Holding | State
+"""A condition of one thing."""
+Condition = Simple | AllOf | AnyOf
+
+
+def simple_conditions(condition: Condition) -> Iterator[Simple]:
+    """What a condition is made of, in the order said."""
+    if isinstance(condition, AllOf | AnyOf):
+        for one in condition.of:
+            yield from simple_conditions(one)
+    else:
+        yield condition
 
 
 class If(_Goal, frozen=True, kw_only=True):

@@ -203,6 +203,12 @@ def _balance(goal: g.Balance) -> str:
 
 def condition(holds: g.Condition) -> str:
     """A condition as a clause: "the cup is on the table"."""
+    if isinstance(holds, g.AllOf | g.AnyOf):
+        link = " and " if isinstance(holds, g.AllOf) else " or "
+        return link.join(
+            f"({condition(one)})" if isinstance(one, g.AllOf | g.AnyOf) else condition(one)
+            for one in holds.of
+        )
     no = " not" if holds.negated else ""
     if isinstance(holds, g.Present):
         return f"{_subject(holds.object, holds.person)} is{no} there"

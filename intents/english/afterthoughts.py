@@ -6,20 +6,23 @@
 
 from msgspec.structs import replace
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from intents.english.clauses.compounds import acts_at, condition
+from intents.english.clauses.conditions import IF, as_soon_as, mention
 from intents.english.clauses.openings import (
     begins_clause,
     nothing_end,
     otherwise_end,
     skip_openings,
 )
+from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
+from intents.english.phrases.complements import connector_end
 from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
-from intents.english.trouble import Partly, ReadingError
+from intents.english.trouble import Partly, ReadingError, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import measure
@@ -53,19 +56,49 @@ def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
 
 
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """Bring the mug *if the cup is not there*."""
+    """Bring the mug *if the cup is not there*.
+
+    Raises:
+        Partly: Some of the condition cannot be checked, or it is not clear how far it goes.
+    """
     text = sentence.text
     start = text.phrase_end(IF, at)
     if start is None or text.word(at - 1) == FULL_STOP:
         return None
+    hangs_on = text.word(at) in _CONDITIONAL and not (
+        text.word(at - 1) == COMMA or connector_end(text, at - 1)
+    )
+    instead = _instead(sentence, at, start, last)
+    if instead:
+        return instead
     try:
         holds, end = condition(text, start, sentence.scope)
-    except ReadingError:
+    except ReadingError as error:
+        if hangs_on:
+            raise Partly(_without_stop(error), tuple(sentence.before)) from error
         return None
+    found = _conditioned(sentence, (at, end), holds, last)
+    if found is None and hangs_on:
+        action = acts_at(text, end)
+        what = text.raw(action or end, content_end(text, action or end))
+        raise Unclear(f"“{what}” in any case, or only then? Please say it in two sentences.")
+    return found
+
+
+def _without_stop(error: ReadingError) -> str:
+    return str(error).rstrip(".")
+
+
+def _conditioned(
+    sentence: Sentence, clause: tuple[int, int], holds: Condition, last: list[Goal]
+) -> Found | None:
+    """The goals before as they hang on a condition; None if more is said of it."""
+    (at, end), text = clause, sentence.text
     soon = as_soon_as(text, at, holds)
     if soon and (end >= len(text) or text.word(end) == FULL_STOP):
-        return [soon, *last], end
+        return [*soon, *last], end
     unless = text.word(at) == "unless"
+    start = text.phrase_end(IF, at) or at
     if not unless and lexicon.ONES.intersection(text.words[start:end]):
         holds, last = _one_of_those(holds, last)
     comma = text.word(end) == COMMA and end < len(text)
@@ -83,6 +116,36 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if unless:
         return [If(condition=holds, else_=tuple(last))], end
     return [If(condition=holds, then=tuple(last))], end
+
+
+def _instead(sentence: Sentence, at: int, start: int, last: list[Goal]) -> Found | None:
+    """Bring the mug, or the cup *if it is not there*: the cup where the mug is not."""
+    text, before = sentence.text, sentence.before
+    wanted = before[-2] if len(before) > 1 else None
+    query = getattr(wanted, "object", None)
+    other = getattr(last[-1], "object", None) if last else None
+    end = text.phrase_end(_NOT_THERE, start)
+    linked = "or" in text.words[max(0, at - _REACH) : at] and text.word(at) == "if"
+    if not (linked and end and isinstance(query, ObjectQuery) and other is not None):
+        return None
+    if wanted is None or (end < len(text) and text.word(end) != FULL_STOP):
+        return None
+    sought = replace(query, count=None)
+    del before[len(before) - 1 - len(last) :]
+    there = Present(object=sought)
+    return [If(condition=there, then=(wanted,), else_=tuple(last))], end
+
+
+_CONDITIONAL = lexicon.words("if unless only provided")
+"""Links that make what stands before them hang on what follows."""
+_REACH = 8
+"""So many words the second of two things may have: "or the small blue cup"."""
+_NOT_THERE = lexicon.phrases(
+    "it is not there,it is not,there is none,there is not one,they are not there,you can not find it,"
+    "you do not find it,you can not see it,you do not see it,it is gone,it is missing,"
+    "that is not there,you do not see one,you can not find one,that one is not there,not"
+)
+"""Of the first of two things, that it cannot be had."""
 
 
 def _one_of_those(holds: Condition, last: list[Goal]) -> tuple[Condition, list[Goal]]:

@@ -1,20 +1,26 @@
 """Conditions: "the cup is not there", "you see a person", "the door is open"."""
 
+from copy import copy
+
 from msgspec.structs import replace
 
+from intents.english.clauses.coordination import Joint, Link, combined, coordinated, link_at
 from intents.english.phrases.bare_phrases import bare_phrase
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.trouble import NotUnderstood
+from intents.english.trouble import NotUnderstood, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import LOCATIVES, phrases
 from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import (
+    AnyOf,
     Bring,
     Condition,
     Find,
     Give,
+    Goal,
     Holding,
     ObjectQuery,
     Person,
@@ -22,6 +28,7 @@ from intents.goals import (
     Place,
     Present,
     State,
+    simple_conditions,
 )
 
 IF = phrases(
@@ -49,8 +56,8 @@ _NOT_SO = phrases(
 )
 """How a condition takes up the question before it."""
 _YET = ("yet", "already", "still", "anymore", "now")
-_IS = ("is", "are", "stands", "stand", "stays", "be")
-_NO = ("no", "not", "never", "nothing", "any")
+IS = ("is", "are", "stands", "stand", "stays", "be")
+_NO = ("no", "not", "never", "nothing", "any", "neither")
 _THERE = ("there", "here", "present", "visible", "available", "around", "home", "left")
 _THEREON = phrases("on it,on them,in it,in them,there,on top,on top of it,inside,inside it")
 _GONE = ("missing", "gone", "absent", "away")
@@ -60,12 +67,13 @@ _SEE = ("see", "find", "spot", "locate", "notice", "detect", "recognize")
 _HOLD = ("have", "hold", "holding", "carry", "carrying", "grasp")
 
 
-def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
-    """The condition that begins at a word, and where it ends.
+def one_condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
+    """The condition of one subject or of several that begins at a word, and where it ends.
 
     Raises:
         NotUnderstood: It is nothing the robot can check.
     """
+    at += text.word(at) in ("either", "both")
     holds, end = _asked(text, at, scope) or _condition(text, at, scope)
     if text.word(end) == "there" and scope.place and isinstance(holds, Present) and holds.object:
         holds = replace(holds, object=replace(holds.object, at=holds.object.at or scope.place))
@@ -76,14 +84,17 @@ def condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
 def mention(holds: Condition, scope: Scope, *, met: bool = True) -> None:
     """Remember what a condition speaks of, as it is where the condition is met or is not.
 
-    If the cup is not on the table, put *it* there: then it is wherever it is.
+    If the cup is not on the table, put *it* there: then it is wherever it is. Of several things
+    what is held is "it".
     """
-    if isinstance(holds, Present):
-        spoken_of = holds.object or holds.person or Person()
-        scope.mention(spoken_of if met != holds.negated else replace(spoken_of, at=None))
-        scope.mention(spoken_of.at)
-    elif isinstance(holds, Holding) and holds.object.name:
-        scope.mention(holds.object)
+    for one in sorted(simple_conditions(holds), key=lambda one: isinstance(one, Holding)):
+        if isinstance(one, Present):
+            spoken_of = one.object or one.person or Person()
+            there = met != one.negated and not isinstance(holds, AnyOf)
+            scope.mention(spoken_of if there else replace(spoken_of, at=None))
+            scope.mention(spoken_of.at)
+        elif isinstance(one, Holding) and one.object.name:
+            scope.mention(one.object)
 
 
 def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:
@@ -120,14 +131,31 @@ def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         phrase.end += text.word(phrase.end) == "is"
         read_postmodifiers(text, phrase)
         return Present(person=to_person(phrase, scope), negated=True), phrase.end
+    neither = word == "neither"
     negated, at = _negation(text, at)
     phrase = noun_phrase(text, at)
     has = _on_it(text, phrase, scope) if phrase else None
     if has:
         return has
-    if phrase is None or text.word(phrase.end) not in _IS:
+    if phrase is None:
         raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
-    return _of_thing(text, phrase, scope, negated)
+    subjects, joint, end = coordinated(text, phrase, phrase.end, lambda link: _subject(text, link))
+    if text.word(end) not in IS or (len(subjects) > 1 and negated and not neither):
+        raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
+    found: list[Condition] = []
+    at = end
+    for subject in subjects:
+        subject.end = at
+        holds, end = _of_thing(text, subject, scope, negated)
+        found.append(holds)
+    return combined(found, "and" if negated else joint), end
+
+
+def _subject(text: Text, link: Link) -> tuple[NounPhrase, int] | None:
+    """One more thing of which the same is said: the cup *and the box* are on the table."""
+    phrase = noun_phrase(text, link.start)
+    listed = phrase is not None and (text.word(phrase.end) in IS or link_at(text, phrase.end))
+    return (phrase, phrase.end) if phrase is not None and listed else None
 
 
 def _on_it(text: Text, spot: NounPhrase, scope: Scope) -> tuple[Condition, int] | None:
@@ -143,13 +171,23 @@ def _on_it(text: Text, spot: NounPhrase, scope: Scope) -> tuple[Condition, int] 
     return _is_present(phrase, scope, negated), end
 
 
-def as_soon_as(text: Text, at: int, holds: Condition) -> Find | None:
-    """When you find a guest, ...: first find one."""
+def as_soon_as(text: Text, at: int, holds: Condition) -> list[Goal]:
+    """When you find a guest, ...: first find one; empty if nothing is to be found.
+
+    Raises:
+        Unclear: It is one thing or another.
+    """
     end = text.phrase_end(_WHEN, at)
-    when = end is not None and text.word(end) == "you"
-    if not when or not isinstance(holds, Present) or holds.negated:
-        return None
-    return Find(object=holds.object, person=holds.person)
+    if end is None or text.word(end) != "you":
+        return []
+    if isinstance(holds, AnyOf):
+        raise Unclear("The one or the other: which shall I look for?")
+    found: list[Goal] = []
+    for one in simple_conditions(holds):
+        if not isinstance(one, Present) or one.negated:
+            return []
+        found.append(Find(object=one.object, person=one.person))
+    return found
 
 
 def _negation(text: Text, at: int) -> tuple[bool, int]:
@@ -161,12 +199,77 @@ def _negation(text: Text, at: int) -> tuple[bool, int]:
 
 
 def _present(text: Text, at: int, scope: Scope, negated: bool) -> tuple[Condition, int]:
+    """There is *a cup or a bottle on the table*."""
+    phrases_, joint, end = _things(text, at, negated)
+    for phrase, denied in phrases_:
+        if denied and phrase.said == "one":
+            phrase.noun, phrase.said = "person", "person"
+    found = [_is_present(phrase, scope, denied) for phrase, denied in phrases_]
+    return combined(found, joint), end
+
+
+def _things(
+    text: Text, at: int, negated: bool
+) -> tuple[list[tuple[NounPhrase, bool]], Joint, int]:
+    """Things of which all or any are there, each with whether it is not, what joins them, the end.
+
+    They are all where the last one is, if it is not said of the others: "a cup or a bottle on the
+    table". What is denied once is denied of each: "no cup or bottle".
+
+    Raises:
+        NotUnderstood: There is none.
+        Unclear: It is not said where the last one is, or what of them is denied.
+    """
+    at += text.word(at) in ("either", "both")
     phrase = noun_phrase(text, at)
-    if phrase is not None and negated and phrase.said == "one":
-        phrase.noun, phrase.said = "person", "person"
     if phrase is None:
         raise NotUnderstood(f"I cannot check whether there is “{text.raw(at, len(text))}”")
-    return _is_present(phrase, scope, negated), phrase.end
+    first = (phrase, negated)
+    found, joint, end = coordinated(text, first, phrase.end, lambda link: _thing(text, link, first))
+    if negated and joint == "and" and not all(denied for _, denied in found[1:]):
+        raise Unclear("None of them, or not all of them? Please say it one by one.")
+    if negated and joint in ("or", "nor"):
+        found, joint = [(one, True) for one, _ in found], "and"
+    last = found[-1][0]
+    if any(one.places for one, _ in found) and not last.places:
+        raise Unclear(f"Where is {text.raw(last.start, last.end)} to be?")
+    for one, _ in found:
+        one.places = one.places or last.places
+    return found, joint, end
+
+
+def _thing(
+    text: Text, link: Link, first: tuple[NounPhrase, bool]
+) -> tuple[tuple[NounPhrase, bool], int] | None:
+    """There is a cup *or a bottle*; you see a cup on the table *or on the shelf*."""
+    negated, at = _negation(text, link.start)
+    phrase = noun_phrase(text, at)
+    before = first[0]
+    spot = phrase is None or (phrase.is_spot and phrase.noun != "unknown")
+    if spot and before.places:
+        again = _elsewhere(text, at, before)
+        return ((again, negated), again.end) if again else None
+    if phrase is None or phrase.noun == "unknown" or text.word(phrase.end) in IS:
+        return None
+    if verbs_at(text.words, link.start) and not text.name_at(link.start):
+        return None
+    return (phrase, negated), phrase.end
+
+
+def _elsewhere(text: Text, at: int, said: NounPhrase) -> NounPhrase | None:
+    """What was said to be in one place as it is in another: "on the table *or (on) the shelf*"."""
+    again = copy(said)
+    again.places, again.end = [], at
+    read_postmodifiers(text, again)
+    if again.end > at:
+        return again
+    spot = noun_phrase(text, at)
+    if spot is None or spot.noun == "unknown" or text.word(spot.end) in IS or not said.places:
+        return None
+    if spot.places and not spot.is_spot:
+        return None  # ... and the bottle on the chair
+    again.places, again.end = [Locative(said.places[-1].how, spot)], spot.end
+    return again
 
 
 def _is_present(phrase: NounPhrase, scope: Scope, negated: bool) -> Condition:
@@ -182,10 +285,13 @@ def _of_robot(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
         negated = negated or text.word(at) == "not"
         at += 1
     if text.word(at) in _HOLD:
-        phrase = noun_phrase(text, at + 1)
-        if phrase:
-            phrase.end = text.phrase_end(_IN_HAND, phrase.end) or phrase.end
-            return Holding(object=to_object(phrase, scope), negated=negated), phrase.end
+        denied, at = _negation(text, at + 1)
+        things, joint, end = _things(text, at, negated != denied)
+        end = text.phrase_end(_IN_HAND, end) or end
+        held: list[Condition] = [
+            Holding(object=to_object(phrase, scope), negated=no) for phrase, no in things
+        ]
+        return combined(held, joint), end
     if text.word(at) in _SEE:
         found = noun_phrase(text, at + 1)
         if found and text.word(found.end) in _STATES and not found.name("object"):
@@ -201,14 +307,48 @@ def _until(phrase: NounPhrase) -> NounPhrase:
 
 
 def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tuple[Condition, int]:
-    """The cup is not on the table; the door is open; Julia is in the kitchen."""
-    denied, at = _negation(text, phrase.end + 1)
+    """The cup is on the table or the shelf; the door is not open; Julia is in the kitchen."""
+    at = phrase.end + 1
+    neither = text.word(at) == "neither"
+    at += text.word(at) in ("either", "both")
+    denied, at = _negation(text, at)
     negated = negated != denied
+    if phrase.noun == "place" and phrase.places:
+        to_place(phrase, scope)
+    first, end = _predicate(text, at, phrase, scope, negated)
+    said, own = [phrase], [negated]
+
+    def another(link: Link) -> tuple[Condition, int] | None:
+        at = link.start + (text.word(link.start) in IS)
+        no, at = _negation(text, at)
+        own.append(no)
+        if text.word(at) in (*_STATES, *_GONE) or _there_end(text, at):
+            return _predicate(text, at, _nowhere(phrase), scope, no or negated)
+        again = _elsewhere(text, at, said[-1])
+        if again is None:
+            return None
+        said.append(again)
+        return _is_present(again, scope, no or negated), again.end
+
+    found, joint, end = coordinated(text, first, end, another)
+    no = own[1 : len(found)]
+    if negated and joint == "and" and not all(no):
+        raise Unclear("Is that denied of all of it? Please say it one by one.")
+    if negated and (neither or not any(no)):
+        joint = "and"
+    return combined(found, joint), end
+
+
+def _predicate(
+    text: Text, at: int, phrase: NounPhrase, scope: Scope, negated: bool
+) -> tuple[Condition, int]:
+    """What is said of a thing behind "is": *on the table*; *open*; *there*; *gone*."""
     word = text.word(at)
     if word in ("there", "here") and scope.place and not phrase.places:
         phrase.places.append(Locative(None, NounPhrase(at, at + 1, noun="there", said="there")))
-    if word in _THERE and not text.lookup(LOCATIVES, at + 1):
-        return _is_present(phrase, scope, negated), at + 1
+    there = _there_end(text, at)
+    if there:
+        return _is_present(phrase, scope, negated), there
     if word in _GONE:
         return _is_present(phrase, scope, not negated), at + 1
     if word in _STATES and not (word == "on" and noun_phrase(text, at + 1)):
@@ -217,10 +357,20 @@ def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tu
             what = scope.device or (scope.object and scope.object.name) or scope.place or "it"
         scope.device = what
         return State(what=what, state=word, negated=negated), at + 1
-    if phrase.noun == "place" and phrase.places:
-        to_place(phrase, scope)
     phrase.end = at
     read_postmodifiers(text, phrase)
     if phrase.end == at:
         raise NotUnderstood(f"I cannot check whether something is “{word}”")
     return _is_present(phrase, scope, negated), phrase.end
+
+
+def _there_end(text: Text, at: int) -> int | None:
+    there = text.word(at) in _THERE and not text.lookup(LOCATIVES, at + 1)
+    return at + 1 if there else None
+
+
+def _nowhere(phrase: NounPhrase) -> NounPhrase:
+    """The phrase without where it is."""
+    bare = copy(phrase)
+    bare.places = []
+    return bare

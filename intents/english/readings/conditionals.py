@@ -1,13 +1,22 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
-from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
+from copy import copy
+
+from msgspec.structs import replace
+
+from intents.english.clauses.compounds import condition
+from intents.english.clauses.conditions import IF, as_soon_as, mention
+from intents.english.clauses.coordination import link_at
 from intents.english.clauses.openings import nothing_end, otherwise_end
+from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
-from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear
+from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear, listing
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.goals import Goal, If, Person, Present
+from intents.english.words.text import Text
+from intents.goals import Condition, Goal, Holding, If, Person, Present, simple_conditions
+from intents.wording import thing
 
 
 def conditional(sentence: Sentence, at: int) -> Found | None:
@@ -27,15 +36,18 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     except NotUnderstood:
         _on_what_is_unseen(sentence, at, start)
         raise
+    _all_was_read(sentence, end)
     soon = as_soon_as(text, at, holds)
     if soon:
-        return [soon], end + (text.word(end) == COMMA)
+        return [*soon], end + (text.word(end) == COMMA)
     unless = text.word(at) == "unless"
     mention(holds, sentence.scope, met=not unless)
     spoken_of = sentence.scope.object
     end += text.word(end) == COMMA
     end += text.word(end) == "then"
+    begun = end
     then, end = sequence(sentence.inner(), end)
+    _one_is_it(text, (begun, end), holds)
     if not then:
         raise Unclear("What shall I do then?")
     skipped = end
@@ -51,6 +63,54 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+
+def _all_was_read(sentence: Sentence, end: int) -> None:
+    """Refuse a condition of which a part was not read: it would be dropped.
+
+    Raises:
+        NotUnderstood: That is so.
+    """
+    text = sentence.text
+    link = link_at(text, end)
+    if link is None:
+        return
+    if link.joint == ",":
+        try:
+            _, more = condition(text, link.start, copy(sentence.scope))
+        except ReadingError:
+            return
+        if ends_clause(text, more) and text.word(link.start) not in ("so", "not", "yes", "no"):
+            raise NotUnderstood(f"I cannot tell what “{text.raw(link.start, more)}” is there for")
+        return
+    stop = link.start
+    while not ends_clause(text, stop):
+        stop += 1
+    raise NotUnderstood(f"I cannot check “{text.raw(end, max(stop, link.start + 1))}”")
+
+
+def _one_is_it(text: Text, clause: tuple[int, int], holds: Condition) -> None:
+    """If the cup is here and the pen is there, bring *it*: which of them?
+
+    Raises:
+        Unclear: "It" may be either, and neither is held.
+    """
+    simple = list(simple_conditions(holds))
+    held = [one for one in simple if isinstance(one, Holding) and not one.negated]
+    things = {
+        replace(one.object, at=None, relation=None)
+        for one in simple
+        if isinstance(one, Present | Holding) and one.object
+    }
+    if len(things) < 2 or len(held) == 1:  # noqa: PLR2004 - one or several
+        return
+    for at in range(*clause):
+        match = text.name_at(at)
+        if match and match.of("object"):
+            return
+        if text.word(at) == "it":
+            names = tuple(sorted(thing(one) for one in things))
+            raise Unclear(f"What is “it”, {listing(names)}?", choices=names, said="it")
 
 
 def _while(sentence: Sentence, at: int) -> int | None:

@@ -25,6 +25,8 @@ def about_robot(sentence: Sentence, at: int) -> Found | None:
 
 def question(sentence: Sentence, at: int) -> Found | None:
     """How many cups are there?"""
+    if sentence.text.word(at) == "if":
+        return None  # a condition, of which a part may not be understood
     return syntax.question(sentence.text, at, sentence.scope)
 
 
@@ -38,7 +40,8 @@ def whether(sentence: Sentence, at: int) -> Found | None:
     if text.word(start) in ("if", "whether") and there:
         return there
     counts = text.words[start : start + 2] == ["how", "many"]
-    return question(sentence, start) if counts or text.word(start) in ("if", "whether") else None
+    asked = counts or text.word(start) in ("if", "whether")
+    return syntax.question(text, start, sentence.scope) if asked else None
 
 
 def _is_there(sentence: Sentence, at: int) -> Found | None:

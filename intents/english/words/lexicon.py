@@ -311,7 +311,7 @@ ADVERBS = words("still already currently again yet anymore")
 """Of time; they say nothing in a question."""
 FUNCTION_WORDS = (
     DETERMINERS | ALL | PRONOUNS | AUXILIARIES | WH | CONJUNCTIONS | DIRECTIONS | _PREPOSITIONS
-    | words("me us i you we they myself yourself 's let there here please")
+    | words("me us i you we they myself yourself 's let there here please nor neither")
 ) - words("nearby against before opposite")  # fmt: skip
 """Words that never begin or continue the nouns of a noun phrase."""
 
