@@ -79,8 +79,8 @@ def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         return None
     found = _conditioned(sentence, (at, end), holds, last)
     if found is None and hangs_on:
-        action = acts_at(text, end)
-        what = text.raw(action or end, content_end(text, action or end))
+        more = acts_at(text, end) or skip_openings(text, end)
+        what = text.raw(more, content_end(text, more))
         raise Unclear(f"“{what}” in any case, or only then? Please say it in two sentences.")
     return found
 
@@ -121,19 +121,22 @@ def _conditioned(
 def _instead(sentence: Sentence, at: int, start: int, last: list[Goal]) -> Found | None:
     """Bring the mug, or the cup *if it is not there*: the cup where the mug is not."""
     text, before = sentence.text, sentence.before
-    wanted = before[-2] if len(before) > 1 else None
-    query = getattr(wanted, "object", None)
-    other = getattr(last[-1], "object", None) if last else None
     end = text.phrase_end(_NOT_THERE, start)
     linked = "or" in text.words[max(0, at - _REACH) : at] and text.word(at) == "if"
-    if not (linked and end and isinstance(query, ObjectQuery) and other is not None):
+    closed = end is not None and (end >= len(text) or text.word(end) == FULL_STOP)
+    if not (linked and end and closed and len(before) > 1):
         return None
-    if wanted is None or (end < len(text) and text.word(end) != FULL_STOP):
+    wanted, other = before[-2:]
+    query = getattr(wanted, "object", None)
+    if not isinstance(query, ObjectQuery) or getattr(other, "object", None) is None:
         return None
-    sought = replace(query, count=None)
-    del before[len(before) - 1 - len(last) :]
-    there = Present(object=sought)
-    return [If(condition=there, then=(wanted,), else_=tuple(last))], end
+    either = If(
+        condition=Present(object=replace(query, count=None)), then=(wanted,), else_=(other,)
+    )
+    if len(last) < 2:  # noqa: PLR2004 - the two are clauses of their own
+        del before[-2:]
+        return [either], end
+    return [*last[:-2], either], end
 
 
 _CONDITIONAL = lexicon.words("if unless only provided")

@@ -1,9 +1,11 @@
 """Questions of yes or no: "is there a cup on the table?", "is Ada sitting or standing?"."""
 
+from intents.english.clauses.coordination import link_at
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, sought, to_object, to_person
 from intents.english.reading import Found
+from intents.english.trouble import Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA
 from intents.english.words.text import Text
@@ -51,6 +53,26 @@ _KINDS: dict[str, str] = dict.fromkeys(lexicon.GENDERS, "gender") | dict.fromkey
 
 
 def yes_or_no(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
+    """Is there a cup on the table? Whether the cup is on the table *and the box on the shelf*.
+
+    Raises:
+        Unclear: It is asked whether one thing or another is so.
+    """
+    found = _one(text, at, scope, to)
+    if found is None:
+        return None
+    goals, end = found
+    while (link := link_at(text, end)) and link.joint != ",":
+        more = _stated(text, link.start, scope, to)
+        if more is None:
+            break
+        if link.joint != "and":
+            raise Unclear("Whether the one or the other? Please ask one by one.")
+        goals, end = [*goals, *more[0]], more[1]
+    return goals, end
+
+
+def _one(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     """Is there a cup on the table? Do you see the bottle? Is the shelf empty?"""
     embedded = text.word(at) in ("if", "whether")
     start = at + embedded

@@ -1,7 +1,12 @@
 """Saying, telling and answering: verbs whose complement is words, not things."""
 
+from copy import copy
+
 from msgspec.structs import replace
 
+from intents.english.clauses.compounds import condition
+from intents.english.clauses.conditions import IF
+from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.questions import property_question, question
 from intents.english.clauses.self_talk import about_robot, small_talk
 from intents.english.phrases.complements import connector_end, ends_clause
@@ -75,9 +80,7 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
 def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
-        end = content_end(text, at)
-        to, _ = _last_listener(text, at + 1, end, scope)
-        return [Say(what=text.tokens[at].raw, to=to)], end if to else at + 1
+        return _quotes(text, at, scope)
     to = None
     if text.word(at) in _TO:
         first = _listener(text, at + 1, scope)
@@ -90,7 +93,7 @@ def say(text: Text, at: int, scope: Scope) -> Found:
         return [Find(person=to)], at
     at += text.word(at) == "that"
     end = _before_times(text, at, content_end(text, at))
-    stop = end
+    stop = end = _before_condition(text, at, end, scope)
     if to is None:
         to, stop = _last_listener(text, at, end, scope)
     stop, here = _place_of_speech(text, at, stop, scope)
@@ -102,6 +105,39 @@ def say(text: Text, at: int, scope: Scope) -> Found:
         to = Person(at=here)
     what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
     return [Say(what=what, to=to)], end
+
+
+def _quotes(text: Text, at: int, scope: Scope) -> Found:
+    """Say "hello" to Ada, and then "goodbye" to Emil: one after the other."""
+    goals: list[Goal] = []
+    end = at
+    while text.word(at) == QUOTE:
+        stop = next(
+            (n for n in range(at + 1, len(text)) if text.word(n) in (QUOTE, FULL_STOP)), len(text)
+        )
+        end = min(content_end(text, at), stop)
+        while end > at + 1 and (text.word(end - 1) == COMMA or connector_end(text, end - 1)):
+            end -= 1
+        to, _ = _last_listener(text, at + 1, end, scope)
+        goals.append(Say(what=text.tokens[at].raw, to=to))
+        end = end if to else at + 1
+        at = skip_openings(text, end)
+    return goals, end
+
+
+def _before_condition(text: Text, at: int, end: int, scope: Scope) -> int:
+    """Say dinner is ready *if Ada is in the kitchen*: what can be checked is a condition."""
+    for link in range(at + 1, end):
+        start = text.phrase_end(IF, link)
+        if start is None:
+            continue
+        try:
+            _, stop = condition(text, start, copy(scope))
+        except ReadingError:
+            continue
+        if stop >= end:
+            return link
+    return end
 
 
 def _asked(text: Text, at: int, scope: Scope) -> Found | None:
@@ -239,7 +275,7 @@ _RESULT = lexicon.phrases(
 
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     """Tell Julia what day it is."""
-    end = content_end(text, at)
+    end = _before_condition(text, at, content_end(text, at), scope)
     if end == at:
         raise Unclear("What shall I tell?")
     stop, here = _place_of_speech(text, at, end, scope)
