@@ -8,9 +8,20 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.stage import Stage
+from intents.context import verdict_of
 
 Answer = Literal["continue", "give up"]
 ANSWERS: tuple[Answer, ...] = get_args(Answer)
+
+
+
+def answer_of(text: str) -> Answer | None:
+    """The answer that a line is, also as a mere yes or no; None if it is none."""
+    wanted = text.casefold().strip(" .!")
+    verdict = verdict_of(text)
+    said: Answer | None = None if verdict is None else "continue" if verdict else "give up"
+    return next((answer for answer in ANSWERS if answer == wanted), said)
+
 
 PATIENCE_S = 300.0
 """How long a person may take to help."""

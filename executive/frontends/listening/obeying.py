@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from concurrent.futures import ThreadPoolExecutor
 
-from executive.behaviours.ask import ANSWERS
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
@@ -127,9 +126,7 @@ class Conversation:
         say(f"> {one.text}")
         if one.kind == "stop" or shell.is_cry(one.text):
             shell.stop("a cry to stop was heard")
-        elif shell.robot.executive.question and one.text in ANSWERS:
-            shell.robot.executive.answer(one.text)
-        else:
+        elif not shell.help(one.text):
             shell.halt_at_once(one.text)
             doing = self._worker.submit(self._do, one.text, shell.stops)
             if not self._recorded:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from executive.behaviours.ask import ANSWERS, Answer
+from executive.behaviours.ask import Answer, answer_of
 from executive.blackboard import HELD, WORLD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
@@ -147,7 +147,7 @@ class Shell:
         at_work = self.robot.busy if busy is None else busy
         if not (at_work or self.halt.on) or not is_halt(text):
             return False
-        if self._is_answer(text) or self._is_command(text):
+        if self._isanswer_of(text) or self._is_command(text):
             return False
         with self._submitting:
             self.halt.begin()
@@ -156,8 +156,19 @@ class Shell:
 
     def _is_answer(self, text: str) -> bool:
         """Whether a line that may be a cry answers what is asked: "no", "give up"."""
-        helped = self.robot.executive.question and _answer(text) is not None
-        return bool(helped) or self.dialogue.is_answered_by(text)
+        return self._helped(text) is not None or self.dialogue.is_answered_by(text)
+
+    def _helped(self, text: str) -> Answer | None:
+        """The answer that a line is to what a job asks; a mere "yes" is for what was asked here."""
+        answer = answer_of(text) if self.robot.executive.question else None
+        return answer if answer == text or self.dialogue.question is None else None
+
+    def help(self, text: str) -> bool:
+        """Tell the job that asks for help what a line answers; whether it is an answer."""
+        answer = self._helped(text.casefold().strip(" .!"))
+        if answer is not None:
+            self.robot.executive.answer(answer)
+        return answer is not None
 
     @property
     def gone(self) -> str:
@@ -410,9 +421,7 @@ class Shell:
         elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
             self._slip = slip
             self._refuse(f"Did you mean `{slip}`?")
-        elif self.robot.executive.question and _answer(text) is not None:
-            self.robot.executive.answer(_answer(text) or "continue")
-        else:
+        elif not self.help(text):
             self.sentence(text)
 
     def _take_halted(self, text: str) -> None:
@@ -474,12 +483,6 @@ def on_the_floor(X_WB: SE3) -> SE3:
     """Where the robot stands: its base, on the floor and upright."""
     x_m, y_m, _ = X_WB.p
     return SE3.from_xy_yaw(x_m, y_m, X_WB.yaw_rad)
-
-
-def _answer(text: str) -> Answer | None:
-    """The answer that a line is to what the robot asks for."""
-    wanted = text.casefold().strip(" .!")
-    return next((answer for answer in ANSWERS if answer == wanted), None)
 
 
 def number_of(text: str) -> int:
