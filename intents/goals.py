@@ -299,10 +299,14 @@ class Balance(_Goal, frozen=True, kw_only=True):
 
 
 class Gesture(_Goal, frozen=True, kw_only=True):
-    """Wave, point, nod, shake_head, bow, thumbs_up ...; at says towards whom or what."""
+    """Wave, point, nod, shake_head, bow, thumbs_up ...; at says towards whom or what.
+
+    ``side`` is the hand or arm it is done with.
+    """
 
     kind: str
     at: str | None = None
+    side: Side | None = None
 
 
 class Wait(_Goal, frozen=True, kw_only=True):

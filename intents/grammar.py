@@ -30,15 +30,20 @@ from intents.english.words import lexicon
 from intents.english.words.text import Text
 from intents.goals import (
     Answer,
+    Balance,
     Bring,
     Count,
     Find,
+    Follow,
+    Gesture,
     Give,
     Goal,
     GoTo,
     Greet,
+    Guide,
     If,
     LookAt,
+    Meet,
     Pause,
     Pick,
     Place,
@@ -53,6 +58,7 @@ _HELLO = lexicon.phrases(
 )
 _LOOKING = (Find, Count, Tell, LookAt, If)
 """Goals that leave things as they are."""
+_MOVING = (Balance, Bring, Find, Follow, Gesture, Give, GoTo, Guide, Meet, Pick, Place)
 _DANGLING = lexicon.words("to into onto from with towards the a an of")
 """Words that no command ends with."""
 
@@ -165,7 +171,7 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     _never_onto_itself(goals)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
-    remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals))
+    remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals), *_at_a_pace(text, goals))
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
 
 
@@ -207,6 +213,15 @@ def _unkept(sentence: Sentence, goals: list[Goal]) -> list[str]:
         said = listing([f"“{word}”" for word in grave], "and")
         raise Partly(f"I cannot take account of {said}", tuple(goals))
     return [f"I pay no attention to “{one.said}”" for one in dropped]
+
+
+def _at_a_pace(text: Text, goals: list[Goal]) -> list[str]:
+    """What is remarked on how fast something is to be done: the robot moves at its own pace."""
+    every = list(each(goals))
+    moves = any(isinstance(goal, _MOVING) for goal in every)
+    speaks = any(isinstance(goal, Say | Answer) for goal in every)
+    told = text.pace and moves and not speaks
+    return [f"I move at my own pace: “{text.pace}” changes nothing"] if told else []
 
 
 def _never_onto_itself(goals: list[Goal]) -> None:

@@ -127,7 +127,8 @@ def _goal(goal: Goal) -> str:  # noqa: PLR0912 - one line a kind of goal
         case g.Balance():
             return _balance(goal)
         case g.Gesture():
-            return _GESTURES.get(goal.kind, goal.kind) + _at(goal.at)
+            hand = f" with my {goal.side} hand" if goal.side else ""
+            return _GESTURES.get(goal.kind, goal.kind) + _at(goal.at) + hand
         case g.Wait():
             return "wait" if goal.duration_s is None else f"wait {_seconds(goal.duration_s)}"
         case g.Report():

@@ -150,7 +150,14 @@ def _cases(goal: goals.If, scene: Scene) -> list[goals.If]:
 
     Only if what is done is about that thing at all, which cannot be known before it was looked.
     """
-    condition = goal.condition
+    for condition in goals.simple_conditions(goal.condition):
+        cases = _cases_of(condition, goal, scene)
+        if len(cases) > 1:
+            return cases
+    return [goal]
+
+
+def _cases_of(condition: goals.Simple, goal: goals.If, scene: Scene) -> list[goals.If]:
     said = condition.object if isinstance(condition, goals.Present) else None
     if said is None or condition.negated or said.count not in (None, 1):
         return [goal]
@@ -162,11 +169,25 @@ def _cases(goal: goals.If, scene: Scene) -> list[goals.If]:
     return [
         msgspec.structs.replace(
             goal,
-            condition=msgspec.structs.replace(condition, object=_named(said, info)),
+            condition=_in_place(goal.condition, said, info),
             then=tuple(_about(child, same, info) for child in goal.then),
         )
         for info in found
     ]
+
+
+def _in_place(
+    condition: goals.Condition, said: goals.ObjectQuery, info: ObjectInfo
+) -> goals.Condition:
+    """A condition with one object in the place of its description."""
+    if isinstance(condition, goals.AllOf | goals.AnyOf):
+        inner = tuple(_in_place(one, said, info) for one in condition.of)
+        return msgspec.structs.replace(condition, of=inner)
+    if not isinstance(condition, goals.Present) or condition.object is None:
+        return condition
+    if msgspec.structs.replace(condition.object, at=None) != msgspec.structs.replace(said, at=None):
+        return condition
+    return msgspec.structs.replace(condition, object=_named(condition.object, info))
 
 
 def _about(goal: goals.Goal, same: Collection[goals.ObjectQuery], info: ObjectInfo) -> goals.Goal:
@@ -192,6 +213,10 @@ def question_of(condition: goals.Condition, scene: Scene) -> Predicate:
     Raises:
         CannotMean: if it has no meaning here, or this robot cannot find that out.
     """
+    if isinstance(condition, goals.AllOf | goals.AnyOf):
+        join = all if isinstance(condition, goals.AllOf) else any
+        each = [question_of(one, scene) for one in condition.of]
+        return lambda board: join(question(board) for question in each)
     if isinstance(condition, goals.State) or condition.object is None:
         raise cannot("unsupported", "this robot cannot find that out yet",
                      suggestion="ask whether an object is there, or held")  # fmt: skip
@@ -217,6 +242,8 @@ def look_of(condition: goals.Condition, scene: Scene) -> tuple[Part, ...]:
 
     That nothing was seen where nobody looked is no reason for the other branch.
     """
+    if isinstance(condition, goals.AllOf | goals.AnyOf):
+        return tuple(look for one in condition.of for look in look_of(one, scene))
     if not isinstance(condition, goals.Present) or condition.object is None:
         return ()
     at, ids = condition.object.at, [info.id for info in scene.fitting(condition.object)]

@@ -56,13 +56,20 @@ class Conditions:
         except CannotMean as end:
             self._problems.add(node, end.failure.cause, end.failure.suggestion)
             return None
+        found = [self._instead(one, scene) for one in goals.simple_conditions(condition)]
+        known = [words for words in found if words is not None]
+        if len(known) != len(found):
+            self._problems.add(node, f"{text!r} names nothing in this world", "name an object")
+            return None
+        return Finding(text=text, question=question, found=_all_words(known), looks=looks)
+
+    def _instead(self, condition: goals.Simple, scene: Scene) -> Words | None:
+        """What is so instead of a condition, in words; None if it is about nothing here."""
         query = None if isinstance(condition, goals.State) else condition.object
         infos = scene.fitting(query) if query is not None else []
         if not infos:
-            self._problems.add(node, f"{text!r} names nothing in this world", "name an object")
             return None
-        found = self._hands if isinstance(condition, goals.Holding) else self._whereabouts(infos)
-        return Finding(text=text, question=question, found=found, looks=looks)
+        return self._hands if isinstance(condition, goals.Holding) else self._whereabouts(infos)
 
     def _record(
         self, record: s.ConditionRecord, node: Node, scope: Scope, scene: Scene

@@ -174,7 +174,8 @@ class Names:
         found = self._sentence(order)
         if order in self._reasons:
             self._reasons[text] = self._reasons[order]
-        if len(found) == 1 and isinstance(found[0], goals.If):
+        squat = (goals.Balance(mode="squat"),)
+        if len(found) == 1 and isinstance(found[0], goals.If) and found[0].then == squat:
             return found[0].condition
         raise Wrong(f"{text!r} is no condition", "for example: the red cup is on the table")
 

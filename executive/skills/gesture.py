@@ -39,6 +39,7 @@ ARMS: dict[str, tuple[Side, ...]] = {
     "raise_right_arm": ("right",),
     "raise_both_arms": ("left", "right"),
 }
+ONE_HANDED = ("wave", "point", "raise_arm")
 HEAD_ONLY = ("nod", "shake_head")
 SIGN_S: dict[GestureKind, float] = {
     "wave": 9.7, "point": 3.7, "nod": 1.7, "shake_head": 2.2, "bow": 2.3,
@@ -48,12 +49,16 @@ SIGN_S: dict[GestureKind, float] = {
 
 
 class GestureParams(SkillParams, frozen=True, kw_only=True):
-    """Make a sign, towards an object, a place or a person if one is given."""
+    """Make a sign, towards an object, a place or a person if one is given.
+
+    `side` is the hand to wave or point with (None: whichever is free, and fits).
+    """
 
     kind: GestureKind
     object_id: str | None = None
     place_id: str | None = None
     person_id: str | None = None
+    side: Side | None = None
 
     def __post_init__(self) -> None:
         """Check that there is at most one target, and one to point at."""
@@ -61,6 +66,8 @@ class GestureParams(SkillParams, frozen=True, kw_only=True):
         given = sum(target is not None for target in targets)
         if given > 1 or (self.kind == "point" and not given):
             raise ValueError(f"a gesture ({self.kind}) is towards one thing, not {given}")
+        if self.side is not None and self.kind not in ONE_HANDED:
+            raise ValueError(f"{self.kind.replace('_', ' ')} is not done with one hand of a choice")
 
 
 class Gesture(ScriptedSkill[GestureParams]):
@@ -79,6 +86,8 @@ class Gesture(ScriptedSkill[GestureParams]):
             return "" if robot.groups["head"] else "has no neck"
         if kind == "bow":
             return "" if robot.groups["waist"] else "has no waist to bow with"
+        if wanted.side is not None and wanted.side not in robot.arm_sides:
+            return f"has no {wanted.side} arm"
         if kind == "point":
             return no_hand(robot)
         if robot.signs is None:
@@ -164,7 +173,8 @@ class Gesture(ScriptedSkill[GestureParams]):
         """Raise the arms that are free, wave with them if asked for, and bring them in again."""
         body, signs = self.body, self._signs()
         free = self._free_arms()
-        wanted: tuple[Side, ...] = ARMS.get(self.parameters.kind, free[:1])
+        chosen = (self.parameters.side,) if self.parameters.side else free[:1]
+        wanted: tuple[Side, ...] = ARMS.get(self.parameters.kind, chosen)
         sides: tuple[Side, ...] = tuple(side for side in wanted if side in free)
         if not sides:
             raise give_up("hands_full", "there is no free hand for that")
@@ -198,7 +208,9 @@ class Gesture(ScriptedSkill[GestureParams]):
         free: list[Side] = [side for side in self._free_arms() if side in hands]
         if not free:
             raise give_up("hands_full", "there is no free hand to point with")
-        side = nearer if nearer in free else free[0]
+        side = self.parameters.side or (nearer if nearer in free else free[0])
+        if side not in free:
+            raise give_up("hands_full", f"the {side} hand is not free to point with")
         robot, stretched_m = body.description, self._signs().pointing_m
         aside_m = robot.shoulder_aside_m if side == "left" else -robot.shoulder_aside_m
         shoulder = np.array(body.X_WS.apply((0.0, aside_m, robot.shoulder_height_m)))

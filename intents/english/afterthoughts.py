@@ -55,6 +55,32 @@ def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     return [], end
 
 
+_NOT_NOW = lexicon.phrases(
+    "not yet,not just yet,not quite yet,not now,not right now,not right away,not immediately,not,"
+    "later,later on,a bit later,some other time,another time,tomorrow,tonight,this evening,"
+    "this afternoon,next time,some day,in a bit,when i say so,when i tell you,when i tell you to,"
+    "only when i say so,only when i tell you,once i say so,once i tell you,on my signal,"
+    "on my command,not before i say so,not until i say so,not before i tell you,"
+    "not until i tell you,when i ask you to,when i say go"
+)
+"""That what was asked is for some other time."""
+
+
+def not_now(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Pick up the cup, *but not yet*.
+
+    Raises:
+        Partly: The robot cannot tell when then.
+    """
+    text = sentence.text
+    end = text.phrase_end(_NOT_NOW, at)
+    if end is None or not (end >= len(text) or text.word(end) == FULL_STOP) or not last:
+        return None
+    said = text.raw(at, end)
+    said = "not now" if said == "not" else said
+    raise Partly(f"I cannot tell when, “{said}”", tuple(sentence.before))
+
+
 def on_condition(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Bring the mug *if the cup is not there*.
 

@@ -121,6 +121,7 @@ RULES = Rules(
         correction,
         afterthoughts.left_undone,
         exclusions.excluded,
+        afterthoughts.not_now,
         afterthoughts.all_of_them,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,

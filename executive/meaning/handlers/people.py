@@ -11,6 +11,7 @@ from executive.skills.look import LookParams
 from executive.skills.say import SayParams
 from executive.trees.parts import Errand, Part, Series
 from intents import goals
+from robot.messages import Side
 
 
 def gesture(goal: goals.Gesture, scene: Scene) -> Part:
@@ -20,8 +21,14 @@ def gesture(goal: goals.Gesture, scene: Scene) -> Part:
     if not known:
         can = ", ".join(kind.replace("_", " ") for kind in get_args(GestureKind))
         raise cannot("unsupported", f"this robot cannot {words}", suggestion=f"it can {can}")
-    params = GestureParams(kind=known[0], **_towards(goal.at, scene))
+    side = _hand(goal.side)
+    params = GestureParams(kind=known[0], side=side, **_towards(goal.at, scene))
+    words += f" with the {side} hand" if side else ""
     return Errand(name=f"{words} at {goal.at}" if goal.at else words, params=params)
+
+
+def _hand(said: goals.Side | None) -> Side | None:
+    return said if said == "left" or said == "right" else None
 
 
 def _towards(name: str | None, scene: Scene) -> dict[str, str]:

@@ -5,6 +5,7 @@ from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.phrase import is_content
 from intents.english.words import lexicon
+from intents.english.words.disfluency import is_side
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
@@ -78,6 +79,8 @@ def _opening_end(text: Text, at: int) -> int | None:
     verb = verbs_at(text.words, at)
     end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
     if not end or about_robot(text, at) or (verb and verb[0][1] > end):
+        return None
+    if text.word(at) == "right" and is_side(text.words, at):
         return None
     opens_verb = verbs_at(text.words, end) or text.phrase_end(_OPENING, end)
     opens_verb = opens_verb or text.word(end) in (COMMA, FULL_STOP, "be")

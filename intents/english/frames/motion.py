@@ -8,7 +8,7 @@ from intents.english.frames.slots import Slots, need
 from intents.english.phrases.complements import Clause, Complement
 from intents.english.phrases.phrase import SAID_HOW, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.trouble import Misfit, NotUnderstood, Offered, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Offered, Partly, Unclear
 from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
@@ -29,6 +29,8 @@ _SEARCHED = ("scan", "check", "comb through", "scanning", "checking")
 """Verbs with which it is the place that is named first: scan the shelf for the cup."""
 _BESIDES: tuple[How, ...] = ("behind", "under", "above", "left", "right")
 """Where a robot that walks to a place does not come to stand."""
+_HIDES: tuple[How, ...] = ("behind", "under", "left", "right")
+"""Where to look would be to walk around or to crouch."""
 _THROUGH = (
     ("onto", ["on", "top", "of"]),
     *((way, [said]) for way, said in (
@@ -67,6 +69,9 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         target = second
     elif second:
         raise Misfit(f"“{second.phrase.said}” is one place too many")
+    aside = "sideways" in clause.text.words[clause.first : clause.end]
+    if target is None and aside and direction not in ("left", "right"):
+        raise Unclear("To the left or to the right?")
     if target is None and (distance is not None or direction or clause.vague()):
         slots.done()
         vague = clause.vague() and clause.verb != "step"
@@ -84,7 +89,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if target is None or source is not None:
         raise Misfit("I need to know where to go to")
     slots.done()
-    _must_be_to(target, clause)
+    must_be_to(target, clause)
     for phrase in target.phrases:
         must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
@@ -106,8 +111,12 @@ def _carried(slots: Slots, target: Complement | None) -> list[Goal]:
     return [Place(object=query, on=to_place(target.phrase, scope))]
 
 
-def _must_be_to(target: Complement, clause: Clause) -> None:
-    """Refuse to walk around, behind or under what is named: the robot walks to a place."""
+def must_be_to(target: Complement, clause: Clause) -> None:
+    """Refuse to walk around, behind or under what is named: the robot walks to a place.
+
+    Raises:
+        NotUnderstood: That was said.
+    """
     said = clause.text.words[clause.first : target.phrase.start]
     way = next((w for w in ("around", "round", "along", "past", "between") if w in said), None)
     if way is None and target.how in _BESIDES:
@@ -221,13 +230,20 @@ def look(clause: Clause, scope: Scope) -> list[Goal]:
     """Look at the table; inspect the sink; look left."""
     slots = Slots(clause, scope)
     target = slots.take("", "at", "to", "into", "through")
+    duration = slots.measure("time")
+    while_: list[Goal] = [Wait(duration_s=duration)] if duration is not None else []
     direction = slots.direction("left", "right", "up", "down", "forward", "backward", "around")
     if target is None:
         need(direction, "What shall I look at?")
         slots.done()
-        return [LookAt(place={"forward": "ahead", "backward": "behind"}.get(direction, direction))]
+        ahead = {"forward": "ahead", "backward": "behind"}.get(direction, direction)
+        return [LookAt(place=ahead), *while_]
     slots.done()
-    return [_look(phrase, scope) for phrase in target.phrases]
+    if target.how in _HIDES:
+        where = SAID_HOW.get(target.how, target.how)
+        seen = tuple(_look(phrase, scope) for phrase in target.phrases)
+        raise Partly(f"I can look at a thing or a place, not {where} one", seen)
+    return [*(_look(phrase, scope) for phrase in target.phrases), *while_]
 
 
 def _look(phrase: NounPhrase, scope: Scope) -> LookAt:

@@ -1,6 +1,6 @@
 """Postures, balance and gestures of the robot itself."""
 
-from intents.english.frames.motion import must_be_beside
+from intents.english.frames.motion import must_be_beside, must_be_to
 from intents.english.frames.slots import Slots
 from intents.english.phrases.complements import Clause
 from intents.english.phrases.phrase import NounPhrase
@@ -42,6 +42,7 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
         place = slots.take("at")
         if place:
             slots.done()
+            must_be_to(place, clause)
             must_be_beside(place.phrase, clause, scope)
             return [GoTo(place=to_place(place.phrase, scope))]
         return _balance(slots, "stand")
@@ -122,7 +123,8 @@ def gesture(clause: Clause, scope: Scope) -> list[Goal]:
     first, *rest = clause.verb.split()
     verb = " ".join([base_form(first), *rest])
     kind = next((kind for word, kind in _KINDS if word in verb), verb)
-    _limb(slots, "", "with")
+    limb = _limb(slots, "", "with")
+    side = None if limb is None or kind.startswith("raise") else _hand(limb, kind)
     slots.direction("up", "down", "left", "right", "forward")
     points = clause.verb.startswith("point")
     shown = slots.take("") if points else None
@@ -134,7 +136,23 @@ def gesture(clause: Clause, scope: Scope) -> list[Goal]:
         target = None
     slots.measure("time")
     slots.done()
-    return [Gesture(kind=kind, at=_target(target.phrase, scope) if target else None)]
+    return [Gesture(kind=kind, at=_target(target.phrase, scope) if target else None, side=side)]
+
+
+def _hand(limb: NounPhrase, kind: str) -> Side | None:
+    """The hand that a sign is made with.
+
+    Raises:
+        NotUnderstood: It takes one hand, and both are named; or it takes none.
+    """
+    if limb.said.rstrip("s") not in ("hand", "arm"):
+        return None
+    both = limb.count in (2, "all") or (limb.said.endswith("s") and not limb.side)
+    if both and kind in ("wave", "point"):
+        raise NotUnderstood(f"I {kind} with one hand, not with both")
+    if limb.side and kind in ("nod", "bow", "shake_head"):
+        raise NotUnderstood(f"I do not need a hand to {kind.replace('_', ' ')}")
+    return _side(limb.side)
 
 
 def _target(phrase: NounPhrase, scope: Scope) -> str | None:

@@ -9,6 +9,7 @@ before the interruption, what it is repaired with behind it. What is taken back 
 """
 
 import re
+from collections.abc import Sequence
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
@@ -46,6 +47,8 @@ _RANKED = (
 _STATES = lexicon.words("is are was were left put forgot")
 _BEFORE_SIDES = lexicon.words("the to on at your my of far all a")
 """Before "right" these make it a side."""
+_BETWEEN_SIDES = lexicon.words(", and then to the")
+_DIRECTIONS = lexicon.words("left right up down ahead straight back forward forwards backwards")
 _FAR = 8
 _LONGEST_ECHO = 4
 _STUTTERS = (3, 2)
@@ -65,6 +68,14 @@ def fluent(tokens: list[Token]) -> list[Token]:
     return kept
 
 
+def is_side(words: Sequence[str], at: int) -> bool:
+    """Whether "right" goes on from another direction: "look left, then *right*, then up"."""
+    before = at - 1
+    while before >= 0 and words[before] in _BETWEEN_SIDES:
+        before -= 1
+    return 0 <= before < at - 1 and words[before] in _DIRECTIONS
+
+
 def _without_particles(tokens: list[Token]) -> list[Token]:
     """So *like* the cup is on the table, *right*, take it: words that only keep talk going."""
     words = [token.text for token in tokens]
@@ -79,7 +90,7 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
             continue
         if token.text == "like" and before in _BEGINS and goes_on:
             continue
-        if token.text == "right" and after == COMMA and told:
+        if token.text == "right" and after == COMMA and told and not is_side(words, at):
             continue
         if token.text in _STRESSES and before in _ARTICLES | _STRESSES and after in _RANKED:
             continue

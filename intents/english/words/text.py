@@ -1,5 +1,6 @@
 """A sentence ready for the grammar: tokens, corrected, without fillers."""
 
+import re
 from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
@@ -48,6 +49,15 @@ _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
 
+_PACE = re.compile(
+    r"\b((very|really|so|more|extremely|super|nice and|as) )*"
+    r"(slowly|slower|slow|fast|faster|quickly|swiftly|leisurely)"
+    r"( as (you can|possible|you like))?(?=[ ,.!?;]*(?:$|\b))",
+    re.IGNORECASE,
+)
+"""How fast something is to be done; a goal has no slot for it."""
+
+
 class Text:
     """The tokens of what was said, with the names that stand in it.
 
@@ -57,6 +67,7 @@ class Text:
         index: The names of the vocabulary.
         corrections: What was written, and what it was taken for.
         polite: "Please" was said, so something is asked for.
+        pace: How fast things are to be done, as it was said; empty if nothing was.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
@@ -66,6 +77,8 @@ class Text:
         corrected: list[Token] = []
         self.corrections: list[tuple[str, str]] = []
         begins = True
+        pace = _PACE.search(text)
+        self.pace = pace.group().strip() if pace else ""
         self.polite = not _POLITE.isdisjoint(text.lower().split())
         for token in _without_name(tokenize(text), self.index):
             meant = speller.correct(token.text, begins=begins)
