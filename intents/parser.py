@@ -13,7 +13,7 @@ from intents.allowed import excess
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
-from intents.english.trouble import Offered, Partly, ReadingError, Unclear
+from intents.english.trouble import Offered, Partly, ReadingError, Unclear, listing
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.names import index_of
@@ -25,6 +25,7 @@ from intents.grounding import (
     Entity,
     Grounded,
     Unknown,
+    describe_entity,
     by_where,
     ground,
     narrowed,
@@ -245,6 +246,8 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
         found = ground(query, context.entities, view=context.view)
         if isinstance(found, Unknown):
             return Refusal(reason=f"{_sentence(found.reason)}.")
+        if isinstance(found, Ambiguous) and (short := _too_few(query, found, by_id)):
+            return Refusal(reason=short)
         if isinstance(found, Ambiguous) and _several(text, query):
             goals = tuple(substitute(goal, query, replace(query, count="all")) for goal in goals)
         elif isinstance(found, Ambiguous) and by_where(query) and _unseen(found, by_id):
@@ -259,6 +262,15 @@ def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
                 kind="choice",
             )  # fmt: skip
     return Goals(goals=goals)
+
+
+def _too_few(query: ObjectQuery, found: Ambiguous, by_id: dict[str, Entity]) -> str:
+    """That there are not so many as are asked for; empty if there are, or that is not known."""
+    number = len(found.candidates)
+    if not isinstance(query.count, int) or query.count <= number:
+        return ""
+    named = [f"a {describe_entity(by_id[i])}" for i in found.candidates]
+    return f"There are only {number} of them, not {query.count}: {listing(named, 'and')}."
 
 
 def _unseen(found: Ambiguous, by_id: dict[str, Entity]) -> bool:

@@ -9,12 +9,15 @@ from executive.behaviours.run_skill import Bound
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
+from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.motions.support import stands_on
+from executive.skills.motions.survey import ENOUGH, Prospect, Survey
 from executive.skills.say import SayParams
 from intents import replies
+from intents.english.trouble import listing
 from intents.goals import ReportTopic
 from intents.numbers import Noun
-from robot.messages import Place, Track
+from robot.messages import Place, Track, WorldMap
 
 
 def is_held(ids: frozenset[str], *, least: int = 1) -> Predicate:
@@ -58,6 +61,36 @@ def count(ids: frozenset[str], places: Iterable[Place], *, noun: Noun, where: st
     """Says how many of the objects have been seen (on one of the places, if any)."""
     surfaces = tuple(places)
     return say_count(lambda board: len(_seen(board, ids, surfaces)), noun=noun, where=where)
+
+
+def count_everywhere(ids: frozenset[str], world_map: WorldMap, *, noun: Noun) -> Bound:
+    """Says how many of the objects have been seen at all, and where nobody has looked."""
+
+    def words(board: Blackboard) -> SayParams:
+        number = len(_seen(board, ids, ()))
+        told = f"I see {number} {noun.of(number)}."
+        missed = not_looked_over(board, world_map)
+        return SayParams(text=f"{told} I have not looked at {missed}." if missed else told)
+
+    return words
+
+
+def not_looked_over(board: Blackboard, world_map: WorldMap) -> str:
+    """The surfaces of which not enough has been in view, those of a room together; or nothing."""
+    world = board.read(WORLD)
+    survey = Survey(Prospect(place=place) for place in surfaces_of(world_map))
+    survey.take(world.looked if world is not None else ())
+    missed = [place for place in survey.places if survey.seen_share(place) < ENOUGH]
+    rooms = {place.id: place for place in world_map.places if place.floor}
+    names: dict[str, None] = {}
+    for place in missed:
+        room = rooms.get(place.room)
+        whole = room is not None and all(
+            other in missed for other in survey.places if other.room == place.room
+        )
+        several = len({other.room for other in survey.places}) > 1
+        names[f"the {room.name if room and whole and several else place.name}"] = None
+    return listing(list(names), "and")
 
 
 def say_count(number_of: Callable[[Blackboard], int], *, noun: Noun, where: str = "") -> Bound:

@@ -93,6 +93,12 @@ class Scene:
         """Go on from what another one has come to."""
         self.held, self.spoken_of = list(other.held), other.spoken_of
 
+    @property
+    def room(self) -> str:
+        """The name of the room that the robot is in; empty if that is not known."""
+        view = self._view
+        return "" if view is None else self.knowledge.room_at((view.x_m, view.y_m, 0.0))
+
     # --- objects ---
 
     def object(self, query: goals.ObjectQuery) -> ObjectInfo:

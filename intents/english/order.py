@@ -47,9 +47,10 @@ RULES = Rules(
         questions.about_robot,
         # Clauses that hold clauses: what they hold is read with the whole list again. A condition
         # stands before "when you see Ada, nod", where the one would look at her and the other
-        # first has to find her, and before "if there is a cup", which is a question as well.
+        # first has to find her.
         conditionals.conditional,
         repetition.for_each,
+        repetition.for_each_room,
         repetition.so_many_times,
         repetition.again,
         time_clauses.one_before_the_other,

@@ -7,9 +7,19 @@ import math
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.handlers.settling import counted, where_words
-from executive.meaning.handlers.steps import about, inspect, many, search, several, to_look_over
+from executive.meaning.handlers.steps import (
+    about,
+    inspect,
+    many,
+    search,
+    several,
+    to_look_over,
+    tolerant,
+)
 from executive.meaning.identify import Scene, cannot
+from executive.skills.inspect import InspectParams
 from executive.skills.look import SIDES, LookParams, Side
+from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.navigate import NavigateParams, Step
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand, Part, Series
@@ -80,10 +90,33 @@ def count(goal: goals.Count, scene: Scene) -> Part:
     if query.relation is not None:
         looks, number_of = counted(query, scene)
         tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
+    elif query.at is None:
+        ids = frozenset(info.id for info in scene.fitting(query))
+        looks = (tolerant(_look_over_the_room(scene)),)
+        tell = answers.count_everywhere(ids, scene.knowledge.map, noun=noun)
     else:
         ids = frozenset(info.id for info in scene.fitting(query))
-        places = to_look_over(scene.places(query.at), scene) if query.at else ()
-        looks = inspect(f"look over the {query.at}" if query.at else "look around", query.at, scene)
-        where = where_words(query) if query.at else ""
-        tell = answers.count(ids, places, noun=noun, where=f" {where}" if where else "")
+        places = to_look_over(scene.places(query.at), scene)
+        looks = inspect(f"look over the {query.at}", query.at, scene)
+        tell = answers.count(ids, places, noun=noun, where=f" {_where(query, scene)}")
     return Series(name=name, parts=(*looks, Errand(name="say how many", params=tell)))
+
+
+def _look_over_the_room(scene: Scene) -> Part:
+    """A look over every surface of the room that the robot is in; from here if that is unknown."""
+    world_map = scene.knowledge.map
+    rooms = {place.room for place in surfaces_of(world_map)}
+    room = scene.room
+    here = [place for place in scene.knowledge.places(room) if place.id == place.room]
+    found = to_look_over(here, scene) if room else ()
+    if not found and len(rooms) <= 1:
+        found = tuple(surfaces_of(world_map))
+    name = f"look over the {room}" if room and found else "look around"
+    return Errand(name=name, params=InspectParams(place_ids=tuple(place.id for place in found)))
+
+
+def _where(query: goals.ObjectQuery, scene: Scene) -> str:
+    """Where a description says that things are: "on the desk", "in the kitchen"."""
+    said = where_words(query)
+    floors = query.at is not None and all(place.floor for place in scene.places(query.at))
+    return said.replace("on the", "in the", 1) if floors else said

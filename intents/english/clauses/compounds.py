@@ -10,7 +10,7 @@ from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person
 from intents.english.trouble import NotUnderstood, ReadingError
-from intents.english.words.lexer import singular
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import Condition, Present, Simple, State, simple_conditions
@@ -72,9 +72,9 @@ def _another(
         if link.joint == "," or _commands(text, skip_openings(text, link.start)):
             return None
         end = link.start
-        while not ends_clause(text, end):
+        while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
             end += 1
-        said = text.raw(link.start, max(end, link.start + 1))
+        said = text.raw(link.start, end)
         raise NotUnderstood(f"I cannot check whether “{said}”") from error
 
 

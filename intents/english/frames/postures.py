@@ -164,4 +164,6 @@ def _target(phrase: NounPhrase, scope: Scope) -> str | None:
     if phrase.name("place", "room") or phrase.noun in ("there", "here"):
         return to_place(phrase, scope)
     query = to_object(phrase, scope)
+    if not (query.name or query.category or query.held):
+        raise NotUnderstood(f"I do not know what “{phrase.said}” is to be")
     return " ".join(w for w in (query.color, query.name or query.category) if w) or None

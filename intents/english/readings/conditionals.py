@@ -1,15 +1,12 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
-from copy import copy
-
 from msgspec.structs import replace
 
 from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF, as_soon_as, mention
 from intents.english.clauses.coordination import link_at
 from intents.english.clauses.openings import nothing_end, otherwise_end
-from intents.english.phrases.complements import ends_clause
-from intents.english.phrases.noun_phrases import tells_when
+from intents.english.phrases.noun_phrases import noun_phrase, tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear, listing
@@ -75,18 +72,14 @@ def _all_was_read(sentence: Sentence, end: int) -> None:
     link = link_at(text, end)
     if link is None:
         return
-    if link.joint == ",":
-        try:
-            _, more = condition(text, link.start, copy(sentence.scope))
-        except ReadingError:
-            return
-        if ends_clause(text, more) and text.word(link.start) not in ("so", "not", "yes", "no"):
-            raise NotUnderstood(f"I cannot tell what “{text.raw(link.start, more)}” is there for")
-        return
     stop = link.start
-    while not ends_clause(text, stop):
+    while stop < len(text) and text.word(stop) not in (COMMA, FULL_STOP):
         stop += 1
-    raise NotUnderstood(f"I cannot check “{text.raw(end, max(stop, link.start + 1))}”")
+    if link.joint != ",":
+        raise NotUnderstood(f"I cannot check “{text.raw(end, stop)}”")
+    subject = noun_phrase(text, link.start)
+    if subject is not None and text.word(subject.end) in ("is", "are") and stop < len(text):
+        raise NotUnderstood(f"I cannot tell what “{text.raw(link.start, stop)}” is there for")
 
 
 def _one_is_it(text: Text, clause: tuple[int, int], holds: Condition) -> None:

@@ -3,14 +3,14 @@
 from intents.english.clauses.openings import begins_clause
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_object
-from intents.english.reading import Found, Sentence
+from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
-from intents.english.trouble import Unclear
+from intents.english.trouble import NotUnderstood, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA
 from intents.english.words.measures import measure
 from intents.english.words.verbs import verbs_at
-from intents.goals import ForEach, Repeat
+from intents.goals import Find, ForEach, Goal, GoTo, Repeat
 
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
 
@@ -29,6 +29,42 @@ def for_each(sentence: Sentence, at: int) -> Found | None:
     if not goals:
         raise Unclear("What shall I do with each of them?")
     return [ForEach(object=query, goals=tuple(goals))], end
+
+
+_EVERY_ROOM = lexicon.phrases(
+    "every room,each room,all rooms,all the rooms,all of the rooms,every one of the rooms,"
+    "each of the rooms,every single room,each and every room"
+)
+_OF_HOME = lexicon.phrases(
+    "in the house,of the house,in the flat,of the flat,in the apartment,of the apartment,"
+    "in the home,in the building,there are,that there is,here,in turn,one after another"
+)
+_INTO = lexicon.phrases("to,into,through,in,around,at")
+
+
+def for_each_room(sentence: Sentence, at: int) -> Found | None:
+    """Go to every room *and say hello*: what follows "and" is done in each of them."""
+    text = sentence.text
+    ends = [end for sense, end in verbs_at(text.words, at) if sense in ("go", "find")]
+    starts = [end for verb in ends for end in (text.phrase_end(_INTO, verb) or verb,)]
+    end = next((end for start in starts if (end := text.phrase_end(_EVERY_ROOM, start))), None)
+    if end is None:
+        return None
+    end = text.phrase_end(_OF_HOME, end) or end
+    rooms = sentence.text.index.rooms
+    if not rooms:
+        raise NotUnderstood("I know of no rooms here")
+    there: list[Goal] = []
+    while text.word(end) == "and" and text.word(end + 1) not in _THEREAFTER:
+        found, end = clause_by_itself(sentence, end + 1)
+        there += found
+    if there and all(isinstance(goal, Find) for goal in there):
+        return there, end  # what is looked for is looked for in every room
+    return [goal for room in rooms for goal in (GoTo(place=room), *there)], end
+
+
+_THEREAFTER = lexicon.words("then finally lastly afterwards come return after go back")
+"""After "and" these begin what is done once all rooms were gone to."""
 
 
 def so_many_times(sentence: Sentence, at: int) -> Found | None:

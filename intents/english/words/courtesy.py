@@ -124,6 +124,8 @@ def _gracious(words: list[str], at: int) -> int | None:
     while end < len(words) and words[end] in _GRACIOUS:
         end += 1
     said = words[at:end]
+    if any(said[n : n + 2] in (["find", "it"], ["get", "it"]) for n in range(len(said))):
+        return None  # or the tea, if you cannot find it
     asks = _GRACE.intersection(said) and ("you" in said or "it" in said or "possible" in said)
     closed = _word(words, end) in _SIGNS or (
         _is_verb(words, end) and words[end] not in ("see", "find", "spot", "locate", "hold", "need")

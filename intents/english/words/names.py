@@ -68,6 +68,7 @@ class NameIndex:
         words: Every word of every name, singular and as spelled, and every colour of a thing.
         colors: Colour words and what they mean, with those that only this world has ("teal").
         furniture: Names of places that are walked up to and nothing else.
+        rooms: Names of the rooms.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
@@ -79,6 +80,7 @@ class NameIndex:
         self.colors = told | COLORS
         self.words: frozenset[str] = frozenset(told)
         self._variants = _variants(vocabulary)
+        self.rooms = tuple(dict.fromkeys(s.name for s in vocabulary.rooms))
         floors = [s.name for s in (*vocabulary.rooms, *vocabulary.places) if not s.furniture]
         self.furniture = frozenset(s.name for s in vocabulary.places).difference(floors)
         spellings = _spellings(vocabulary)

@@ -27,7 +27,6 @@ from intents.english.words.text import Text
 
 BOTH_READ = [
     (conditionals.conditional, time_clauses.one_before_the_other, "when you see Noor, nod"),
-    (conditionals.conditional, questions.question, "if there is a mug, bring it, otherwise wait"),
     (remarks.left_somewhere, fronted.fronted, "I put my orange on the sofa, go and get it for me"),
     (light_verbs.light_verb, verb.verb, "give a little nod"),
     (ends.resultative, verb.verb, "I need the thermos put on the sofa"),
