@@ -14,7 +14,6 @@ Answer = Literal["continue", "give up"]
 ANSWERS: tuple[Answer, ...] = get_args(Answer)
 
 
-
 def answer_of(text: str) -> Answer | None:
     """The answer that a line is, also as a mere yes or no; None if it is none."""
     wanted = text.casefold().strip(" .!")

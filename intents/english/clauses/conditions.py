@@ -73,7 +73,7 @@ def one_condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     Raises:
         NotUnderstood: It is nothing the robot can check.
     """
-    at += text.word(at) in ("either", "both")
+    at += text.word(at) == "either"
     holds, end = _asked(text, at, scope) or _condition(text, at, scope)
     if text.word(end) == "there" and scope.place and isinstance(holds, Present) and holds.object:
         holds = replace(holds, object=replace(holds.object, at=holds.object.at or scope.place))
@@ -142,6 +142,8 @@ def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
     subjects, joint, end = coordinated(text, phrase, phrase.end, lambda link: _subject(text, link))
     if text.word(end) not in IS or (len(subjects) > 1 and negated and not neither):
         raise NotUnderstood(f"I cannot check whether “{text.raw(at, len(text))}”")
+    if text.word(at) == "both" and len(subjects) > 1:
+        phrase.count = None  # both the cup and the plate: one of each
     found: list[Condition] = []
     at = end
     for subject in subjects:
@@ -208,9 +210,7 @@ def _present(text: Text, at: int, scope: Scope, negated: bool) -> tuple[Conditio
     return combined(found, joint), end
 
 
-def _things(
-    text: Text, at: int, negated: bool
-) -> tuple[list[tuple[NounPhrase, bool]], Joint, int]:
+def _things(text: Text, at: int, negated: bool) -> tuple[list[tuple[NounPhrase, bool]], Joint, int]:
     """Things of which all or any are there, each with whether it is not, what joins them, the end.
 
     They are all where the last one is, if it is not said of the others: "a cup or a bottle on the
@@ -220,7 +220,7 @@ def _things(
         NotUnderstood: There is none.
         Unclear: It is not said where the last one is, or what of them is denied.
     """
-    at += text.word(at) in ("either", "both")
+    at += text.word(at) == "either"
     phrase = noun_phrase(text, at)
     if phrase is None:
         raise NotUnderstood(f"I cannot check whether there is “{text.raw(at, len(text))}”")
@@ -230,6 +230,8 @@ def _things(
         raise Unclear("None of them, or not all of them? Please say it one by one.")
     if negated and joint in ("or", "nor"):
         found, joint = [(one, True) for one, _ in found], "and"
+    if text.word(at) == "both" and len(found) > 1:
+        phrase.count = None
     last = found[-1][0]
     if any(one.places for one, _ in found) and not last.places:
         raise Unclear(f"Where is {text.raw(last.start, last.end)} to be?")
@@ -322,6 +324,8 @@ def _of_thing(text: Text, phrase: NounPhrase, scope: Scope, negated: bool) -> tu
         at = link.start + (text.word(link.start) in IS)
         no, at = _negation(text, at)
         own.append(no)
+        if text.word(at + 1) in IS:
+            return None  # ... and there is a cup
         if text.word(at) in (*_STATES, *_GONE) or _there_end(text, at):
             return _predicate(text, at, _nowhere(phrase), scope, no or negated)
         again = _elsewhere(text, at, said[-1])

@@ -124,6 +124,8 @@ def test_all_parts_of_a_condition_are_read(said: str, meant: str):
         ("wave if the thermos is on the sofa and it is raining", "“it is raining”"),
         ("wave if the thermos is warm", "“warm”"),
         ("if the red mug and the thermos are on the sofa, bring it to me", "What is “it”"),
+        ("if the thermos is on the sofa and there is an orange on the workbench, bring it to me",
+         "What is “it”"),
         ("if there is no mug and thermos on the sofa, wave", "None of them, or not all"),
         ("if there is a mug on the sofa and a thermos, wave", "Where is a thermos to be?"),
         ("when you see the thermos or the orange, wave", "The one or the other"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp
+from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp, answer_of
 from executive.behaviours.run_skill import RunSkill
 from executive.blackboard import HELP
 from executive.engine.executive import JobError
@@ -120,3 +120,16 @@ def test_an_operator_may_give_up():
     assert rig.run().code == "no_grasp"
     with pytest.raises(JobError, match="nothing was asked"):
         rig.executive.answer("continue")
+
+
+@pytest.mark.parametrize(
+    ("line", "answer"),
+    [
+        ("continue", "continue"), ("Continue.", "continue"), ("yes", "continue"),
+        ("ok", "continue"), ("sure, go ahead", "continue"), ("yes please", "continue"),
+        ("give up", "give up"), ("no", "give up"), ("no, thanks", "give up"),
+        ("wave", None), ("what?", None), ("yes, and wave", None),
+    ],
+)  # fmt: skip
+def test_a_yes_or_no_answers_what_the_robot_asks_for(line, answer):
+    assert answer_of(line) == answer

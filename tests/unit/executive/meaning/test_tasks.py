@@ -315,6 +315,14 @@ def with_things_on_the_table(aside_m: dict[str, float]) -> Blackboard:
         ("if there are two cups on the table, wave", ["cup_red"], False),
         ("if there are two cups on the table, wave", ["cup_red", "cup_blue"], True),
         ("if there are three cups on the table, wave", ["cup_red", "cup_blue"], False),
+        ("wave if the red cup and the bottle are on the table", ["cup_red"], False),
+        ("wave if the red cup and the bottle are on the table", ["cup_red", "bottle"], True),
+        ("wave if the red cup is on the table but the bottle is not", ["cup_red"], True),
+        ("wave if the red cup is on the table but the bottle is not", ["cup_red", "bottle"], False),
+        ("if the red cup or the bottle is on the table, wave", ["bottle"], True),
+        ("if the red cup or the bottle is on the table, wave", ["cup_blue"], False),
+        ("if neither the red cup nor the bottle is on the table, wave", ["cup_blue"], True),
+        ("if neither the red cup nor the bottle is on the table, wave", ["bottle"], False),
         ("if both cups are on the table, wave", ["cup_blue"], False),
         ("if all cups are on the table, wave", ["cup_red"], False),
         ("if all cups are on the table, wave", ["cup_red", "cup_blue"], True),
@@ -339,3 +347,54 @@ def test_a_condition_about_what_stands_beside_another_is_about_both():
     for away_m, so in ((0.2, True), (0.9, False)):
         board = with_things_on_the_table({"cup_red": 0.0, "cup_blue": away_m})
         assert branch.question(board) is so
+
+
+def test_all_that_a_condition_speaks_of_is_looked_at():
+    text = "wave if the red cup is on the table and the bottle is on the lower shelf"
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Understood)
+    (branch,) = outcome.task.parts
+    assert isinstance(branch, Branch)
+    assert branch.look is not None
+    looked = [errand.params.place_ids for errand in errands(branch.look)]
+    assert looked == [("table",), ("shelf_lower",)]
+
+
+def test_of_several_conditions_the_thing_that_is_there_is_taken():
+    text = "if the bottle is on the lower shelf and there is a cup on the table, bring it to me"
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Refused)
+    assert outcome.outcome == "question"
+    text = "if there is a cup on the table and you hold nothing, bring it to me"
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Understood)
+    branch = outcome.task.parts[0]
+    assert isinstance(branch, Branch)
+    assert {errand.params.object_id for errand in errands(branch.then) if errand.object_id} == {
+        "cup_red"
+    }
+
+
+def test_a_hand_that_was_named_is_the_one_that_waves():
+    outcome = request("wave with your left hand", WHERE)
+    assert isinstance(outcome, Understood)
+    (wave,) = errands(outcome.task)
+    assert wave.params.side == "left"
+
+
+def test_a_count_without_a_place_looks_over_every_surface_of_the_room():
+    outcome = request("how many cups are there?", WHERE)
+    assert isinstance(outcome, Understood)
+    look, say = errands(outcome.task)
+    assert set(look.params.place_ids) >= {"table", "shelf_lower", "shelf_upper"}
+    assert callable(say.params)
+    told = say.params(with_things_on_the_table({"cup_red": 0.1})).text
+    assert told.startswith("I see 1 cup. I have not looked at the table, ")
+
+
+def test_what_is_counted_in_a_room_is_in_it():
+    outcome = request("how many cups are in the kitchen?", WHERE)
+    assert isinstance(outcome, Understood)
+    *_, say = errands(outcome.task)
+    assert callable(say.params)
+    assert say.params(with_things_on_the_table({})).text == "I see 0 cups in the kitchen."

@@ -219,6 +219,9 @@ def test_a_mistake_is_named_with_its_place_and_cure(steps, words, write):
         ("parameters: {x: {type: integer, default: 1.5}}\n", "should be an integer"),
         ("parameters: {x: {type: place}}\n", "has no value"),
         ("expect: [the moon is on the table]\n", ":2:10:"),
+        ("expect:\n  - the red cup is on the table and it is raining\n", "“it is raining”"),
+        ("expect:\n  - the red cup is on the table and wave\n", ":3:5:"),
+        ("expect:\n  - the red cup is on the table, wave\n", "is no condition"),
         ("faults: [{fault: psh}]\n", "did you mean 'push'?"),
         ("name: again\n", "stands here twice"),
     ],
@@ -544,3 +547,14 @@ def test_everything_wrong_in_faults_is_said_at_its_line_in_our_words(write):
 )  # fmt: skip
 def test_what_a_newcomer_gets_wrong_is_told_with_its_cure(steps, words, write):
     assert any(words in text for text in problems(write(mission(steps))))
+
+
+def test_an_expectation_of_several_parts_is_only_met_by_all_of_them(write):
+    text = "the red cup is on the table and the bottle is on the counter"
+    path = write(mission("  - say: hello\n", f"expect:\n  - {text}\n"))
+    (expect,) = (part for part in leaves(check(path, Options()).task) if isinstance(part, p.Expect))
+    (finding,) = expect.findings
+    assert [one.params.place_ids for look in finding.looks for one in p.errands(look)] == [
+        ("table",),
+        ("counter",),
+    ]

@@ -150,6 +150,15 @@ def test_waving_ends_with_the_arm_home(stage):
         assert stage.puppet.q_rad[i] == pytest.approx(nominal[i])
 
 
+def test_the_hand_that_is_named_waves(stage):
+    assert stage.run(GestureParams(kind="wave", side="left")).status == "succeeded"
+    names = stage.puppet.description.groups["left_arm"]
+    assert all(len(c.positions_rad[-1]) == len(names) for c in stage.commands(MoveArm))
+    assert {c.side for c in stage.commands(MoveArm)} == {"left"}
+    with pytest.raises(ValueError, match="not done with one hand"):
+        GestureParams(kind="bow", side="left")
+
+
 def test_a_full_hand_does_not_wave(carrying):
     report = carrying.run(GestureParams(kind="raise_right_arm"))
     assert report.failure.code == "hands_full"
