@@ -13,19 +13,20 @@ from intents.context import verdict_of
 Answer = Literal["continue", "give up"]
 ANSWERS: tuple[Answer, ...] = get_args(Answer)
 
+PATIENCE_S = 300.0
+"""How long a person may take to help."""
+ALONE_S = 5.0
+"""How long it is waited where nobody is said to be there."""
+
 
 def answer_of(text: str) -> Answer | None:
     """The answer that a line is, also as a mere yes or no; None if it is none."""
     wanted = text.casefold().strip(" .!")
     verdict = verdict_of(text)
-    said: Answer | None = None if verdict is None else "continue" if verdict else "give up"
-    return next((answer for answer in ANSWERS if answer == wanted), said)
-
-
-PATIENCE_S = 300.0
-"""How long a person may take to help."""
-ALONE_S = 5.0
-"""How long it is waited where nobody is said to be there."""
+    plain: Answer | None = next((answer for answer in ANSWERS if answer == wanted), None)
+    if plain is not None or verdict is None:
+        return plain
+    return "continue" if verdict else "give up"
 
 
 class AskForHelp(Behaviour):

@@ -159,7 +159,7 @@ def _instead(sentence: Sentence, at: int, start: int, last: list[Goal]) -> Found
     either = If(
         condition=Present(object=replace(query, count=None)), then=(wanted,), else_=(other,)
     )
-    if len(last) < 2:  # noqa: PLR2004 - the two are clauses of their own
+    if len(last) < 2:
         del before[-2:]
         return [either], end
     return [*last[:-2], either], end
@@ -170,8 +170,9 @@ _CONDITIONAL = lexicon.words("if unless only provided")
 _REACH = 8
 """So many words the second of two things may have: "or the small blue cup"."""
 _NOT_THERE = lexicon.phrases(
-    "it is not there,it is not,there is none,there is not one,they are not there,you can not find it,"
-    "you do not find it,you can not see it,you do not see it,it is gone,it is missing,"
+    "it is not there,it is not,there is none,there is not one,they are not there,"
+    "you can not find it,you do not find it,you can not see it,you do not see it,it is gone,"
+    "it is missing,"
     "that is not there,you do not see one,you can not find one,that one is not there,not"
 )
 """Of the first of two things, that it cannot be had."""

@@ -147,7 +147,7 @@ class Shell:
         at_work = self.robot.busy if busy is None else busy
         if not (at_work or self.halt.on) or not is_halt(text):
             return False
-        if self._isanswer_of(text) or self._is_command(text):
+        if self._is_answer(text) or self._is_command(text):
             return False
         with self._submitting:
             self.halt.begin()

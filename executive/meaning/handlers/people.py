@@ -28,7 +28,12 @@ def gesture(goal: goals.Gesture, scene: Scene) -> Part:
 
 
 def _hand(said: goals.Side | None) -> Side | None:
-    return said if said == "left" or said == "right" else None
+    """The hand that is meant by a side; none by "forward"."""
+    match said:
+        case "left" | "right":
+            return said
+        case _:
+            return None
 
 
 def _towards(name: str | None, scene: Scene) -> dict[str, str]:

@@ -16,7 +16,8 @@ Joint = Literal["and", "or", "nor", ","]
 _JOINTS: dict[tuple[str, ...], Joint] = {
     words: joint
     for joint, said in (
-        ("and", "and,and also,but,but also,and that,as well as,and if,and only if,but only if,and both"),
+        ("and", "and,and also,but,but also,and that,as well as,and if,and only if,but only if,"
+                "and both"),
         ("or", "or,or else,or if,or that,or maybe,or either"),
         ("nor", "nor,and neither,nor if"),
     )

@@ -69,9 +69,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         target = second
     elif second:
         raise Misfit(f"“{second.phrase.said}” is one place too many")
-    aside = "sideways" in clause.text.words[clause.first : clause.end]
-    if target is None and aside and direction not in ("left", "right"):
-        raise Unclear("To the left or to the right?")
+    _must_have_side(clause, direction)
     if target is None and (distance is not None or direction or clause.vague()):
         slots.done()
         vague = clause.vague() and clause.verb != "step"
@@ -93,6 +91,13 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     for phrase in target.phrases:
         must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
+
+
+def _must_have_side(clause: Clause, direction: str | None) -> None:
+    """Ask to which side, where only "sideways" was said."""
+    aside = "sideways" in clause.text.words[clause.first : clause.end]
+    if aside and not clause.with_role("to", "into", "at") and direction not in ("left", "right"):
+        raise Unclear("To the left or to the right?")
 
 
 def _carried(slots: Slots, target: Complement | None) -> list[Goal]:

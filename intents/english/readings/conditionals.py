@@ -12,8 +12,16 @@ from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear, listing
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
-from intents.goals import Condition, Goal, Holding, If, Person, Present, simple_conditions
-from intents.wording import thing
+from intents.goals import (
+    Condition,
+    Goal,
+    Holding,
+    If,
+    ObjectQuery,
+    Person,
+    Present,
+    simple_conditions,
+)
 
 
 def conditional(sentence: Sentence, at: int) -> Found | None:
@@ -95,15 +103,20 @@ def _one_is_it(text: Text, clause: tuple[int, int], holds: Condition) -> None:
         for one in simple
         if isinstance(one, Present | Holding) and one.object
     }
-    if len(things) < 2 or len(held) == 1:  # noqa: PLR2004 - one or several
+    if len(things) < 2 or len(held) == 1:
         return
     for at in range(*clause):
         match = text.name_at(at)
         if match and match.of("object"):
             return
         if text.word(at) == "it":
-            names = tuple(sorted(thing(one) for one in things))
+            names = tuple(sorted(_named(one) for one in things))
             raise Unclear(f"What is “it”, {listing(names)}?", choices=names, said="it")
+
+
+def _named(query: ObjectQuery) -> str:
+    words = [query.size, query.color, query.name or query.category or "thing"]
+    return " ".join(["the", *(word for word in words if word)])
 
 
 def _while(sentence: Sentence, at: int) -> int | None:

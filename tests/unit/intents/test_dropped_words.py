@@ -5,8 +5,8 @@ Hands, sides, times, speeds, quotations and rooms.
 
 import pytest
 
-from intents.grounding import Entity
 from intents.context import Context
+from intents.grounding import Entity
 from intents.outcomes import Goals, Question, Refusal
 from intents.parser import parse
 from intents.wording import in_words

@@ -14,7 +14,6 @@ from intents.english.readings import (
     ends,
     fronted,
     light_verbs,
-    questions,
     remarks,
     time_clauses,
     verb,
