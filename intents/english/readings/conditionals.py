@@ -101,7 +101,7 @@ def _one_is_it(text: Text, clause: tuple[int, int], holds: Condition) -> None:
     things = {
         replace(one.object, at=None, relation=None)
         for one in simple
-        if isinstance(one, Present | Holding) and one.object
+        if isinstance(one, Present | Holding) and one.object not in (None, ObjectQuery())
     }
     if len(things) < 2 or len(held) == 1:
         return
