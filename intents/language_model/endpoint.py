@@ -5,7 +5,6 @@ import ipaddress
 import httpx
 import msgspec
 
-
 MAX_DEADLINE_S = 600.0
 
 
