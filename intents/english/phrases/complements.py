@@ -60,6 +60,12 @@ _A_WHILE = phrases(
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
 )
 _SUBJECTS = ("it", "they", "he", "she")
+_SPEAKERS = ("i", "we", "he", "she", "they")
+_HOW_ONE_IS = lexicon.words(
+    "dripping freezing soaking starving dying boiling sweating shivering bleeding melting leaving "
+    "going coming waiting hurrying rushing crying choking sneezing burning roasting baking running"
+)
+"""What one is doing that takes no object: *the book I am reading* tells which book it is."""
 _LINKS = (["in", "case"], ["as", "soon"], ["once", "you"])
 """How a clause begins that says when or whether."""
 _STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
@@ -142,11 +148,24 @@ def ends_clause(text: Text, at: int) -> bool:
         return True
     if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
         return True
+    if word in _SPEAKERS and _tells_something(text, at + 1):
+        return True
     if tells_when(text, at):
         return True
     if word == "without" and text.word(at + 1).endswith("ing"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
+
+
+def _tells_something(text: Text, at: int) -> bool:
+    """Fetch a towel *I am dripping*; ... *I need it*: no words that describe the towel."""
+    if text.word(at) in ("am", "are"):
+        said = at + 1
+        while text.word(said) in ("so", "very", "really", "too", "just", "still", "all", "not"):
+            said += 1
+        predicate = text.word(said)
+        return said > at + 1 or not predicate.endswith("ing") or predicate in _HOW_ONE_IS
+    return text.word(at).isalpha() and text.word(at + 1) in ("it", "them")
 
 
 def connector_end(text: Text, at: int) -> int | None:

@@ -4,6 +4,7 @@ from collections.abc import Collection, Mapping
 from typing import TypeVar
 
 from intents.english.words.courtesy import courtesy_end
+from intents.english.words.dialects import in_standard_words
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -17,6 +18,7 @@ from intents.english.words.lexicon import (
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.texting import spelled_out
 from intents.english.words.verbs import participle_base
 from intents.vocabulary import Vocabulary
 
@@ -59,9 +61,9 @@ class Text:
         self.index: NameIndex = index_of(vocabulary)
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
-        self.corrections: list[tuple[str, str]] = []
+        tokens, self.corrections = spelled_out(_without_name(tokenize(text), self.index), self.index)
         begins = True
-        for token in _without_name(tokenize(text), self.index):
+        for token in tokens:
             meant = speller.correct(token.text, begins=begins)
             begins = token.text in _BEFORE_VERBS
             if meant == [token.text]:
@@ -75,7 +77,8 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        self.tokens: list[Token] = _colloquial(_unfinished(_without_fillers(corrected, self.index)))
+        plain = _unfinished(_without_fillers(corrected, self.index))
+        self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
