@@ -36,6 +36,7 @@ from intents.english.readings import (
     repetition,
     time_clauses,
     trying,
+    unknown_verbs,
     verb,
     without_verb,
 )
@@ -102,6 +103,8 @@ RULES = Rules(
         without_verb.telegram,
         ellipsis.gapped,
         remarks.told_of,
+        # A word that no reading knows as anything is taken for a verb last of all, and asked about.
+        unknown_verbs.moved_somehow,
         # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
         # the table") is read above.
         asides.warned,

@@ -20,6 +20,10 @@ _IF_NOT = lexicon.phrases(
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
+_OFF = lexicon.words("go come run hurry nip pop dash hop trot zip")
+"""How one sets out to do something."""
+
+
 def skip_openings(text: Text, at: int) -> int:
     """Past connectors, signs and openings like "could you"."""
     while at < len(text):
@@ -92,7 +96,7 @@ def _sets_out(text: Text, at: int) -> bool:
     if text.word(at) in ("start", "begin", "keep") and text.word(at + 1).endswith("ing"):
         longest = max((end for _, end in verbs_at(text.words, at)), default=at + 1)
         return bool(verbs_at(text.words, at + 1)) and longest == at + 1
-    if text.word(at) not in ("go", "come", "run", "hurry"):
+    if text.word(at) not in _OFF:
         return False
     after = connector_end(text, at + 1) or at + 1
     inner = max((end for _, end in verbs_at(text.words, after)), default=after)

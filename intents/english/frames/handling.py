@@ -48,14 +48,15 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     objects = slots.objects(handled=moved)
     if not objects and scope.object:
         objects = [scope.object]
-    need(objects, "What shall I pick up?")
-    at = slots.loose_place()
     duration = slots.measure("time") if clause.verb.startswith("hold") else None
+    posed = bool(duration) and isinstance(scope.last, Balance)  # stand on one leg, hold for 3 s
+    need(objects or posed, "What shall I pick up?")
+    at = slots.loose_place()
     slots.done()
     if "along" in clause.particles() and isinstance(scope.last, GoTo) and scope.last.place:
         there = Target(on=scope.last.place)  # go to the lab and take the cup along
         return [_each(replace(o, at=o.at or at), lambda q: put_at(q, there)) for o in objects]
-    if duration and isinstance(scope.last, Balance):
+    if posed:
         return [Wait(duration_s=duration)]
     held = isinstance(scope.last, Pick) and objects == [scope.object]
     picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]

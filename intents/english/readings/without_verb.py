@@ -1,7 +1,8 @@
 """Commands without a verb that says it: "lights off", "three steps forward", "make a fist"."""
 
-from intents.english.clauses.results import brought_about
+from intents.english.clauses.results import brought_about, made_so
 from intents.english.clauses.verb_clauses import framed
+from intents.english.frames.devices import is_device
 from intents.english.phrases.complements import first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, SaidVerb, Sentence
@@ -52,8 +53,12 @@ def moved(sentence: Sentence, at: int) -> Found | None:
 
 
 def switched(sentence: Sentence, at: int) -> Found | None:
-    """The kettle on."""
+    """The kettle on; on the kettle, as it is said in Singapore."""
     text = sentence.text
+    phrase = noun_phrase(text, at + 1) if text.word(at) in ("on", "off") else None
+    if phrase is not None:
+        made = made_so(text, phrase, at, sentence.scope, end=phrase.end)
+        return made if made and is_device(made[0][0]) else None
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
     found = brought_about(text, at, sentence.scope)

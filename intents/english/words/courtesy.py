@@ -74,15 +74,20 @@ _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
     "very please do think there is any chance that of me trouble bother ask it us we bothering "
-    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do"
+    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do "
+    "should be obliged indebted thankful delighted pleased glad happy honoured honored most ever "
+    "much so immensely eternally exceedingly deeply shall kindness goodness courtesy have had the "
+    "please"
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
-    "appreciate grateful perhaps happen hoping hope possible might maybe"
+    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted thankful "
+    "delighted pleased honoured honored kindness goodness courtesy"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
 )
+_KINDNESSES = lexicon.words("kindness goodness courtesy decency grace")
 _LONGEST = 20
 
 
@@ -132,7 +137,8 @@ def _hedge(words: list[str], at: int) -> int | None:
     while end < min(len(words), at + _LONGEST) and words[end] in _HEDGES:
         end += 1
     said = words[at:end]
-    hedged = _HEDGED.intersection(said) and "you" in said and end > at + 2
+    wished = said[-2:] == ["if", "you"] and "would" in said
+    hedged = (_HEDGED.intersection(said) or wished) and "you" in said and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
 
 
@@ -146,6 +152,8 @@ def _prelude(words: list[str], at: int) -> int | None:
                 if words[n] == "is" and _is_verb(words, n + 1 + (_word(words, n + 1) == "to")):
                     return n + 1 + (_word(words, n + 1) == "to")
         return None
+    if first == "have" and _word(words, at + 2) in _KINDNESSES and _word(words, at + 3) == "to":
+        return at + 4  # have the goodness to ...
     bidden = first == "be" and words[at + 1 : at + 2] in (["a"], ["an"])
     done = first == "do" and bool(_DUTIES.intersection(words[at + 1 : at + 5]))
     if not (bidden or done):
@@ -153,6 +161,8 @@ def _prelude(words: list[str], at: int) -> int | None:
     for n in range(at + 2, min(len(words), at + 7)):
         if words[n] in ("and", COMMA) and _is_verb(words, n + 1):
             return n + 1
+        if words[n] == "of" and done and _word(words, n + 1).endswith("ing"):
+            return n + 1  # do me the kindness of bringing ...
     return None
 
 

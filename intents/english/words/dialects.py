@@ -10,8 +10,8 @@ from intents.english.words.lexer import FULL_STOP, Token
 from intents.english.words.names import NameIndex
 
 _GIVES_ME = lexicon.words(
-    "give bring get fetch hand pass find show tell buy lend send offer serve make pour toss throw "
-    "chuck sling lob bung grab teach read leave let help with for to us"
+    "give bring get fetch hand pass find show tell buy lend send offer serve make pour grab teach "
+    "read leave let help with for to us"
 )
 _GIVES_THEM = lexicon.words(
     "give bring hand pass show tell buy lend send offer serve make pour teach read let help with "

@@ -17,6 +17,7 @@ from intents.english.words.lexicon import (
 )
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.precise import plain_quantities
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
 from intents.english.words.verbs import participle_base
@@ -31,7 +32,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
-_WISHING = words("would it i")
+_WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
 _PREDICATES = words(
@@ -77,6 +78,7 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
+        corrected = _wished(plain_quantities(corrected))
         plain = _unfinished(_without_fillers(corrected, self.index))
         self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
@@ -157,8 +159,18 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
+def _wished(tokens: list[Token]) -> list[Token]:
+    """Would it be nice if you *waved*: if you wave."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):
+        base = participle_base(words[at]) if words[at - 2 : at] == ["if", "you"] else None
+        if base:
+            tokens[at] = Token(base, tokens[at].raw)
+    return tokens
+
+
 def _unfinished(tokens: list[Token]) -> list[Token]:
-    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
     words = [t.text for t in tokens]
     if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
         tokens.insert(0, Token("i", ""))  # need a screwdriver here
@@ -170,11 +182,6 @@ def _unfinished(tokens: list[Token]) -> list[Token]:
         if words[at] == "'s" and words[at + 1] in _PREDICATES:
             tokens[at] = Token("is", tokens[at].raw)
     words = [t.text for t in tokens]
-    for at in range(len(words) - 1, 1, -1):
-        wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING
-        base = participle_base(words[at]) if wished else None
-        if base:
-            tokens[at] = Token(base, tokens[at].raw)
     for at in range(len(words) - 2, 1, -1):
         done = words[at] == "have" and words[at - 1] == "you" and words[at - 2] in _ONCE
         base = participle_base(words[at + 1]) if done else None

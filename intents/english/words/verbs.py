@@ -49,6 +49,8 @@ SPELLINGS: dict[str, str] = {
         "set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
         "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
         "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
+        "keep,lob,fling,hurl,heave,cram,squash,slap,perch,prop,nestle,lodge,ditch,dunk,drape,"
+        "pitch,hoist,prop up,stand up,heap,hoy,"
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
@@ -63,7 +65,8 @@ SPELLINGS: dict[str, str] = {
         "run,run over,run on over,deliver,carry,transport,transfer,bring over,bring back,"
         "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
-        "pull"
+        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,forward,pop,hoof,trundle,"
+        "relay,smuggle,sneak,pass along,bring round,take round,drop round,fetch over,walk,jog"
     ),
     "inform": (
         "i need,i want,i would like,give me,give us,give,provide,provide me with,show me,share,"
@@ -255,7 +258,11 @@ SPELLINGS: dict[str, str] = {
         "do the following,do it once more,do that once more,same again,do it,do that"
     ),
 }  # fmt: skip
-"""Sense to spellings; a spelling may have several senses, the frames tell them apart."""
+"""Sense to spellings; a spelling may have several senses, the frames tell them apart.
+
+What things are put, brought and thrown with is from the classes 9.1 to 9.4, 11.1, 11.4, 11.5 and
+17.1 of [Levin1993] (English Verb Classes and Alternations), and from what people say at home.
+"""
 
 SENSES: dict[Phrase, tuple[str, ...]] = {}
 for _sense, _text in SPELLINGS.items():
