@@ -4,6 +4,8 @@
 :mod:`intents.english.corrections`.
 """
 
+from typing import Literal
+
 from msgspec.structs import replace
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
@@ -17,8 +19,8 @@ from intents.english.substitution import substitute
 from intents.english.trouble import Partly, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.english.words.measures import measure
-from intents.goals import Answer, Condition, Find, Goal, If, ObjectQuery, Present, Repeat
+from intents.english.words.measures import measure, number
+from intents.goals import Answer, Condition, Find, ForEach, Goal, If, ObjectQuery, Present, Repeat
 
 
 def left_undone(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
@@ -113,6 +115,44 @@ def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if end < len(text) and text.word(end) != FULL_STOP:
         return None
     return [Repeat(times=int(amount.value), goals=tuple(last))], end
+
+
+_OF_ALL = lexicon.phrases(
+    "all of them,all of it,the whole lot,the lot,them all,every one,every one of them,"
+    "every last one,every single one,every last one of them,every single one of them,each one,"
+    "each of them,them,each and every one,the whole bunch,the whole bunch of them,"
+    "the lot of them,all those"
+)
+_BOTH = lexicon.phrases("both of them,both,the pair of them,the pair,the two of them,them both")
+
+
+def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Bring the cups here, *both of them*; ..., *all three of them*; ..., *every last one*."""
+    text = sentence.text
+    if text.word(at - 1) != COMMA or not last:
+        return None
+    all_end, both_end = text.phrase_end(_OF_ALL, at), text.phrase_end(_BOTH, at)
+    begin = at + (text.word(at) in ("all", "the"))
+    amount = None if all_end or both_end else number(text.words, begin)
+    end = all_end or both_end or (amount.end if amount else at)
+    end += 2 if amount and text.words[end : end + 2] == ["of", "them"] else 0
+    if end == at or (end < len(text) and text.word(end) not in (COMMA, FULL_STOP)):
+        return None
+    count = 2 if both_end else int(amount.value) if amount else "all"
+    counted = [_counted(goal, count) for goal in last]
+    return (counted, end) if counted != last or all_end else None
+
+
+def _counted(goal: Goal, count: int | Literal["all"]) -> Goal:
+    """The goal with so many of the things that it is about."""
+    if isinstance(goal, ForEach) and len(goal.goals) == 1:
+        held = ObjectQuery(held=True)
+        some = replace(goal.object, count=count)
+        return goal if count == "all" else substitute(goal.goals[0], held, some)
+    thing = getattr(goal, "object", None)
+    if not isinstance(thing, ObjectQuery) or thing.held or isinstance(goal, ForEach):
+        return goal
+    return substitute(goal, thing, replace(thing, count=count))
 
 
 def who_asks(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

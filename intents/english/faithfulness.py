@@ -90,7 +90,7 @@ def left_out(text: Text, goals: Iterable[Goal], passed: Iterable[tuple[int, int]
         end, carried = (at + 1, True) if at in silent else _carried(text, at, told)
         if not carried:
             grave = text.word(at) in _CARRYING - lexicon.EMPTY_ADJECTIVES
-            slight = not grave and _describes(text, end, told)
+            slight = not grave and (_describes(text, end, told) or _owns(text, at, told))
             dropped.append(LeftOut(text.raw(at, end), slight))
         at = max(end, at + 1)
     return dropped
@@ -261,6 +261,12 @@ def _describes(text: Text, at: int, told: _Told) -> bool:
         if not text.word(n)[0].isalpha() or text.word(n) in lexicon.FUNCTION_WORDS:
             return False
     return False
+
+
+def _owns(text: Text, at: int, told: _Told) -> bool:
+    """The charger *of my laptop*, the cap *of Hans*: whose it is of what comes back."""
+    of = at - 1 - (text.word(at - 1) in lexicon.DETERMINERS)
+    return text.word(of) == "of" and singular(text.word(of - 1)) in told.words
 
 
 def strings(goals: Iterable[Goal]) -> list[str]:

@@ -79,6 +79,7 @@ RULES = Rules(
         trying.tried,
         questions.whether,
         questions.seen,
+        questions.any_left,
         without_verb.fist,
         without_verb.head,
         without_verb.lights,
@@ -122,6 +123,7 @@ RULES = Rules(
         afterthoughts.before_or_after,
         afterthoughts.in_time,
         afterthoughts.so_often,
+        afterthoughts.so_many,
         afterthoughts.who_asks,
     ),
 )

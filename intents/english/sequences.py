@@ -54,6 +54,7 @@ def sequence(sentence: Sentence, at: int) -> Found:
             notes.trace.append((text.raw(at, end), tuple(found)))
         if not found:
             notes.passed.append((begun, end))
+            notes.wanted = bool(wish)
         clause_at = begun
         last = _append(here, found, wish, text.words[begun : at + 1])
         at = max(end, at + 1)

@@ -72,6 +72,27 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
     return None, end
 
 
+_SENDERS = (["from", "me"], ["from", "us"], ["for", "me"], ["for", "us"])
+_OF_THEM = lexicon.words("he she they it we i because since as cause so and")
+
+
+def _addressed(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] | None:
+    """Happy birthday *to Grandma*, she is eighty; good night *to Leo from me*.
+
+    Where the listener's name ends, and where what belongs to it ends; None if words follow that
+    may well be part of what is to be said.
+    """
+    for to in range(at + 1, end):
+        phrase = _listener(text, to + 1, scope) if text.word(to) == "to" else None
+        if phrase is None or not phrase.name("person"):
+            continue
+        after = phrase.end + 2 * (text.words[phrase.end : phrase.end + 2] in _SENDERS)
+        aside = text.word(after) == COMMA and text.word(after + 1) in _OF_THEM
+        if after > phrase.end or aside:
+            return phrase.end, after
+    return None
+
+
 def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
@@ -91,8 +112,10 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     at += text.word(at) == "that"
     end = _before_times(text, at, content_end(text, at))
     stop = end
+    addressed = _addressed(text, at, end, scope) if to is None else None
     if to is None:
-        to, stop = _last_listener(text, at, end, scope)
+        named, end = addressed or (end, end)
+        to, stop = _last_listener(text, at, named, scope)
     stop, here = _place_of_speech(text, at, stop, scope)
     if stop <= at and text.word(at) != QUOTE:
         if to is None and text.word(at - 1) not in ("speak", "talk", "joke"):
@@ -133,11 +156,11 @@ def _to_listener(text: Text, reading: Found, scope: Scope) -> Found:
         phrase = _listener(text, end + 1, scope)
         if phrase:
             person = to_person(phrase, scope)
-            return [_addressed(g, person) for g in goals], phrase.end
+            return [_with_listener(g, person) for g in goals], phrase.end
     return reading
 
 
-def _addressed(goal: Goal, person: Person) -> Goal:
+def _with_listener(goal: Goal, person: Person) -> Goal:
     return replace(goal, to=person) if isinstance(goal, Count | Tell | Say) else goal
 
 

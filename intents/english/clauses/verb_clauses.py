@@ -6,14 +6,14 @@ from intents.english.clauses.questions import counted
 from intents.english.clauses.saying import answer, describe, inform, say, tell
 from intents.english.frames import FRAMES
 from intents.english.phrases.complements import Clause, Complement, ends_clause, read_complements
-from intents.english.phrases.referents import to_place
+from intents.english.phrases.referents import Scope, to_place
 from intents.english.reading import Found, SaidVerb, Sentence, not_understood
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import GoTo, Repeat
+from intents.goals import GoTo, Person, Repeat
 
 SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 """Senses whose complement is words."""
@@ -91,6 +91,7 @@ def _in_sense(
         return counted(text, first, scope)
     complements, end = read_complements(text, start)
     complements = without_favours(sense, complements)
+    _mention_owners(text, complements, scope)
     given_up = sense == "cancel" and text.word(first).endswith("ing")
     if sense == "stop" or given_up:
         complements = []  # what is to be stopped or given up is all that is going on
@@ -105,6 +106,14 @@ def _in_sense(
     if times and times > 1:
         return [Repeat(times=int(times), goals=tuple(goals))], end
     return goals, end
+
+
+def _mention_owners(text: Text, complements: list[Complement], scope: Scope) -> None:
+    """Take *Ada's* pen back to *her*; find Emil's cap and bring it to *him*."""
+    back = any(c.direction == "backward" for c in complements) or "return" in text.words
+    for owner in (phrase.owner for c in complements for phrase in c.phrases if phrase.owner):
+        if back or scope.person is None:
+            scope.person = Person(name=owner)
 
 
 def framed(

@@ -102,6 +102,7 @@ def _owned(text: Text, phrase: NounPhrase) -> NounPhrase | None:
     if owned is None:
         return phrase
     owned.start = phrase.start
+    owned.owner = phrase.name("person")
     if phrase.name("room", "place") and owned.noun == "name":
         owned.places.append(Locative("in", phrase))
     return owned

@@ -79,6 +79,9 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if text.word(at) != "of":
         return None
     inner = noun_phrase(text, at + 1)
+    if inner is not None and inner.name("person") and phrase.name("object", "category"):
+        phrase.owner = inner.name("person")
+        return inner.end  # the cap of Hans: as with "Hans's cap", it is the cap
     if inner is None or inner.is_person:
         return None
     board = _board_of(text, phrase, inner)
@@ -99,7 +102,8 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if inner.name("room"):
         phrase.places.append(Locative("in", inner))
         return inner.end
-    return None
+    accessory = phrase.name("object") and inner.name("object") and inner.determiner
+    return inner.end if accessory else None
 
 
 def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
@@ -221,12 +225,9 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
         end = read_appearance(text, phrase, at)
         if end:
             return end
-    if word in _LYING_AROUND and text.lookup(LOCATIVES, at + 1):
-        return _locative(text, phrase, at + 1)
-    if word in _LYING_AROUND and word not in ("left", "put"):
-        end = _lying_there(text, phrase, at + 1)
-        if end:
-            return end
+    end = _lying(text, phrase, at) if word in _LYING_AROUND else None
+    if end:
+        return end
     if word in ("named", "called"):
         inner = noun_phrase(text, at + 1)
         if inner and inner.names:
@@ -243,6 +244,15 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _lying(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Lying *on the table*; lying *around on the table*; standing *there*."""
+    loosely = at + 1 + (text.word(at + 1) in ("around", "about", "over"))
+    for start in (loosely, at + 1):
+        if text.lookup(LOCATIVES, start):
+            return _locative(text, phrase, start)
+    return None if text.word(at) in ("left", "put") else _lying_there(text, phrase, at + 1)
 
 
 def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:

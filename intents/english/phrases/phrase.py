@@ -50,6 +50,7 @@ class NounPhrase:
         places: Where it is, in the order said.
         other: It is the one that was not spoken of.
         part: Which part of it is meant: "the other end of the table".
+        owner: Whose it is, by name.
         without: What of it is not meant: "all cups except the red one".
         where: What was said, if the phrase is a place by what is there: "where the cup is".
     """
@@ -75,6 +76,7 @@ class NounPhrase:
     other: bool = False
     where: str = ""
     part: Part | None = None
+    owner: str = ""
     without: "NounPhrase | None" = None
 
     @property
@@ -117,7 +119,8 @@ _NO_NOUN = (
     lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice closed opened need needs belong belongs only ends lands winds "
+                    "no not twice thrice closed opened need needs belong belongs only ends "
+                    "lands winds "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
                     "moved brought lie know too went using instead rather except excluding apart")
 )  # fmt: skip

@@ -26,9 +26,14 @@ def left_somewhere(sentence: Sentence, at: int) -> Found | None:
     """I left my comb on the bench: it is noted."""
     start = sentence.text.phrase_end(_KNOWN, at)
     phrase = noun_phrase(sentence.text, start) if start else None
-    if phrase is None or not phrase.name("object", "category"):
+    it = phrase is not None and phrase.said == "it" and bool(phrase.places)
+    if phrase is None or not (it or phrase.name("object", "category")):
         return None
+    was = sentence.scope.object
     mention_phrase(phrase, sentence.scope)
+    now = sentence.scope.object
+    if it and was is not None and now is not None:  # I need the torch, I forgot it in the hall
+        sentence.before[:] = [substitute(goal, was, now) for goal in sentence.before]
     end, text = phrase.end, sentence.text
     while text.word(end) in _SOMEWHERE:
         end += 1

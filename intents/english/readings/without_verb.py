@@ -58,7 +58,8 @@ def switched(sentence: Sentence, at: int) -> Found | None:
     phrase = noun_phrase(text, at + 1) if text.word(at) in ("on", "off") else None
     if phrase is not None:
         made = made_so(text, phrase, at, sentence.scope, end=phrase.end)
-        return made if made and is_device(made[0][0]) else None
+        closed = text.word(phrase.end) == FULL_STOP  # on the stove, which is the largest?
+        return made if made and closed and is_device(made[0][0]) else None
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
     found = brought_about(text, at, sentence.scope)
@@ -83,7 +84,7 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
     if roles not in (["", "to"], ["", "into"]) or not closed:
         return None
     thing, where = (c.phrases[0] if c.phrases else None for c in complements if c.role != "from")
-    if not (thing and where and thing.name("object") and where.name("place")):
+    if not (thing and where and thing.name("object", "category") and where.name("place")):
         return None
     sentence.notes.verb = SaidVerb(at, at, ("put",))
     return framed(sentence, "put", "put", complements, first=at, end=end)

@@ -21,7 +21,8 @@ _GIVES_THEM = lexicon.words(
 _DESCRIBING = frozenset(lexicon.SIZES) | frozenset(lexicon.COLORS) | lexicon.EMPTY_ADJECTIVES
 _PREPOSITIONS = {
     ("next", "of"): ("next", "to"), ("next", "from"): ("next", "to"), ("near", "of"): ("near",),
-    ("near", "from"): ("near",), ("close", "of"): ("close", "to"), ("close", "from"): ("close", "to"),
+    ("near", "from"): ("near",), ("close", "of"): ("close", "to"),
+    ("close", "from"): ("close", "to"),
     ("beside", "of"): ("beside",), ("besides", "of"): ("beside",), ("beside", "to"): ("beside",),
     ("besides", "to"): ("beside",), ("behind", "of"): ("behind",), ("behind", "from"): ("behind",),
     ("under", "of"): ("under",), ("in", "front", "from"): ("in", "front", "of"),

@@ -265,8 +265,9 @@ _OPENINGS = phrases(
     "i hope i am not disturbing you,i do hope i am not being a nuisance,"
     "i hope i am not being a nuisance,good evening to you,good morning to you,"
     "good afternoon to you,good day to you,will you not,pray,i pray you,do one thing,"
-    "one thing you do,go on and,i beg you to,i beg of you to,i must ask you to,i have to ask you to,"
-    "i shall ask you to,i am going to ask you to,please to,do,i would have you,you do one thing,"
+    "one thing you do,go on and,i beg you to,i beg of you to,i must ask you to,"
+    "i have to ask you to,i shall ask you to,i am going to ask you to,please to,do,"
+    "i would have you,you do one thing,"
     "i wish that you would,i want for you to,you shall,might i prevail upon you to"
 )
 _ANNOUNCED = phrases(

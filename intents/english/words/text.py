@@ -62,7 +62,9 @@ class Text:
         self.index: NameIndex = index_of(vocabulary)
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
-        tokens, self.corrections = spelled_out(_without_name(tokenize(text), self.index), self.index)
+        tokens, self.corrections = spelled_out(
+            _without_name(tokenize(text), self.index), self.index
+        )
         begins = True
         for token in tokens:
             meant = speller.correct(token.text, begins=begins)

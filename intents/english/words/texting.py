@@ -99,7 +99,9 @@ def _meant(words: list[str], at: int, index: NameIndex) -> tuple[str, ...] | Non
     word = words[at]
     if not word[0].isalnum() or (word in index.words and word.isalpha()):
         return None
-    if word in _LEFT_OUT or (word in _KISSES and at == len(words) - 1 and not _is_figure(words, at)):
+    if word in _LEFT_OUT or (
+        word in _KISSES and at == len(words) - 1 and not _is_figure(words, at)
+    ):
         return ()
     by_sound = _by_sound(words, at, index)
     if by_sound or word in _SHORT_FORMS:

@@ -65,7 +65,7 @@ SPELLINGS: dict[str, str] = {
         "run,run over,run on over,deliver,carry,transport,transfer,bring over,bring back,"
         "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
-        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,forward,pop,hoof,trundle,"
+        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,pop,hoof,trundle,"
         "relay,smuggle,sneak,pass along,bring round,take round,drop round,fetch over,walk,jog"
     ),
     "inform": (
@@ -112,7 +112,7 @@ SPELLINGS: dict[str, str] = {
         "greet,say hello to,say hi to,say hello,say hi,say good morning to,"
         "say good evening to,salute,welcome,introduce yourself to,introduce yourself,"
         "present yourself to,present yourself,give a greeting to,wave hello to,say hey to,"
-        "say goodbye to,say good morning,hello to,introduce,say greetings to,"
+        "say good morning,hello to,introduce,say greetings to,"
         "give your regards to,self introduce to"
     ),
     "say": (
