@@ -73,6 +73,12 @@ _A_THING = re.compile(r"\b(?:get|fetch|bring|take|grab|pick|find|put|place|move|
 _TO_THE_COLD = re.compile(r"^\s+(?:the|my|our|some|these|those)\s+(?!robot|motor|arm|hand|leg)\w")
 """Freeze *the leftovers*."""
 
+_OF_A_THING = re.compile(
+    r"^\s+(?:the|my|our|his|her|any|those|these)\s+(?!robot|motor|arm|hand|leg|foot|feet|head)\w"
+)
+"""Do not move *the cup*: what is not to be moved is no robot."""
+_TWICE = re.compile(r"\b(?:sto+p+|halt|freeze)\W+(?:sto+p+|halt|freeze)\b")
+"""Aaah *stop stop* you are standing on my foot: said twice it is cried, wherever it stands."""
 _STAYING = (
     "stand still", "hold still", "keep still", "stay still", "be still", "stand there",
     "stand here", "stay there", "stay here", "stay put", "stay where you are", "stay right there",
@@ -143,9 +149,12 @@ _CRIES = frozenset(map(_plain, _STOPS))
 
 
 def _cries(clause: str) -> bool:
-    if any(clause.startswith(phrase) for phrase in _PHRASES):
+    begun = next((phrase for phrase in _PHRASES if clause.startswith(phrase)), None)
+    if begun and not _OF_A_THING.match(clause[len(begun) :]):
         return True
     found = list(_WORD.finditer(clause))
+    if _TWICE.search(clause):
+        return True
     for number, word in enumerate(found):
         if _is_cry(word.group()):
             if _is_meant(clause, word):

@@ -12,7 +12,7 @@ from intents.english.clauses.conditions import IF, as_soon_as, condition, mentio
 from intents.english.clauses.openings import begins_clause, otherwise_end, skip_openings
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import retraction_end
-from intents.english.phrases.noun_phrases import tells_when
+from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
@@ -140,6 +140,7 @@ def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         return None
     count = 2 if both_end else int(amount.value) if amount else "all"
     counted = [_counted(goal, count) for goal in last]
+    sentence.notes.passed.append((at, end))
     return (counted, end) if counted != last or all_end else None
 
 

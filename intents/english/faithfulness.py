@@ -125,6 +125,12 @@ class _Told:
         """Whether something is done with each of several things or people."""
         return "all" in self.values or self.has(ForEach)
 
+    @property
+    def handed_over(self) -> bool:
+        """Whether something is given to somebody, and not only taken somewhere."""
+        to_somebody = (isinstance(g, Bring) and not isinstance(g.to, str) for g in self.goals)
+        return self.has(Give) or any(to_somebody)
+
     def has(self, *kinds: type[Goal]) -> bool:
         """Whether there is a goal of one of these kinds."""
         return any(isinstance(goal, kinds) for goal in self.goals)
@@ -141,7 +147,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
         ):
             return match.end, True  # the plate Ada left on the sofa
         favour = text.word(at - 1) == "for" and bool(match.of("person"))
-        return match.end, known or (favour and not told.has(Bring, Give))
+        return match.end, known or (favour and not told.handed_over)
     most = text.lookup(lexicon.SUPERLATIVES, at)
     if most:
         return most[1], most[0] in told.values or text.word(at - 1) in _WEIGHING

@@ -58,6 +58,7 @@ RULES = Rules(
         needs.lost,
         remarks.left_somewhere,
         needs.needed,
+        needs.will_do,
         remarks.feeling,
         # Constructions, whose verb is not the act: all of them before the verb with its own
         # complements. "Give a nod" would hand something over, "I need the lamp on the desk" would

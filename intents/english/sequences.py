@@ -12,8 +12,24 @@ from intents.english.trouble import Misfit, NotUnderstood, Partly
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
-from intents.goals import Bring, Cancel, Give, Goal, Pause, Pick, Place, Resume, Stop, each
+from intents.goals import (
+    Bring,
+    Cancel,
+    Close,
+    Give,
+    Goal,
+    Open,
+    Pause,
+    Pick,
+    Place,
+    Resume,
+    Stop,
+    Switch,
+    each,
+)
 
+_SAID_TWICE = (Cancel, Stop, Pause, Resume, Place, Switch, Open, Close)
+"""What is done once, however often it is said in a row."""
 _NAMED_HAND = re.compile(
     r"\b(with|using|use|in) (of |your |the )*(left|right|both|two|one) (of )?(your |the )?"
     r"(hand|arm|gripper)s?\b"
@@ -132,7 +148,7 @@ def _ends_inner(text: Text, at: int) -> bool:
 
 def _once(goals: list[Goal]) -> bool:
     """Whether goals say no more when they are said twice: never mind, forget it."""
-    return all(isinstance(goal, Cancel | Stop | Pause | Resume | Place) for goal in goals)
+    return all(isinstance(goal, _SAID_TWICE) for goal in goals)
 
 
 def _names_hand(said: str, goals: list[Goal]) -> bool:

@@ -66,7 +66,7 @@ def _opening_end(text: Text, at: int) -> int | None:
         return None  # mind the step
     if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
         return None  # no milk for Emil
-    if text.words[at:end] == ["do"] and not verbs_at(text.words, end):
+    if text.words[at:end] == ["do"] and not (verbs_at(text.words, end) or text.word(end) == "be"):
         return None  # do fetch it; but: do three squats
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
     if open_ended and not connector_end(text, at) and not opens_verb:

@@ -9,8 +9,9 @@ from intents.english.words.lexer import COMMA
 from intents.english.words.text import Text
 from intents.goals import Find, Person, Tell
 
-BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
-                    "we got be being now it could seen counted available around")  # fmt: skip
+BE = lexicon.words("is are was were do does did can there you see seeing find currently has "
+                    "have i am we got be being now it could seen counted available "
+                    "around")  # fmt: skip
 
 
 def skip_being(text: Text, at: int, words: frozenset[str] = BE) -> int:

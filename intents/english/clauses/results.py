@@ -22,6 +22,8 @@ def brought_about(text: Text, at: int, scope: Scope) -> Found | None:
     if phrase is None:
         return None
     phrase.end += text.word(phrase.end) in ("is", "are", "being")
+    made = text.word(phrase.end) in ("switched", "turned", "powered", "left", "put")
+    phrase.end += made and text.word(phrase.end + 1) in ("on", "off", "open", "closed", "shut")
     return made_so(text, phrase, phrase.end, scope)
 
 

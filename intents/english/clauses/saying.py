@@ -72,7 +72,7 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
     return None, end
 
 
-_SENDERS = (["from", "me"], ["from", "us"], ["for", "me"], ["for", "us"])
+_SENDERS = (["for", "me"], ["for", "us"])
 _OF_THEM = lexicon.words("he she they it we i because since as cause so and")
 
 
@@ -87,6 +87,8 @@ def _addressed(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] |
         if phrase is None or not phrase.name("person"):
             continue
         after = phrase.end + 2 * (text.words[phrase.end : phrase.end + 2] in _SENDERS)
+        while text.word(phrase.end) == "from" and text.word(after) not in (COMMA, FULL_STOP):
+            after += 1  # from all of us
         aside = text.word(after) == COMMA and text.word(after + 1) in _OF_THEM
         if after > phrase.end or aside:
             return phrase.end, after
@@ -99,6 +101,9 @@ def say(text: Text, at: int, scope: Scope) -> Found:
         end = content_end(text, at)
         to, _ = _last_listener(text, at + 1, end, scope)
         return [Say(what=text.tokens[at].raw, to=to)], end if to else at + 1
+    itself = about_robot(text, at) if text.word(at - 1) in ("state", "declare") else None
+    if itself:
+        return itself  # state your position
     to = None
     if text.word(at) in _TO:
         first = _listener(text, at + 1, scope)

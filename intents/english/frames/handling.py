@@ -118,6 +118,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     to = _receiver(slots)
     if to is None:
         to = _near_destination(slots)
+    if isinstance(to, str):
+        slots.take_person("for")  # carry it to the lift for him
     objects = slots.objects(handled=True) or ([scope.object] if scope.object and to else [])
     need(objects, "What shall I bring?")
     at = slots.loose_place()
@@ -265,6 +267,8 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     objects = slots.objects(handled=True)
     if not objects and clause.sense == "drop":
         objects = [scope.object or ObjectQuery(held=True)]
+    if not objects and isinstance(scope.last, Pick) and scope.object:
+        objects = [scope.object]  # take the hammer from the bench and put in the box
     if not objects:
         raise Misfit("put what?")
     if spot is None and _throws(clause):

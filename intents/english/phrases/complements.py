@@ -7,10 +7,10 @@ from typing import Literal
 from intents.english.phrases.noun_phrases import (
     noun_phrase,
     read_postmodifiers,
-    tells_when,
     weight_at,
 )
 from intents.english.phrases.phrase import Locative, NounPhrase, is_content
+from intents.english.phrases.times import tells_when
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.words.lexicon import (
@@ -61,6 +61,8 @@ _A_WHILE = phrases(
 )
 _SUBJECTS = ("it", "they", "he", "she")
 _SPEAKERS = ("i", "we", "he", "she", "they")
+_ON_IT = lexicon.words("wearing holding reading using carrying drinking eating watching")
+"""The cap *she is wearing* is that one."""
 _HOW_ONE_IS = lexicon.words(
     "dripping freezing soaking starving dying boiling sweating shivering bleeding melting leaving "
     "going coming waiting hurrying rushing crying choking sneezing burning roasting baking running"
@@ -147,7 +149,7 @@ def ends_clause(text: Text, at: int) -> bool:
     if at >= len(text) or word in (COMMA, FULL_STOP):
         return True
     if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
-        return True
+        return text.word(at + 2) not in _ON_IT
     if word in _SPEAKERS and _tells_something(text, at + 1):
         return True
     if tells_when(text, at):
@@ -326,7 +328,11 @@ def read_list(text: Text, at: int) -> tuple[list[NounPhrase], int]:
             if len(items) > 1 and text.word(at) == "both":
                 first.count = None  # both the cup and the plate: one of each
             return items, end
-        items.append(following)
+        again = text.word(end) == COMMA and following.start == end + 1
+        if again and following.said == items[-1].said and following.color == items[-1].color:
+            items[-1].places += following.places  # the lamp, the lamp in the hall
+        else:
+            items.append(following)
         end = following.end
 
 

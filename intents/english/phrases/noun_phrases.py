@@ -10,13 +10,22 @@ from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
 from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_content
 from intents.english.phrases.pronouns import part_of
+from intents.english.phrases.times import tells_when
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
-from intents.english.words.lexicon import DETERMINERS, GOALWARDS, LEVELS, LOCATIVES
+from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
 from intents.english.words.text import Text
-from intents.english.words.verbs import base_form, verbs_at
+from intents.english.words.verbs import verbs_at
 from intents.goals import Superlative
 
+_SOMEBODY = lexicon.words("i we he she they you somebody someone")
+_BOARDS = lexicon.words("board shelf level tier compartment rack row")
+"""What a piece of furniture has one above the other."""
+_EXCEPT = lexicon.phrases(
+    "except,except for,apart from,other than,excluding,save for,aside from,"
+    "with the exception of,not counting,leaving out"
+)
+_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 _RELATIVE = lexicon.words("that which who whose")
 
 
@@ -34,19 +43,10 @@ _RELATIVE_FILLERS = lexicon.words(
 
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
-    "laying hanging stays stands sits lies rests lie waiting staying working relaxing"
+    "laying hanging stays stands sits lies rests lie waiting staying working relaxing "
+    "hiding hidden tucked sat stood lurking perched parked dumped lain stuck propped stashed "
+    "stowed sprawled scattered strewn"
 )
-
-
-_TIMES = lexicon.words("dinner lunch breakfast supper tea noon midnight bedtime tonight tomorrow")
-_SOMEBODY = lexicon.words("i we he she they you somebody someone")
-_BOARDS = lexicon.words("board shelf level tier compartment rack row")
-"""What a piece of furniture has one above the other."""
-_EXCEPT = lexicon.phrases(
-    "except,except for,apart from,other than,excluding,save for,aside from,"
-    "with the exception of,not counting,leaving out"
-)
-_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
 
 def noun_phrase(text: Text, start: int) -> NounPhrase | None:
@@ -120,23 +120,6 @@ def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
             phrase.places += inner.places
             return inner.end
     return None
-
-
-def tells_when(text: Text, at: int) -> bool:
-    """Whether "before" or "until" stands before a clause: "before *Anna gets home*"."""
-    if text.word(at) not in ("before", "after", "until"):
-        return False
-    if text.word(at + 1) in _TIMES:
-        return True
-    if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
-        return False  # until he reaches the door: that is where to
-    subject = bare_phrase(text, at + 1)
-    if subject is None or subject.end >= len(text):
-        return False
-    word = text.word(subject.end)
-    third = base_form(word) != word or word in ("is", "are", "has", "have", "'s")
-    third = third or (word.endswith("s") and word.isalpha() and not text.name_at(subject.end))
-    return third or (bool(verbs_at(text.words, subject.end)) and not text.name_at(subject.end))
 
 
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:

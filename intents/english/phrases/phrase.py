@@ -120,7 +120,8 @@ _NO_NOUN = (
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
                     "no not twice thrice closed opened need needs belong belongs only ends "
-                    "lands winds "
+                    "lands winds hiding hidden tucked sat stood lurking perched parked dumped lain "
+                    "stuck propped stashed stowed sprawled scattered strewn "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
                     "moved brought lie know too went using instead rather except excluding apart")
 )  # fmt: skip

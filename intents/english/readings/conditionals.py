@@ -2,7 +2,7 @@
 
 from intents.english.clauses.conditions import IF, as_soon_as, condition, mention
 from intents.english.clauses.openings import otherwise_end
-from intents.english.phrases.noun_phrases import tells_when
+from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear

@@ -58,7 +58,12 @@ def resultative(sentence: Sentence, at: int) -> Found | None:
     text, scope = sentence.text, sentence.scope
     ensured = text.phrase_end(_ENSURES, at)
     if ensured:
-        return brought_about(text, ensured, scope) or _placed_so(sentence, at, ensured, _ENDS)
+        thing = noun_phrase(text, ensured)
+        return (
+            brought_about(text, ensured, scope)
+            or _placed_so(sentence, at, ensured, _ENDS)
+            or (_passive(sentence, thing) if thing and not thing.is_person else None)
+        )
     if text.word(at) in _KNOCKS:
         return _knocked(sentence, at)
     wish = text.phrase_end(WISHES, at)

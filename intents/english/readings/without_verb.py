@@ -75,7 +75,7 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
         return None
     complements, end = read_complements(text, at)
     roles = [c.role for c in complements if c.role != "from"]
-    closed = end >= len(text) or text.word(end) in (COMMA, FULL_STOP)
+    closed = end >= len(text) or text.word(end) in (COMMA, FULL_STOP, "but")
     bare = first_with(complements, "")
     there = first and closed and roles == [""]
     if there and bare and bare.phrase.places and bare.phrase.name("object"):

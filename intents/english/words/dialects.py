@@ -19,7 +19,7 @@ _GIVES_THEM = lexicon.words(
 )
 """After these "me" and "them" may be who gets something: "bring them towels"."""
 _DESCRIBING = frozenset(lexicon.SIZES) | frozenset(lexicon.COLORS) | lexicon.EMPTY_ADJECTIVES
-_PREPOSITIONS = {
+_PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("next", "of"): ("next", "to"), ("next", "from"): ("next", "to"), ("near", "of"): ("near",),
     ("near", "from"): ("near",), ("close", "of"): ("close", "to"),
     ("close", "from"): ("close", "to"),
@@ -28,7 +28,10 @@ _PREPOSITIONS = {
     ("under", "of"): ("under",), ("in", "front", "from"): ("in", "front", "of"),
     ("in", "front", "to"): ("in", "front", "of"), ("between", "of"): ("between",),
     ("above", "of"): ("above",), ("inside", "to"): ("inside",), ("on", "top", "from"): ("on",),
-    ("unto",): ("to",),
+    ("in", "which", "place"): ("where",), ("at", "which", "place"): ("where",),
+    ("in", "what", "place"): ("where",), ("on", "which", "place"): ("where",),
+    ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
+    ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip
 _LONGEST = 3
 _OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}

@@ -13,6 +13,7 @@ from intents.english.words.lexicon import (
     FILLERS,
     FUNCTION_WORDS,
     Phrase,
+    phrases,
     words,
 )
 from intents.english.words.measures import NUMBER_WORDS
@@ -41,8 +42,13 @@ _PREDICATES = words(
 )
 """What follows "the bottle's" where that is no owner."""
 _RECEIVERS = words("him her me them us want wants")
+_WISHES = phrases(
+    "need,want,going to need,going to want,have to have,have got to have,could do with,could use,"
+    "could murder,would kill for,wanting,needing,will need,gonna need"
+)
+"""How a wish begins whose subject goes without saying: "need a screwdriver here"."""
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
-_MADE = words("close open turn go walk bring take put switch come")
+_MADE = words("close open turn go walk bring take put switch come on off")
 _ONCE = words("once when after")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -80,6 +86,7 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
+        corrected = _said_once(corrected)
         corrected = _wished(plain_quantities(corrected))
         plain = _unfinished(_without_fillers(corrected, self.index))
         self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
@@ -161,6 +168,24 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
+def _said_once(tokens: list[Token]) -> list[Token]:
+    """*Give me, give me* the ball; give me the ball *give me* it is mine: asked for once."""
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [t.text for t in tokens[at : at + 4]]
+        begs = words[:2] == ["give", "me"]
+        nothing = words[2:] == ["give", "me"] or (
+            bool(kept) and (not words[2:] or words[2] in (COMMA, FULL_STOP) or words[3:] == ["is"])
+        )
+        if begs and nothing:
+            at += 2
+            continue
+        kept.append(tokens[at])
+        at += 1
+    return kept
+
+
 def _wished(tokens: list[Token]) -> list[Token]:
     """Would it be nice if you *waved*: if you wave."""
     words = [t.text for t in tokens]
@@ -174,8 +199,9 @@ def _wished(tokens: list[Token]) -> list[Token]:
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
     words = [t.text for t in tokens]
-    if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
-        tokens.insert(0, Token("i", ""))  # need a screwdriver here
+    wished = next((n for n in (4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
+    if wished and words[wished : wished + 1] not in (["to"], ["you"], []):
+        tokens[:wished] = [Token("i", ""), Token("need", _said(tokens[:wished]))]
     for at in range(len(words) - 2, 0, -1):
         if words[at : at + 2] == ["with", "you"] and words[at - 1] not in _ACCOMPANY:
             tokens[at : at + 2] = [Token("along", f"{tokens[at].raw} {tokens[at + 1].raw}")]
@@ -190,6 +216,10 @@ def _unfinished(tokens: list[Token]) -> list[Token]:
         if base:
             tokens[at : at + 2] = [Token(base, tokens[at + 1].raw)]
     return tokens
+
+
+def _said(tokens: list[Token]) -> str:
+    return " ".join(token.raw for token in tokens if token.raw)
 
 
 def _colloquial(tokens: list[Token]) -> list[Token]:

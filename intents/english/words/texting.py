@@ -29,7 +29,8 @@ _SHORT_FORMS = {
         ("did not", "didnt"), ("does not", "doesnt"), ("is not", "isnt aint"), ("are not", "arent"),
         ("was not", "wasnt"), ("were not", "werent"), ("have not", "havent"), ("has not", "hasnt"),
         ("could not", "couldnt"), ("would not", "wouldnt"), ("should not", "shouldnt"),
-        ("how is", "hows"), ("they are", "theyre"), ("they have", "theyve"), ("we have", "weve"),
+        ("how is", "hows"), ("that is", "dats"), ("it is", "itz"), ("they are", "theyre"),
+        ("they have", "theyve"), ("we have", "weve"),
         ("you have", "youve"), ("you will", "youll ull"), ("you would", "youd"),
         ("it will", "itll"), ("that will", "thatll"), ("they will", "theyll"), ("i am", "iam"),
         # little words
@@ -39,7 +40,7 @@ _SHORT_FORMS = {
         ("with", "wid wif wiv wth"), ("from", "frm frum"), ("about", "abt"), ("over", "ovr"),
         ("through", "thru"), ("next", "nxt"), ("back", "bak bck"), ("before", "b4"),
         ("because", "bc bcz bcoz becoz becuz cuz coz cos cus"), ("and", "nd"), ("of", "ov"),
-        ("your", "yr yur yor"), ("you", "ye yous youse yinz thee"), ("yourself", "urself"),
+        ("your", "yr yur yor"), ("you", "ya ye yous youse yinz thee"), ("yourself", "urself"),
         ("straight", "str8"), ("together", "2gether"),
         # nouns and the like
         ("something", "smth sth sumthin sumthing somethin"), ("somebody", "some1 sum1"),
@@ -103,8 +104,15 @@ def _meant(words: list[str], at: int, index: NameIndex) -> tuple[str, ...] | Non
         word in _KISSES and at == len(words) - 1 and not _is_figure(words, at)
     ):
         return ()
+    if word == "ur":
+        after = words[at + 1] if at + 1 < len(words) else FULL_STOP
+        doing = after in ("going", "gonna", "not") or after.endswith("ing")
+        return ("you", "are") if doing else ("your",)
     by_sound = _by_sound(words, at, index)
     if by_sound or word in _SHORT_FORMS:
+        instead = at + 1 + (words[at + 1 : at + 2] in (["the"], ["a"], ["my"]))
+        if word == "nvm" and instead < len(words) and index.match(words, instead):
+            return ("no", "wait")  # get me the tea nvm the juice
         return (by_sound,) if by_sound else _SHORT_FORMS[word]
     return _undone(word, words[at + 1 : at + 2], index)
 
@@ -136,6 +144,7 @@ def _by_sound(words: list[str], at: int, index: NameIndex) -> str:
         "w": "with" if after in lexicon.DETERMINERS | _RECEIVERS else "",
         "v": "very" if last in ("is", "am", "are", "im", "its", "so") else "",
         "o": "of" if last in ("cup", "couple", "bit", "kind", "pair", "bottle", "glass") else "",
+        "rite": "right" if after in ("now", "here", "there", "away") else "",
         "sum": "some" if last in _COUNTED else "",
         "ma": "my" if index.match(words, at + 1) else "",
         "hw": "how" if after in ("r", "u", "are", "is", "many", "much") else "",

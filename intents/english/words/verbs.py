@@ -17,7 +17,7 @@ SPELLINGS: dict[str, str] = {
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
-        "sidestep,side step,strafe,shuffle,scoot"
+        "translate,sidestep,side step,strafe,shuffle,scoot"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
@@ -85,6 +85,8 @@ SPELLINGS: dict[str, str] = {
         "i want to have,i am looking for,we need,we want,we would like,i require,"
         "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
         "i could murder,i would kill for,i am after,i am wanting,i am needing,"
+        "i am going to need,i am going to want,i have to have,i have got to have,i will need,"
+        "i shall need,i must have,we will need,we are going to need,"
         "might i trouble you for,might i bother you for,could i trouble you for,"
         "can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
@@ -126,6 +128,7 @@ SPELLINGS: dict[str, str] = {
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
         "speak with,talk to,talk with,wish,bid,do you happen to know,would you know,any idea,"
         "do you have any idea,have you any idea,respond with,recount,communicate,communicate to,"
+        "revert with,revert to me with,revert back with,get back to me with,come back to me with,"
         "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
         "reveal,detail,point out"
     ),
