@@ -118,7 +118,7 @@ def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
 
 
 _OF_ALL = lexicon.phrases(
-    "all of them,all of it,the whole lot,the lot,them all,every one,every one of them,"
+    "all of them,the whole lot,the lot,them all,every one,every one of them,"
     "every last one,every single one,every last one of them,every single one of them,each one,"
     "each of them,them,each and every one,the whole bunch,the whole bunch of them,"
     "the lot of them,all those"

@@ -57,7 +57,7 @@ _CARRYING = (
     | _ORDINALS | _BOARDS | lexicon.CLOTHES
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 _OTHERS = lexicon.words(
-    "x y wear whoever whatever whichever robot result total amount given being having "
+    "x y quantity wear whoever whatever whichever robot result total amount given being having "
     "went gone ended floor apartment house ok today fist"
 )
 """Words of constructions that the readings know and no list has."""

@@ -73,6 +73,10 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
 
 
 _SENDERS = (["for", "me"], ["for", "us"])
+_TO_SOMEBODY = lexicon.words(
+    "went go gone going gave give given spoke talk talked brought sent told"
+)
+"""What somebody does who tells of it: "I went to Leo" is not said to Leo."""
 _OF_THEM = lexicon.words("he she they it we i because since as cause so and")
 
 
@@ -82,7 +86,10 @@ def _addressed(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] |
     Where the listener's name ends, and where what belongs to it ends; None if words follow that
     may well be part of what is to be said.
     """
-    for to in range(at + 1, end):
+    went = at
+    while went < end and text.word(went) not in _TO_SOMEBODY:
+        went += 1
+    for to in range(at + 1, went if text.word(at) in _OF_THEM else end):
         phrase = _listener(text, to + 1, scope) if text.word(to) == "to" else None
         if phrase is None or not phrase.name("person"):
             continue

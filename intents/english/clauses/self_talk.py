@@ -75,7 +75,8 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                 r"(?: anything| something)?(?: there)?(?: in (?:your|the) (?:\w+ )?(?:hands?"
                 r"|grippers?|arms?))?"),
     ("holding", r"(?:what|which|are|is|do|have|did|anything)\b.*"
-                r"in (?:your|the robot 's|the) (?:\w+ )?(?:hands?|grippers?|fingers?)"),
+                r"(?:in|inside|inside of|within) (?:your|the robot 's|the) (?:\w+ )?"
+                r"(?:hands?|grippers?|fingers?)"),
     ("holding", r"(?:what|anything|something) (?:have you|you have|do you have|you|have you got)"
                 r" (?:in hand|in hands|at hand)"),
     ("holding", r"what (?:did you pick up|have you (?:picked up|got)|you (?:have|are) got)"),

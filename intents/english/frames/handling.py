@@ -13,7 +13,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import singular
-from intents.english.words.lexicon import EVERYONE
+from intents.english.words.lexicon import EVERYONE, words
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
@@ -32,6 +32,10 @@ from intents.goals import (
 
 _WISHES = ("i need", "i want", "i would like", "we need", "we want", "we would like")
 _DISPOSE = ("get rid", "dispose", "discard", "trash", "recycle", "bin")
+_ON_THE_WAY = words(
+    "schlep hump heft nip zip dash shuttle wheel dispatch hoof trundle relay smuggle sneak walk jog"
+)
+"""Verbs that take a thing somewhere, and not to who speaks."""
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -126,6 +130,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
         raise NotUnderstood("I can take things to a place, not move them a little")
     then = _then(clause)
+    if to is None and clause.verb in _ON_THE_WAY:
+        raise Unclear("Where shall I take it?")
     if to is None and clause.verb.startswith(MOVES) and not then:
         raise Unclear("Where shall I take it?")
     if to is None and (clause.verb.startswith(MOVES) or "put" in then):

@@ -44,7 +44,8 @@ _RELATIVE_FILLERS = lexicon.words(
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
     "laying hanging stays stands sits lies rests lie waiting staying working relaxing "
-    "hiding hidden tucked sat stood lurking perched parked dumped lain stuck propped stashed "
+    "present hiding hidden tucked sat stood lurking perched parked dumped lain stuck propped "
+    "stashed "
     "stowed sprawled scattered strewn"
 )
 
@@ -78,10 +79,11 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """A bottle *of water*, one *of the cups*, the couch *of the bedroom*."""
     if text.word(at) != "of":
         return None
+    whose = bare_phrase(text, at + 1) if phrase.name("object", "category") else None
+    if whose is not None and whose.name("person"):
+        phrase.owner = whose.name("person")
+        return whose.end  # the cap of Hans: as with "Hans's cap", it is the cap
     inner = noun_phrase(text, at + 1)
-    if inner is not None and inner.name("person") and phrase.name("object", "category"):
-        phrase.owner = inner.name("person")
-        return inner.end  # the cap of Hans: as with "Hans's cap", it is the cap
     if inner is None or inner.is_person:
         return None
     board = _board_of(text, phrase, inner)
@@ -103,6 +105,7 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
         phrase.places.append(Locative("in", inner))
         return inner.end
     accessory = phrase.name("object") and inner.name("object") and inner.determiner
+    phrase.places += inner.places if accessory else []
     return inner.end if accessory else None
 
 
@@ -134,6 +137,8 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     reduced = reduced or (None if spot or phrase.is_person else _left_there(text, at))
     if reduced:
+        who = text.name_at(at + (text.word(at) in _RELATIVE))
+        phrase.owner = phrase.owner or (who and who.of("person")) or ""
         there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
         seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
         ends = text.word(reduced) in (COMMA, FULL_STOP) and text.word(reduced - 1) in (
@@ -222,7 +227,7 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most:
         phrase.superlative, end = most
         return end
-    behind = (_color_behind, _except, _aside, _at_its_side)
+    behind = (_color_behind, _most_behind, _except, _aside, _at_its_side)
     aside = next((end for read in behind if (end := read(text, phrase, at))), None)
     if aside:
         return aside
@@ -246,6 +251,16 @@ def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     phrase.color = text.index.colors[text.word(at)]
     return at + 1
+
+
+def _most_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The tool *the most heavy*, as those say it who speak another language."""
+    most = text.lookup(lexicon.SUPERLATIVES, at + 1) if text.word(at) == "the" else None
+    thing = phrase.name("object", "category") and not phrase.superlative
+    if most is None or not thing or is_content(text, most[1]):
+        return None
+    phrase.superlative, end = most
+    return end
 
 
 def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:

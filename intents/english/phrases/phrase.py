@@ -119,7 +119,7 @@ _NO_NOUN = (
     lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "no not twice thrice closed opened need needs belong belongs only ends "
+                    "no not got twice thrice closed opened need needs belong belongs only ends "
                     "lands winds hiding hidden tucked sat stood lurking perched parked dumped lain "
                     "stuck propped stashed stowed sprawled scattered strewn "
                     "gets wants asked ordered requested requires fancies asks gone called alone "

@@ -16,7 +16,8 @@ from intents.goals import Answer, Bring, GoTo, Guide
 
 _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
-    "i do not know where,i have no idea where,i do not find,i am missing,we can not find"
+    "can not find,could not find,i do not know where,i have no idea where,i do not find,"
+    "i am missing,we can not find"
 )
 _NEEDS = lexicon.phrases(
     "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"

@@ -62,6 +62,9 @@ def switched(sentence: Sentence, at: int) -> Found | None:
         return made if made and closed and is_device(made[0][0]) else None
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
+    thing = noun_phrase(text, at)
+    if thing is None or text.word(thing.end) in ("is", "are"):
+        return None  # the lamp is on: so it is
     found = brought_about(text, at, sentence.scope)
     return found if found and isinstance(found[0][0], Switch) else None
 

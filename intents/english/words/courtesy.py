@@ -55,7 +55,8 @@ _TAILS = lexicon.phrases(
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
     "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
     "and hurry up,and nothing else,and nothing more,and be quick,and be quick about it,"
-    "get a move on,look lively,look sharp,hop to it,jump to it,shake a leg,snap to it,move it,"
+    "arrange,oblige,do the needful,do needful,and oblige,do oblige,get a move on,look lively,"
+    "look sharp,hop to it,jump to it,shake a leg,snap to it,move it,"
     "get cracking,come on,make haste,spit spot,vamos,andale,and step on it,and quick,and quickly,"
     "there is a good chap,there is a good lad,there is a good girl,there is a good boy,"
     "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
@@ -75,14 +76,16 @@ _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
     "very please do think there is any chance that of me trouble bother ask it us we bothering "
-    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do "
+    "inconvenience appreciate greatly really grateful for will not possible happen sorry hope "
+    "hoping ya do "
     "should be obliged indebted thankful delighted pleased glad happy honoured honored most ever "
     "esteem consider count a favour favor request suggest propose kindest gracious nice "
     "much so immensely eternally exceedingly deeply shall kindness goodness courtesy have had the "
     "please"
 )
 _HEDGED = lexicon.words(
-    "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
+    "kill hurt wondering wonder wondered inconvenience trouble bother chance mind possibly "
+    "terribly awfully "
     "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted thankful "
     "delighted pleased honoured honored kindness goodness courtesy esteem favour favor request "
     "suggest propose"
@@ -196,7 +199,10 @@ def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
                 ["that"],
                 ["move", "it"],
             )
-            praised = words[at : at + 2] == ["would", "be"] and kept[-1] not in ("that", "it")
+            praised = words[at : at + 2] in (["would", "be"], ["will", "do"]) and kept[-1] not in (
+                "that",
+                "it",
+            )
             if praised and not any(_is_verb(kept, n) for n in range(len(kept))):
                 return None  # a tea would be lovely
             return end if not ambiguous or kept[-1] == COMMA else None

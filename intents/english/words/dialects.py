@@ -30,6 +30,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("above", "of"): ("above",), ("inside", "to"): ("inside",), ("on", "top", "from"): ("on",),
     ("in", "which", "place"): ("where",), ("at", "which", "place"): ("where",),
     ("in", "what", "place"): ("where",), ("on", "which", "place"): ("where",),
+    ("say", "me"): ("tell", "me"), ("explain", "me"): ("tell", "me"),
     ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip

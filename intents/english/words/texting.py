@@ -64,8 +64,8 @@ _LEFT_OUT = lexicon.words(
 """What is only put in to be friendly."""
 _KISSES = ("x", "xx", "xxx", "xo")
 _ASKING = lexicon.words("what where who how why when which there they you these those we and")
-_OF_SUBJECTS = lexicon.words("you u ya they we the these those my your")
-_RECEIVERS = lexicon.words("me him her us them you u everyone everybody")
+_OF_SUBJECTS = lexicon.words("there you u ya they we the these those my your")
+_RECEIVERS = lexicon.words("me him her us them em you u everyone everybody")
 _COUNTED = lexicon.words("get bring take give have want need fetch grab me us")
 _FINITE = lexicon.words("r is are did do does dont cant wont")
 _PREPOSITIONS = lexicon.words("on in with from to by of at for off")

@@ -17,6 +17,8 @@ SPELLINGS: dict[str, str] = {
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
+        "leg it,leg it over,peg it,skip over,pootle over,potter over,shoot over,nip across,sprint,"
+        "dart,dart over,scoot over,race,race over,haul yourself,drag yourself,plant yourself,"
         "translate,sidestep,side step,strafe,shuffle,scoot"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
@@ -65,7 +67,7 @@ SPELLINGS: dict[str, str] = {
         "run,run over,run on over,deliver,carry,transport,transfer,bring over,bring back,"
         "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
-        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,pop,hoof,trundle,"
+        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,hoof,trundle,"
         "relay,smuggle,sneak,pass along,bring round,take round,drop round,fetch over,walk,jog"
     ),
     "inform": (

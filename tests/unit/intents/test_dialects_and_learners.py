@@ -60,6 +60,10 @@ def test_dialects(said: str, plainly: str) -> None:
         ("it is possible to open the window?", "open the window"),
         ("make on the heater", "switch on the heater"),
         ("close to me the door please", "close the door"),
+        ("bring me the tool the most heavy", "bring me the heaviest tool"),
+        ("does it exist a torch in the pantry?", "is there a torch in the pantry"),
+        ("can you say me where is Lucia?", "where is Lucia"),
+        ("I am wanting a tea, kindly arrange", "I want a tea"),
     ],
 )
 def test_learners(said: str, plainly: str) -> None:

@@ -53,6 +53,13 @@ from intents.outcomes import Goals
         ),
         ("bring me some of the tea", "bring me some tea"),
         ("lucia's cap is on the bar, get it for her", "bring Lucia the cap on the bar"),
+        ("put the cap of Hans on the bar", "put the cap on the bar"),
+        (
+            "take the cap that Hans has left on the bar and give it to him",
+            "take the cap on the bar and give it to Hans",
+        ),
+        ("the desk lamp's on, knock it off", "switch the desk lamp off"),
+        ("how many saucers are present on the trolley", "how many saucers are on the trolley"),
         ("a cap sat on the bar, fetch it", "there is a cap on the bar, fetch it"),
         ("carry the suitcase to the suite for Grandpa", "carry the suitcase to the suite"),
     ],

@@ -39,6 +39,8 @@ from intents.outcomes import Goals
         ("bring me a bath towel im soaking", "bring me a bath towel"),
         ("fetch the menu theyre waiting", "fetch the menu"),
         ("what is on da trolley rn", "what is on the trolley"),
+        ("cant find da scissors can u look 4 em", "look for the scissors"),
+        ("im so thirsty bring sum cola plsss", "bring some cola"),
         ("yo dude get me 2 saucers n a teapot", "get me two saucers and a teapot"),
         ("hav u seen ravis torch", "have you seen the torch"),
         ("bring the menuuu here rite now", "bring the menu here"),
