@@ -173,6 +173,9 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     _never_onto_itself(goals)
     if sentence.notes.one_hand:
         raise Partly("I choose the hand myself", tuple(goals))
+    if sentence.notes.guessed:
+        said = listing([f"“{verb}”" for verb in sentence.notes.guessed], "and")
+        raise Offered(f"I do not know how to {said}", tuple(goals))
     remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals), *_at_a_pace(text, goals))
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
 

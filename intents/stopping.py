@@ -67,7 +67,7 @@ _SOUND = re.compile(
 )
 """What is called out before a cry."""
 _AGAIN = re.compile(
-    r"\b(?:stop|halt|freeze)[\s!.,]+(?:stop|halt|freeze)\b(?!\s+(?:sign|button|by|at)\b)"
+    r"\b(?:sto+p+|halt|freeze)[\s!.,]+(?:sto+p+|halt|freeze)\b(?!\s+(?:sign|button|by|at)\b)"
 )
 """Said twice in a row it is a cry wherever it stands."""
 _LETS_LIE = re.compile(

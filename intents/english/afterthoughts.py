@@ -4,6 +4,8 @@
 :mod:`intents.english.corrections`.
 """
 
+from typing import Literal
+
 from msgspec.structs import replace
 
 from intents.english.clauses.compounds import acts_at, condition
@@ -18,27 +20,24 @@ from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.complements import connector_end
-from intents.english.phrases.noun_phrases import tells_when
+from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
 from intents.english.trouble import Partly, ReadingError, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
-from intents.english.words.measures import measure
+from intents.english.words.measures import measure, number
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
-    Bring,
     Condition,
     Find,
     ForEach,
     Goal,
     If,
     ObjectQuery,
-    Pick,
-    Place,
     Present,
     Repeat,
 )
@@ -254,34 +253,6 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     return last, end
 
 
-_ALL_OF_THEM = lexicon.phrases(
-    "both of them,all of them,both,the two of them,every one of them,each of them,the lot,"
-    "all of those,both of those,every last one,every single one,all three of them,the whole lot"
-)
-
-
-def all_of_them(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """Bring the cups here, *both of them*: of several it says no more."""
-    text = sentence.text
-    end = text.phrase_end(_ALL_OF_THEM, at)
-    closed = end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
-    several = any(
-        isinstance(goal, ForEach) or getattr(getattr(goal, "object", None), "count", None)
-        for goal in last
-    )
-    if end is None or not closed:
-        return None
-    sentence.notes.passed.append((at, end))
-    return (last if several else [_of_all(goal) for goal in last]), end
-
-
-def _of_all(goal: Goal) -> Goal:
-    query = getattr(goal, "object", None)
-    if not isinstance(goal, Bring | Pick | Place) or not isinstance(query, ObjectQuery):
-        return goal
-    return replace(goal, object=replace(query, count="all"))
-
-
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Stand on one leg for three seconds, *four times*."""
     text = sentence.text
@@ -292,6 +263,48 @@ def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if end < len(text) and text.word(end) != FULL_STOP:
         return None
     return [Repeat(times=int(amount.value), goals=tuple(last))], end
+
+
+_OF_ALL = lexicon.phrases(
+    "all of them,the whole lot,the lot,them all,every one,every one of them,"
+    "every last one,every single one,every last one of them,every single one of them,each one,"
+    "each of them,them,each and every one,the whole bunch,the whole bunch of them,"
+    "the lot of them,all those,all of those"
+)
+_BOTH = lexicon.phrases(
+    "both of them,both,the pair of them,the pair,the two of them,them both,both of those"
+)
+
+
+def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Bring the cups here, *both of them*; ..., *all three of them*; ..., *every last one*."""
+    text = sentence.text
+    if not last:
+        return None
+    all_end, both_end = text.phrase_end(_OF_ALL, at), text.phrase_end(_BOTH, at)
+    begin = at + (text.word(at) in ("all", "the"))
+    amount = None if all_end or both_end else number(text.words, begin)
+    end = all_end or both_end or (amount.end if amount else at)
+    end += 2 if amount and text.words[end : end + 2] == ["of", "them"] else 0
+    apart = text.word(at - 1) == COMMA or (not amount and end > at + 1)
+    if end == at or not apart or (end < len(text) and text.word(end) not in (COMMA, FULL_STOP)):
+        return None
+    count = 2 if both_end else int(amount.value) if amount else "all"
+    counted = [_counted(goal, count) for goal in last]
+    sentence.notes.passed.append((at, end))
+    return (counted, end) if counted != last or all_end or both_end else None
+
+
+def _counted(goal: Goal, count: int | Literal["all"]) -> Goal:
+    """The goal with so many of the things that it is about."""
+    if isinstance(goal, ForEach) and len(goal.goals) == 1:
+        held = ObjectQuery(held=True)
+        some = replace(goal.object, count=count)
+        return goal if count == "all" else substitute(goal.goals[0], held, some)
+    thing = getattr(goal, "object", None)
+    if not isinstance(thing, ObjectQuery) or thing.held or isinstance(goal, ForEach):
+        return goal
+    return substitute(goal, thing, replace(thing, count=count))
 
 
 def who_asks(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

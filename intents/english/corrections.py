@@ -245,4 +245,7 @@ def _told_apart(text: Text, at: int, old: ObjectQuery | None) -> int | None:
         return None
     closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
     told = (phrase.color and not old.color) or (phrase.size and not old.size)
-    return at if closed and (told or (phrase.superlative and not old.superlative)) else None
+    most = phrase.superlative and (
+        not old.superlative or (phrase.superlative == old.superlative and phrase.places)
+    )
+    return at if closed and (told or most) else None

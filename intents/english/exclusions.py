@@ -26,15 +26,23 @@ def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     start = text.phrase_end(_NOT, at)
     if start is None and text.word(at - 1) in _BUT and any(map(_is_of_all, last)):
         start = at
+    if start is None and text.word(at) == "only" and any(map(_is_of_all, last)):
+        named = noun_phrase(text, at + 1)
+        start = at + 1 if named and text.word(named.end) in ("no", "not") else None
     if start is None or (verbs_at(text.words, start) and not text.name_at(start)):
         return None
     phrase = noun_phrase(text, start)
     about = next((query for goal in last if (query := _about(goal))), None)
-    closed = phrase and (phrase.end >= len(text) or text.word(phrase.end) in (COMMA, FULL_STOP))
+    end = phrase.end + (text.word(phrase.end) in ("no", "not")) if phrase else at
+    closed = phrase and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP))
     if phrase is None or about is None or not closed or phrase.is_spot or phrase.is_person:
         return None
-    without = _narrowed(about, to_object(phrase, scope), phrase, scope)
-    return [substitute(goal, about, without) for goal in last], phrase.end
+    other = to_object(phrase, scope)
+    if about.name and other.name and about.name != other.name:
+        sentence.notes.passed.append((at, end))
+        return last, end  # all pens, but the markers no: no pen is a marker
+    without = _narrowed(about, other, phrase, scope)
+    return [substitute(goal, about, without) for goal in last], end
 
 
 def _about(goal: Goal) -> ObjectQuery | None:

@@ -58,7 +58,7 @@ CARRYING = (
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 """Words of closed classes that say something by themselves: what, how many, which, in what way."""
 _OTHERS = lexicon.words(
-    "x y wear whoever whatever whichever robot result total amount given being having "
+    "x y quantity wear whoever whatever whichever robot result total amount given being having "
     "went gone ended floor apartment house ok today fist"
 )
 """Words of constructions that the readings know and no list has."""
@@ -91,7 +91,7 @@ def left_out(text: Text, goals: Iterable[Goal], passed: Iterable[tuple[int, int]
         end, carried = (at + 1, True) if at in silent else _carried(text, at, told)
         if not carried:
             grave = text.word(at) in CARRYING - lexicon.EMPTY_ADJECTIVES
-            slight = not grave and _describes(text, end, told)
+            slight = not grave and (_describes(text, end, told) or _owns(text, at, told))
             dropped.append(LeftOut(text.raw(at, end), slight))
         at = max(end, at + 1)
     return dropped
@@ -126,6 +126,12 @@ class _Told:
         """Whether something is done with each of several things or people."""
         return "all" in self.values or self.has(ForEach)
 
+    @property
+    def handed_over(self) -> bool:
+        """Whether something is given to somebody, and not only taken somewhere."""
+        to_somebody = (isinstance(g, Bring) and not isinstance(g.to, str) for g in self.goals)
+        return self.has(Give) or any(to_somebody)
+
     def has(self, *kinds: type[Goal]) -> bool:
         """Whether there is a goal of one of these kinds."""
         return any(isinstance(goal, kinds) for goal in self.goals)
@@ -142,7 +148,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
         ):
             return match.end, True  # the plate Ada left on the sofa
         favour = text.word(at - 1) == "for" and bool(match.of("person"))
-        return match.end, known or (favour and not told.has(Bring, Give))
+        return match.end, known or (favour and not told.handed_over)
     most = text.lookup(lexicon.SUPERLATIVES, at)
     if most:
         return most[1], most[0] in told.values or text.word(at - 1) in _WEIGHING
@@ -262,6 +268,12 @@ def _describes(text: Text, at: int, told: _Told) -> bool:
         if not text.word(n)[0].isalpha() or text.word(n) in lexicon.FUNCTION_WORDS:
             return False
     return False
+
+
+def _owns(text: Text, at: int, told: _Told) -> bool:
+    """The charger *of my laptop*, the cap *of Hans*: whose it is of what comes back."""
+    of = at - 1 - (text.word(at - 1) in lexicon.DETERMINERS)
+    return text.word(of) == "of" and singular(text.word(of - 1)) in told.words
 
 
 def strings(goals: Iterable[Goal]) -> list[str]:

@@ -37,6 +37,7 @@ from intents.english.readings import (
     telegrams,
     time_clauses,
     trying,
+    unknown_verbs,
     verb,
     without_verb,
 )
@@ -62,6 +63,7 @@ RULES = Rules(
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
         needs.needed,
+        needs.will_do,
         remarks.feeling,
         # Constructions, whose verb is not the act: all of them before the verb with its own
         # complements. "Give a nod" would hand something over, "I need the lamp on the desk" would
@@ -83,6 +85,7 @@ RULES = Rules(
         trying.tried,
         questions.whether,
         questions.seen,
+        questions.any_left,
         without_verb.fist,
         without_verb.head,
         without_verb.lights,
@@ -108,6 +111,8 @@ RULES = Rules(
         telegrams.telegram,
         ellipsis.gapped,
         remarks.told_of,
+        # A word that no reading knows as anything is taken for a verb last of all, and asked about.
+        unknown_verbs.moved_somehow,
         # Asides are tried when nothing can be asked for: a command with a subject ("the cup goes on
         # the table") is read above.
         asides.released,
@@ -123,7 +128,7 @@ RULES = Rules(
         afterthoughts.left_undone,
         exclusions.excluded,
         afterthoughts.not_now,
-        afterthoughts.all_of_them,
+        afterthoughts.so_many,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,

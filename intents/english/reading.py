@@ -58,6 +58,7 @@ class Notes:
         trace: Each clause as it was said, with what it was read as by itself.
         passed: From where to where words stand that ask for nothing, or were taken back.
         forbidden: What is not to be done.
+        guessed: Verbs that nobody knows, taken for moving a thing to where it is to be.
     """
 
     wanted: bool = False
@@ -69,6 +70,7 @@ class Notes:
     )
     passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     forbidden: list[Forbidden] = field(default_factory=list["Forbidden"])
+    guessed: list[str] = field(default_factory=list[str])
 
 
 class Rules(NamedTuple):

@@ -31,6 +31,10 @@ _URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
+_OFF = lexicon.words("go come run hurry nip pop dash hop trot zip")
+"""How one sets out to do something."""
+
+
 def skip_openings(text: Text, at: int) -> int:
     """Past connectors, signs and openings like "could you"."""
     while at < len(text):
@@ -90,6 +94,8 @@ def _opening_end(text: Text, at: int) -> int | None:
         return None  # no need to come; you need not come
     if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
         return None  # no milk for Emil
+    if text.words[at:end] == ["do"] and not (verbs_at(text.words, end) or text.word(end) == "be"):
+        return None  # do fetch it; but: do three squats
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")
     if open_ended and not connector_end(text, at) and not opens_verb:
         return None
@@ -122,7 +128,7 @@ def _sets_out(text: Text, at: int) -> bool:
     if text.word(at) in ("start", "begin", "keep") and text.word(at + 1).endswith("ing"):
         longest = max((end for _, end in verbs_at(text.words, at)), default=at + 1)
         return bool(verbs_at(text.words, at + 1)) and longest == at + 1
-    if text.word(at) not in ("go", "come", "run", "hurry"):
+    if text.word(at) not in _OFF:
         return False
     after = connector_end(text, at + 1) or at + 1
     inner = max((end for _, end in verbs_at(text.words, after)), default=after)

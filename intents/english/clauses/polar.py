@@ -11,8 +11,9 @@ from intents.english.words.lexer import COMMA
 from intents.english.words.text import Text
 from intents.goals import Find, Person, Tell
 
-BE = lexicon.words("is are was were do does did can there you see find currently has have i am "
-                    "we got be being now it could seen counted available around")  # fmt: skip
+BE = lexicon.words("is are was were do does did can there you see seeing find currently has "
+                    "have i am we got be being now it could seen counted available "
+                    "around")  # fmt: skip
 
 
 def skip_being(text: Text, at: int, words: frozenset[str] = BE) -> int:
@@ -43,7 +44,8 @@ def read_on(text: Text, phrase: NounPhrase) -> int:
 
 
 _IS_THERE = lexicon.phrases(
-    "have you seen,did you see,is there,are there,do you see,can you see,there is,there are,is,are"
+    "does it exist,does there exist,exists there,there exists,have you seen,did you see,is there,"
+    "are there,do you see,can you see,there is,there are,is,are"
 )
 _HERE = lexicon.words("here there around home present about in")
 _KINDS: dict[str, str] = dict.fromkeys(lexicon.GENDERS, "gender") | dict.fromkeys(
@@ -93,6 +95,7 @@ def _one(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     if told:
         return told
     end = read_on(text, phrase)
+    end += text.word(end) in ("left", "remaining") and end + 1 == len(text)
     asked_there = text.word(start + 1) == "there" or text.word(start) not in ("is", "are")
     if not phrase.places and _HERE & {text.word(end), text.word(end - 1)}:
         asked_there, end = True, end + (text.word(end) in _HERE)

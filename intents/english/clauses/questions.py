@@ -84,8 +84,12 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Found | N
     return [Count(object=to_object(phrase, scope), to=to)], end
 
 
-_STAND = lexicon.words("hang stand lie sit rest hangs stands lies sits rests")
-_LYING = lexicon.words("lying standing sitting placed located kept stored")
+_STAND = lexicon.words(
+    "hang stand lie sit rest hangs stands lies sits rests remain remains live lives"
+)
+_LYING = lexicon.words(
+    "lies stands sits rests remains lying standing sitting placed located kept stored"
+)
 _GONE = lexicon.words("is are gone go went got to hidden hiding")
 _LEFT = lexicon.phrases(
     "did you put,did you leave,did you place,did i put,did i leave,have you put,have you left,"

@@ -22,13 +22,19 @@ def brought_about(text: Text, at: int, scope: Scope) -> Found | None:
     if phrase is None:
         return None
     phrase.end += text.word(phrase.end) in ("is", "are", "being")
+    made = text.word(phrase.end) in ("switched", "turned", "powered", "left", "put")
+    phrase.end += made and text.word(phrase.end + 1) in ("on", "off", "open", "closed", "shut")
     return made_so(text, phrase, phrase.end, scope)
 
 
-def made_so(text: Text, phrase: NounPhrase, at: int, scope: Scope) -> Found | None:
-    """What makes a thing what the word at ``at`` says, if it is the last of its clause."""
+def made_so(
+    text: Text, phrase: NounPhrase, at: int, scope: Scope, *, end: int | None = None
+) -> Found | None:
+    """What makes a thing what the word at ``at`` says, if the clause ends there or at ``end``."""
     result = _RESULTS.get(text.word(at))
-    if result is None or not ends_clause(text, at + 1):
+    end = at + 1 if end is None else end
+    end = _past_favour(text, end)
+    if result is None or not ends_clause(text, end):
         return None
     kind, on = result
     act = "switch" if kind is Switch else "open"
@@ -39,4 +45,9 @@ def made_so(text: Text, phrase: NounPhrase, at: int, scope: Scope) -> Found | No
             goals.append(Switch(what=name, on=on))
         else:
             goals.append(Open(what=name) if kind is Open else Close(what=name))
-    return goals, at + 1
+    return goals, end
+
+
+def _past_favour(text: Text, at: int) -> int:
+    """Crack it open *for me*."""
+    return at + 2 if text.words[at : at + 2] in (["for", "me"], ["for", "us"]) else at

@@ -77,10 +77,43 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
     return None, end
 
 
+_SENDERS = (["for", "me"], ["for", "us"])
+_TO_SOMEBODY = lexicon.words(
+    "went go gone going gave give given spoke talk talked brought sent told"
+)
+"""What somebody does who tells of it: "I went to Leo" is not said to Leo."""
+_OF_THEM = lexicon.words("he she they it we i because since as cause so and")
+
+
+def _addressed(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] | None:
+    """Happy birthday *to Grandma*, she is eighty; good night *to Leo from me*.
+
+    Where the listener's name ends, and where what belongs to it ends; None if words follow that
+    may well be part of what is to be said.
+    """
+    went = at
+    while went < end and text.word(went) not in _TO_SOMEBODY:
+        went += 1
+    for to in range(at + 1, went if text.word(at) in _OF_THEM else end):
+        phrase = _listener(text, to + 1, scope) if text.word(to) == "to" else None
+        if phrase is None or not phrase.name("person"):
+            continue
+        after = phrase.end + 2 * (text.words[phrase.end : phrase.end + 2] in _SENDERS)
+        while text.word(phrase.end) == "from" and text.word(after) not in (COMMA, FULL_STOP):
+            after += 1  # from all of us
+        aside = text.word(after) == COMMA and text.word(after + 1) in _OF_THEM
+        if after > phrase.end or aside:
+            return phrase.end, after
+    return None
+
+
 def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
         return _quotes(text, at, scope)
+    itself = about_robot(text, at) if text.word(at - 1) in ("state", "declare") else None
+    if itself:
+        return itself  # state your position
     to = None
     if text.word(at) in _TO:
         first = _listener(text, at + 1, scope)
@@ -94,8 +127,10 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     at += text.word(at) == "that"
     end = _before_times(text, at, content_end(text, at))
     stop = end = _before_condition(text, at, end, scope)
+    addressed = _addressed(text, at, end, scope) if to is None else None
     if to is None:
-        to, stop = _last_listener(text, at, end, scope)
+        named, end = addressed or (end, end)
+        to, stop = _last_listener(text, at, named, scope)
     stop, here = _place_of_speech(text, at, stop, scope)
     if stop <= at and text.word(at) != QUOTE:
         if to is None and text.word(at - 1) not in ("speak", "talk", "joke"):
@@ -169,11 +204,11 @@ def _to_listener(text: Text, reading: Found, scope: Scope) -> Found:
         phrase = _listener(text, end + 1, scope)
         if phrase:
             person = to_person(phrase, scope)
-            return [_addressed(g, person) for g in goals], phrase.end
+            return [_with_listener(g, person) for g in goals], phrase.end
     return reading
 
 
-def _addressed(goal: Goal, person: Person) -> Goal:
+def _with_listener(goal: Goal, person: Person) -> Goal:
     return replace(goal, to=person) if isinstance(goal, Count | Tell | Say) else goal
 
 

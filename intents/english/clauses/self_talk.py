@@ -75,7 +75,10 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                 r"(?: anything| something)?(?: there)?(?: in (?:your|the) (?:\w+ )?(?:hands?"
                 r"|grippers?|arms?))?"),
     ("holding", r"(?:what|which|are|is|do|have|did|anything)\b.*"
-                r"in (?:your|the robot 's|the) (?:\w+ )?(?:hands?|grippers?|fingers?)"),
+                r"(?:in|inside|inside of|within) (?:your|the robot 's|the) (?:\w+ )?"
+                r"(?:hands?|grippers?|fingers?)"),
+    ("holding", r"(?:what|anything|something) (?:have you|you have|do you have|you|have you got)"
+                r" (?:in hand|in hands|at hand)"),
     ("holding", r"what (?:did you pick up|have you (?:picked up|got)|you (?:have|are) got)"),
     ("status", r"(?:what|how) is (?:currently |just )?(?:going on|happening|up|new)"),
     ("status", r"(?:what|how|where)\b.*\b(?:(?:are|were|have) you|you (?:are|were|have)) "
@@ -99,7 +102,8 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                  r"|spot))\b(?: \w+)?"
                  r" (?:are you|you are|do you stand|are you standing|are you in|are you at"
                  r"|you are in|you stand)(?: in| at| standing)?"),
-    ("location", r"(?:what is )?your (?:current )?(?:position|location|pose|whereabouts"
+    ("location", r"(?:where|whereabouts) (?:you|are you|you are) ?(?:at|to|now)?"),
+    ("location", r"(?:what is )?your (?:current |present )?(?:position|location|pose|whereabouts"
                  r"|coordinates)"),
     ("health", r"(?:how|what|is|are|do|does|did|have|has)\b.*\b(?:you|your|everything"
                r"|anything|something)\b.*"
@@ -110,6 +114,7 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                r"|errors?|faults?|power|malfunctioning|wrong|in order|all right"
                r"|low)(?: level)?(?: left| full| working)?"),
     ("health", r"how (?:are you|you are|do you do)(?: doing| feeling)?(?: robot)?"),
+    ("location", r"are you (?:in|at|near|by) (?:the|my) \w+(?: \w+)?"),
     ("health", r"(?:how|what)\b.*\b(?:battery|batteries)\b.*|(?:your )?(?:battery"
                r"|health)(?: level| status)?"),
 )  # fmt: skip

@@ -7,6 +7,7 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.words import lexicon
 from intents.english.words.text import Text
+from intents.goals import Person
 
 IS = lexicon.phrases(
     "is,are,was,were,should be,might be,must be,may be,could be,ought to be,has to be,will be,"
@@ -43,6 +44,8 @@ def mention_phrase(phrase: NounPhrase, scope: Scope, where: str | None = None) -
     if phrase.is_spot:
         scope.mention(to_place(phrase, scope))
         return
+    if phrase.owner and scope.person is None:
+        scope.person = Person(name=phrase.owner)
     what = (to_person if is_person(phrase, scope) else to_object)(phrase, scope)
     what = replace(what, at=what.at or where)
     scope.mention(what.at)

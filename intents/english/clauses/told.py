@@ -166,4 +166,11 @@ def _begins_command(text: Text, at: int, *, past: bool, being: bool) -> bool:
         due = word == "so" and text.word(after) not in _SAME_IN_PAST
         return polite or (bare and (word in ("so", "then") or being) and (due or not past))
     handed = verbs_at(text.words, at) and base_form(word) == word
-    return bool(handed) and not past and text.word(at + 1) in ("me", "us") and being
+    apart = text.word(at + 1) in ("it", "them") and text.word(at - 1) not in lexicon.FUNCTION_WORDS
+    apart = apart or (
+        text.word(at + 1) in _OWNERS | {"some"}
+        and text.word(at - 1) not in lexicon.FUNCTION_WORDS
+        and text.name_at(at) is None
+    )  # I am thirsty bring some juice
+    handed_over = text.word(at + 1) in ("me", "us") or apart  # that is my cup give it back
+    return bool(handed) and not past and handed_over and being

@@ -12,7 +12,7 @@ from intents.english.phrases.complements import (
     first_with,
     read_complements,
 )
-from intents.english.phrases.referents import to_place
+from intents.english.phrases.referents import Scope, to_place
 from intents.english.reading import Found, SaidVerb, Sentence, not_understood
 from intents.english.trouble import Misfit, ReadingError
 from intents.english.words import lexicon
@@ -25,6 +25,8 @@ SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "ans
 """Senses whose complement is words."""
 _FOLLOWERS = lexicon.PRONOUNS | lexicon.words("to if unless you how what after before")
 """Words that may begin what comes after a clause."""
+_DONE_FOR = ("open", "close", "switch", "find", "count", "look")
+"""What is done for somebody, and not to them."""
 _HANDED = ("bring", "take", "give", "pick", "collect", "want")
 
 
@@ -96,7 +98,10 @@ def _in_sense(
     if sense == "count":
         return counted(text, first, scope)
     complements, end = read_complements(text, start)
+    if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
+        raise Misfit("that is not to move something")
     complements = without_favours(sense, complements)
+    _mention_owners(text, complements, scope)
     given_up = sense == "cancel" and text.word(first).endswith("ing")
     if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
         raise Misfit("that is not to be moved")
@@ -118,6 +123,14 @@ def _in_sense(
     return goals, end
 
 
+def _mention_owners(text: Text, complements: list[Complement], scope: Scope) -> None:
+    """Take *Ada's* pen back to *her*; find Emil's cap and bring it to *him*."""
+    back = any(c.direction == "backward" for c in complements) or "return" in text.words
+    for owner in (phrase.owner for c in complements for phrase in c.phrases if phrase.owner):
+        if back or scope.person is None:
+            scope.person = Person(name=owner)
+
+
 def framed(
     sentence: Sentence,
     sense: str,
@@ -137,16 +150,23 @@ def framed(
 
 def without_favours(sense: str, complements: list[Complement]) -> list[Complement]:
     """Put the cup on the table *for me*: it goes there, and not to whom it is done a favour."""
+    if sense in _DONE_FOR:
+        complements = [c for c in complements if not _is_operator(c, "to", "")]
     if sense in _HANDED and not any(c.role in ("to", "into") for c in complements):
         return complements
     kept: list[Complement] = []
     for one in complements:
-        favour = one.role == "for" and one.phrase.noun == "operator"
+        favour = _is_operator(one, "for")
         places = one.phrase.places if favour else []
         kept += [Complement(role="at", how=p.how, phrases=[p.of]) for p in places] or (
             [] if favour else [one]
         )
     return kept
+
+
+def _is_operator(said: Complement, *roles: str) -> bool:
+    """Whether it is for the one who speaks: "open *to me* the door", "search *me* the cup"."""
+    return bool(said.phrases) and said.role in roles and said.phrase.noun == "operator"
 
 
 def goes_on(text: Text, at: int) -> bool:

@@ -13,7 +13,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import singular
-from intents.english.words.lexicon import EVERYONE
+from intents.english.words.lexicon import EVERYONE, words
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     OPERATOR,
@@ -32,6 +32,10 @@ from intents.goals import (
 
 _WISHES = ("i need", "i want", "i would like", "we need", "we want", "we would like")
 _DISPOSE = ("get rid", "dispose", "discard", "trash", "recycle", "bin")
+_ON_THE_WAY = words(
+    "schlep hump heft nip zip dash shuttle wheel dispatch hoof trundle relay smuggle sneak walk jog"
+)
+"""Verbs that take a thing somewhere, and not to who speaks."""
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -48,14 +52,15 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     objects = slots.objects(handled=moved)
     if not objects and scope.object:
         objects = [scope.object]
-    need(objects, "What shall I pick up?")
-    at = slots.loose_place()
     duration = slots.measure("time") if clause.verb.startswith("hold") else None
+    posed = bool(duration) and isinstance(scope.last, Balance)  # stand on one leg, hold for 3 s
+    need(objects or posed, "What shall I pick up?")
+    at = slots.loose_place()
     slots.done()
     if "along" in clause.particles() and isinstance(scope.last, GoTo) and scope.last.place:
         there = Target(on=scope.last.place)  # go to the lab and take the cup along
         return [_each(replace(o, at=o.at or at), lambda q: put_at(q, there)) for o in objects]
-    if duration and isinstance(scope.last, Balance):
+    if posed:
         return [Wait(duration_s=duration)]
     held = isinstance(scope.last, Pick) and objects == [scope.object]
     picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]
@@ -103,6 +108,8 @@ def _put_down(goal: Goal) -> Goal:
 def bring(clause: Clause, scope: Scope) -> list[Goal]:
     """Bring me a drink from the cabinet; bring the cup to the desk."""
     slots = Slots(clause, scope)
+    if clause.verb in _ON_THE_WAY and slots.peek("") is None:
+        raise Misfit("that takes nothing along")  # walk into the table
     beside = moved_beside(clause, slots) or to_part(slots)
     if beside is not None:
         objects = slots.objects(handled=True) or ([scope.object] if scope.object else [])
@@ -117,12 +124,16 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     to = _receiver(slots)
     if to is None:
         to = _near_destination(slots)
+    if isinstance(to, str):
+        slots.take_person("for")  # carry it to the lift for him
     objects = slots.objects(handled=True) or ([scope.object] if scope.object and to else [])
     need(objects, "What shall I bring?")
     at = slots.loose_place()
     if to is None and (clause.vague() or set(clause.directions()) - {"backward", "around"}):
         raise NotUnderstood("I can take things to a place, not move them a little")
     then = _then(clause)
+    if to is None and clause.verb in _ON_THE_WAY:
+        raise Unclear("Where shall I take it?")
     if to is None and clause.verb.startswith(MOVES) and not then:
         raise Unclear("Where shall I take it?")
     if to is None and (clause.verb.startswith(MOVES) or "put" in then):
@@ -264,6 +275,8 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     objects = slots.objects(handled=True)
     if not objects and clause.sense == "drop":
         objects = [scope.object or ObjectQuery(held=True)]
+    if not objects and isinstance(scope.last, Pick) and scope.object:
+        objects = [scope.object]  # take the hammer from the bench and put in the box
     if not objects:
         raise Misfit("put what?")
     if spot is None and _throws(clause):

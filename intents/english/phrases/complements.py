@@ -7,10 +7,10 @@ from typing import Literal
 from intents.english.phrases.noun_phrases import (
     noun_phrase,
     read_postmodifiers,
-    tells_when,
     weight_at,
 )
 from intents.english.phrases.phrase import Locative, NounPhrase, is_content
+from intents.english.phrases.times import tells_when
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
 from intents.english.words.lexicon import (
@@ -60,6 +60,14 @@ _A_WHILE = phrases(
     "for some time,a bit,a little,a little bit,a tiny bit,slightly,some more,a little more"
 )
 _SUBJECTS = ("it", "they", "he", "she")
+_SPEAKERS = ("i", "we", "he", "she", "they")
+_ON_IT = lexicon.words("wearing holding reading using carrying drinking eating watching")
+"""The cap *she is wearing* is that one."""
+_HOW_ONE_IS = lexicon.words(
+    "dripping freezing soaking starving dying boiling sweating shivering bleeding melting leaving "
+    "going coming waiting hurrying rushing crying choking sneezing burning roasting baking running"
+)
+"""What one is doing that takes no object: *the book I am reading* tells which book it is."""
 _LINKS = (["in", "case"], ["as", "soon"], ["once", "you"])
 """How a clause begins that says when or whether."""
 _STRICT = ("left", "right", "behind", "under", "above", "in_front", "between")
@@ -141,12 +149,25 @@ def ends_clause(text: Text, at: int) -> bool:
     if at >= len(text) or word in (COMMA, FULL_STOP):
         return True
     if word in _SUBJECTS and text.word(at + 1) in ("is", "are"):
+        return text.word(at + 2) not in _ON_IT
+    if word in _SPEAKERS and _tells_something(text, at + 1):
         return True
     if tells_when(text, at):
         return True
     if word == "without" and text.word(at + 1).endswith("ing"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
+
+
+def _tells_something(text: Text, at: int) -> bool:
+    """Fetch a towel *I am dripping*; ... *I need it*: no words that describe the towel."""
+    if text.word(at) in ("am", "are"):
+        said = at + 1
+        while text.word(said) in ("so", "very", "really", "too", "just", "still", "all", "not"):
+            said += 1
+        predicate = text.word(said)
+        return said > at + 1 or not predicate.endswith("ing") or predicate in _HOW_ONE_IS
+    return text.word(at).isalpha() and text.word(at + 1) in ("it", "them")
 
 
 def connector_end(text: Text, at: int) -> int | None:
@@ -307,7 +328,11 @@ def read_list(text: Text, at: int) -> tuple[list[NounPhrase], int]:
             if len(items) > 1 and text.word(at) == "both":
                 first.count = None  # both the cup and the plate: one of each
             return items, end
-        items.append(following)
+        again = text.word(end) == COMMA and following.start == end + 1
+        if again and following.said == items[-1].said and following.color == items[-1].color:
+            items[-1].places += following.places  # the lamp, the lamp in the hall
+        else:
+            items.append(following)
         end = following.end
 
 

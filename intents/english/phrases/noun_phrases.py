@@ -10,13 +10,22 @@ from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
 from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_at_it, is_content
 from intents.english.phrases.pronouns import part_of
+from intents.english.phrases.times import tells_when
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
-from intents.english.words.lexicon import DETERMINERS, GOALWARDS, LEVELS, LOCATIVES
+from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
 from intents.english.words.text import Text
-from intents.english.words.verbs import base_form, verbs_at
+from intents.english.words.verbs import verbs_at
 from intents.goals import Superlative
 
+_SOMEBODY = lexicon.words("i we he she they you somebody someone")
+_BOARDS = lexicon.words("board shelf level tier compartment rack row")
+"""What a piece of furniture has one above the other."""
+_EXCEPT = lexicon.phrases(
+    "except,except for,apart from,other than,excluding,save for,aside from,"
+    "with the exception of,not counting,leaving out"
+)
+_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 _RELATIVE = lexicon.words("that which who whose")
 
 
@@ -35,20 +44,10 @@ _RELATIVE_FILLERS = lexicon.words(
 _WHOSE = lexicon.words("my your our his her their the")
 _LYING_AROUND = lexicon.words(
     "located placed situated found kept stored resting positioned left sitting standing lying "
-    "laying hanging remain remains remaining stays stands sits lies rests lie waiting "
-    "staying working relaxing"
+    "laying hanging remain remains remaining stays stands sits lies rests lie waiting staying "
+    "working relaxing present hiding hidden tucked sat stood lurking perched parked dumped lain "
+    "stuck propped stashed stowed sprawled scattered strewn"
 )
-
-
-_TIMES = lexicon.words("dinner lunch breakfast supper tea noon midnight bedtime tonight tomorrow")
-_SOMEBODY = lexicon.words("i we he she they you somebody someone")
-_BOARDS = lexicon.words("board shelf level tier compartment rack row")
-"""What a piece of furniture has one above the other."""
-_EXCEPT = lexicon.phrases(
-    "except,except for,apart from,other than,excluding,save for,aside from,"
-    "with the exception of,not counting,leaving out"
-)
-_LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 
 
 def noun_phrase(text: Text, start: int) -> NounPhrase | None:
@@ -80,6 +79,10 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """A bottle *of water*, one *of the cups*, the couch *of the bedroom*."""
     if text.word(at) != "of":
         return None
+    whose = bare_phrase(text, at + 1) if phrase.name("object", "category") else None
+    if whose is not None and whose.name("person"):
+        phrase.owner = whose.name("person")
+        return whose.end  # the cap of Hans: as with "Hans's cap", it is the cap
     inner = noun_phrase(text, at + 1)
     if inner is None or inner.is_person:
         return None
@@ -101,8 +104,9 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if inner.name("room"):
         phrase.places.append(Locative("in", inner))
         return inner.end
-    part = phrase.name("object") and inner.name("object") and inner.determiner in _WHOSE
-    return inner.end if part else None  # the charger of my laptop
+    accessory = phrase.name("object") and inner.name("object") and inner.determiner in _WHOSE
+    phrase.places += inner.places if accessory else []
+    return inner.end if accessory else None  # the charger of my laptop
 
 
 def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
@@ -121,25 +125,6 @@ def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
     return None
 
 
-def tells_when(text: Text, at: int) -> bool:
-    """Whether "before" or "until" stands before a clause: "before *Anna gets home*"."""
-    if text.word(at) not in ("before", "after", "until"):
-        return False
-    if text.word(at + 1) in _TIMES:
-        return True
-    if (text.phrase_end(GOALWARDS, at) or 0) > at + 1:
-        return False  # until he reaches the door: that is where to
-    if text.word(at + 1) in ("i", "we", "they") and text.word(at + 2)[0].isalpha():
-        return True
-    subject = bare_phrase(text, at + 1)
-    if subject is None or subject.end >= len(text):
-        return False
-    word = text.word(subject.end)
-    third = base_form(word) != word or word in ("is", "are", "has", "have", "'s")
-    third = third or (word.endswith("s") and word.isalpha() and not text.name_at(subject.end))
-    return third or (bool(verbs_at(text.words, subject.end)) and not text.name_at(subject.end))
-
-
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """Who is waving; that weighs the least; which you see on the table."""
     if phrase.noun == "operator":
@@ -152,6 +137,8 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     reduced = reduced or (None if spot or phrase.is_person else _left_there(text, at))
     if reduced:
+        who = text.name_at(at + (text.word(at) in _RELATIVE))
+        phrase.owner = phrase.owner or (who and who.of("person")) or ""
         there = text.word(reduced) == "there" and text.word(reduced - 1) != "there"
         seen = _locative(text, phrase, reduced) or _modifier(text, phrase, reduced)
         ends = text.word(reduced) in (COMMA, FULL_STOP) and text.word(reduced - 1) in (
@@ -226,12 +213,8 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
         end = read_appearance(text, phrase, at)
         if end:
             return end
-    if (word in _LYING_AROUND or is_at_it(text, at)) and text.lookup(LOCATIVES, at + 1):
-        return _locative(text, phrase, at + 1)
-    if word in _LYING_AROUND and word not in ("left", "put"):
-        end = _lying_there(text, phrase, at + 1)
-        if end:
-            return end
+    if (word in _LYING_AROUND or is_at_it(text, at)) and (end := _lying(text, phrase, at)):
+        return end
     if word in ("named", "called"):
         inner = noun_phrase(text, at + 1)
         if inner and inner.names:
@@ -243,11 +226,20 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most:
         phrase.superlative, end = most
         return end
-    behind = (_color_behind, _except, _aside, _at_its_side)
+    behind = (_color_behind, _most_behind, _except, _aside, _at_its_side)
     aside = next((end for read in behind if (end := read(text, phrase, at))), None)
     if aside:
         return aside
     return _extreme_side(text, phrase, at) or _locative(text, phrase, at)
+
+
+def _lying(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """Lying *on the table*; lying *around on the table*; standing *there*."""
+    loosely = at + 1 + (text.word(at + 1) in ("around", "about", "over"))
+    for start in (loosely, at + 1):
+        if text.lookup(LOCATIVES, start):
+            return _locative(text, phrase, start)
+    return None if text.word(at) in ("left", "put") else _lying_there(text, phrase, at + 1)
 
 
 def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
@@ -258,6 +250,16 @@ def _color_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     phrase.color = text.index.colors[text.word(at)]
     return at + 1
+
+
+def _most_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The tool *the most heavy*, as those say it who speak another language."""
+    most = text.lookup(lexicon.SUPERLATIVES, at + 1) if text.word(at) == "the" else None
+    thing = phrase.name("object", "category") and not phrase.superlative
+    if most is None or not thing or is_content(text, most[1]):
+        return None
+    phrase.superlative, end = most
+    return end
 
 
 def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -121,7 +121,9 @@ _NO_NOUN = (
     lexicon.FUNCTION_WORDS | lexicon.ADVERBS | NUMBER_WORDS | (UNIT_WORDS - lexicon.BODY_NOUNS)
     | lexicon.words("located placed situated wearing raising pointing waving named called dressed "
                     "standing sitting lying laying weighs weigh weight weights doing making once "
-                    "twice thrice closed opened need needs belong belongs only ends lands winds "
+                    "no not got twice thrice closed opened need needs belong belongs only ends "
+                    "lands winds hiding hidden tucked sat stood lurking perched parked dumped lain "
+                    "stuck propped stashed stowed sprawled scattered strewn "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
                     "moved brought lie know too went using instead rather except excluding apart")
 )  # fmt: skip

@@ -7,6 +7,8 @@ from intents.english.words.measures import UNIT_WORDS, number
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 
+_STRESSED = lexicon.words("very really absolutely absolute single actual ever most so far")
+"""What only stresses a superlative: the *very* smallest cup."""
 _APART = ("different", "separate")
 
 
@@ -20,8 +22,13 @@ def read_quantity(text: Text, phrase: NounPhrase, at: int) -> int:
         elif word in DETERMINERS:
             phrase.determiner = word
             at += 1
-        elif word == "of" and phrase.count and text.word(at + 1) in DETERMINERS | {"them"}:
+        elif word == "of" and _partitive(phrase) and text.word(at + 1) in DETERMINERS | {"them"}:
             at += 1
+        elif word == "and" and text.word(at - 1) in ALL and text.word(at + 1) in ALL:
+            at += 1  # each and every cup
+        elif _two_of_a_kind(text, at):
+            phrase.count = 2
+            at += 2
         else:
             amount = None if text.name_at(at) else number(text.words, at)
             ordinary = amount and amount.value == int(amount.value) and amount.value < 1000
@@ -35,6 +42,18 @@ def read_quantity(text: Text, phrase: NounPhrase, at: int) -> int:
             at = amount.end
 
 
+def _partitive(phrase: NounPhrase) -> bool:
+    """All *of the* cups; some *of the* tea."""
+    return bool(phrase.count) or phrase.determiner in ("some", "any")
+
+
+def _two_of_a_kind(text: Text, at: int) -> bool:
+    """The pair of *cups* is two of them; a pair of *scissors* is one thing."""
+    thing = text.name_at(at + 2) if text.words[at : at + 2] == ["pair", "of"] else None
+    name = thing.of("object", "category") if thing else None
+    return name is not None and not name.endswith("s")
+
+
 def read_adjectives(text: Text, phrase: NounPhrase, at: int) -> int:
     """Colours, sizes, superlatives and the like, up to the noun."""
     while True:
@@ -46,6 +65,8 @@ def read_adjectives(text: Text, phrase: NounPhrase, at: int) -> int:
 
 def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
     word, match = text.word(at), text.name_at(at)
+    if word in _STRESSED and text.lookup(lexicon.SUPERLATIVES, at + 1):
+        return at + 1
     most = text.lookup(lexicon.SUPERLATIVES, at)
     if most and word in LEVELS and _prefixed(text, word, at):
         phrase.level = word

@@ -39,6 +39,8 @@ _PLAIN_PARTS: dict[str, Part] = {
 }  # fmt: skip
 
 
+_MORE = lexicon.words("of more one the other others")
+"""Some *of* the tea: no pronoun by itself."""
 HELD = "what is held"
 _IN_HAND = lexicon.phrases(
     "you are holding,you hold,you are carrying,you carry,you have in your hand,"
@@ -78,12 +80,15 @@ def pronoun(text: Text, start: int) -> NounPhrase | None:
         return NounPhrase(start, start + 2, noun=noun, said=noun)
     if word == "both" and not is_content(text, start + 1) and text.word(start + 1) not in _OF_THEM:
         return NounPhrase(start, start + 1, noun="pronoun", said=word)
+    if word == "some" and not is_content(text, start + 1) and text.word(start + 1) not in _MORE:
+        return NounPhrase(start, start + 1, noun="pronoun", said=word)
     if word not in lexicon.PRONOUNS:
         return None
     determines = word in DETERMINERS and is_content(text, start + 1)
     if text.word(start + 1) in SOMETHING:
         determines = False
-    if determines and (not verbs_at(text.words, start + 1) or text.name_at(start + 1)):
+    described = text.word(start + 1) in lexicon.EMPTY_ADJECTIVES and is_content(text, start + 2)
+    if determines and (described or not verbs_at(text.words, start + 1) or text.name_at(start + 1)):
         return None
     if word == "this" and number(text.words, start + 1):
         return None

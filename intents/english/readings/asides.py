@@ -7,9 +7,10 @@ none is acted on. A prohibition is noted, and looked at again when the goals are
 
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
-from intents.english.phrases.noun_phrases import noun_phrase, tells_when
+from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import is_content
 from intents.english.phrases.referents import to_object
+from intents.english.phrases.times import tells_when
 from intents.english.reading import Forbidden, Found, Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
@@ -23,7 +24,9 @@ _WARNS = lexicon.phrases(
     "mind,mind out,watch out,look out,beware,be careful,take care,careful,careful with,caution,"
     "heads up,be aware,be gentle,easy,easy does it,make sure not to,make sure you do not,"
     "watch your,try not to,no rush,no hurry,take your time,no need,no worries,be warned,warning,"
-    "attention,be nice,be good,be patient,be quiet,gently does it"
+    "attention,be nice,be good,be patient,be quiet,be honest,be brave,be polite,be kind,be fair,"
+    "be serious,be sensible,be sweet,be reasonable,be real,be cool,be discreet,be a sport,"
+    "gently does it"
 )
 _FORBIDS = lexicon.phrases(
     "forget,forget about,ignore,skip,do not,never,avoid,no,not,without,but not,and not,only not,"

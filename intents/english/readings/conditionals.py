@@ -6,7 +6,8 @@ from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF, as_soon_as, mention
 from intents.english.clauses.coordination import link_at
 from intents.english.clauses.openings import nothing_end, otherwise_end
-from intents.english.phrases.noun_phrases import noun_phrase, tells_when
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Partly, ReadingError, Unclear, listing

@@ -21,6 +21,11 @@ from intents.goals import Bring, Guide, Switch
 
 _RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
                               "need switch shut")  # fmt: skip
+_KNOCKS = lexicon.words(
+    "flick flip knock whack bang stick pop crack throw click snap prise pry ease yank tug wedge "
+    "bung fling nudge tap slide roll wind draw"
+)
+"""What a thing is made to go on, off, open or shut with, by those who do not say "switch"."""
 _ENSURES = lexicon.phrases(
     "make sure,make sure that,ensure,ensure that,see to it that,see that,take care that,check that,"
     "see to it,be sure that,arrange that,arrange for"
@@ -53,7 +58,14 @@ def resultative(sentence: Sentence, at: int) -> Found | None:
     text, scope = sentence.text, sentence.scope
     ensured = text.phrase_end(_ENSURES, at)
     if ensured:
-        return brought_about(text, ensured, scope) or _placed_so(sentence, at, ensured, _ENDS)
+        thing = noun_phrase(text, ensured)
+        return (
+            brought_about(text, ensured, scope)
+            or _placed_so(sentence, at, ensured, _ENDS)
+            or (_passive(sentence, thing) if thing and not thing.is_person else None)
+        )
+    if text.word(at) in _KNOCKS:
+        return _knocked(sentence, at)
     wish = text.phrase_end(WISHES, at)
     placed = _placed_so(sentence, at, wish, _WISHED) if wish else None
     if placed:
@@ -63,6 +75,18 @@ def resultative(sentence: Sentence, at: int) -> Found | None:
     found = brought_about(text, wish or at + 1, scope)
     put = found and text.word(at) == "put" and isinstance(found[0][0], Switch)
     return None if found and put and not is_device(found[0][0]) else found
+
+
+def _knocked(sentence: Sentence, at: int) -> Found | None:
+    """Flick *the lamp off*; crack *open the window*; "pop the cup on the shelf" is none of it."""
+    text, scope = sentence.text, sentence.scope
+    if text.word(at + 1) in ("open", "shut", "closed", "on", "off"):
+        phrase = noun_phrase(text, at + 2)
+        found = made_so(text, phrase, at + 1, scope, end=phrase.end) if phrase else None
+    else:
+        found = brought_about(text, at + 1, scope)
+    switched = found is not None and isinstance(found[0][0], Switch)
+    return None if found and switched and not is_device(found[0][0]) else found
 
 
 def _placed_so(

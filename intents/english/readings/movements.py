@@ -90,7 +90,9 @@ def pose(sentence: Sentence, at: int) -> Found | None:
     end = max(ends)
     values: list[float] = []
     while len(values) < 2 and end < len(text):
-        found = number(text.words, end)
+        metres = measure(text.words, end)
+        length = metres if metres is not None and metres.kind == "length" else None
+        found = length or number(text.words, end)
         if found is None and text.word(end) not in _POSE:
             return None
         values += [found.value] if found else []

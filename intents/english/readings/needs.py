@@ -5,10 +5,10 @@ question"; "I need you in the cellar".
 """
 
 from intents.english.clauses.wishes import WISHES, asks_end
-from intents.english.phrases.complements import first_with, read_complements
+from intents.english.phrases.complements import ends_clause, first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import SOMETHING
-from intents.english.phrases.referents import is_person, sought, to_object, to_person, to_place
+from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.english.words.verbs import verbs_at
@@ -16,7 +16,8 @@ from intents.goals import Answer, Bring, GoTo, Guide
 
 _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
-    "i do not know where,i have no idea where,i do not find,i am missing,we can not find"
+    "can not find,could not find,i do not know where,i have no idea where,i do not find,"
+    "i am missing,we can not find"
 )
 _NEEDS = lexicon.phrases(
     "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
@@ -29,6 +30,15 @@ _NEEDS_TO_GO = lexicon.phrases(
     "would like to be brought,would like to be taken,wishes to go,is looking for the way,"
     "wants to be taken,wants to be brought,needs to come,wants to come"
 )
+
+
+_WILL_DO = lexicon.phrases(
+    "will do,would do,will have to do,will be fine,would be fine,would be nice,would be lovely,"
+    "would be great,would be good,will be good,would be perfect,would be wonderful,"
+    "would suit me,will suit me,would go down well,would hit the spot,would be ideal"
+)
+"""How it is said of a thing that one would like it."""
+_NICELY = lexicon.words("me us fine nicely just well too then perfectly also instead right now")
 
 
 def lost(sentence: Sentence, at: int) -> Found | None:
@@ -70,6 +80,22 @@ def needed(sentence: Sentence, at: int) -> Found | None:
     sentence.notes.wanted = True
     person = to_person(phrase, scope)
     return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
+
+
+def will_do(sentence: Sentence, at: int) -> Found | None:
+    """Just water *will do me fine*; a tea *would be lovely*: it is wanted."""
+    text = sentence.text
+    if verbs_at(text.words, at) and not text.name_at(at):
+        return None
+    phrase = noun_phrase(text, at)
+    if phrase is None or not phrase.name("object", "category") or phrase.is_person:
+        return None
+    end = text.phrase_end(_WILL_DO, phrase.end)
+    while end is not None and text.word(end) in _NICELY:
+        end += 1
+    if end is None or not ends_clause(text, end):
+        return None
+    return [Bring(object=to_object(phrase, sentence.scope), to=ME)], end
 
 
 def has_a_question(sentence: Sentence, at: int) -> Found | None:

@@ -30,6 +30,18 @@ def question(sentence: Sentence, at: int) -> Found | None:
     return syntax.question(sentence.text, at, sentence.scope)
 
 
+def any_left(sentence: Sentence, at: int) -> Found | None:
+    """Any juice left in the fridge?"""
+    text = sentence.text
+    phrase = noun_phrase(text, at) if at == 0 and text.word(at) == "any" else None
+    if phrase is None or not phrase.name("object", "category"):
+        return None
+    left = text.word(phrase.end) == "left" or text.word(phrase.end - 1) == "left"
+    if not (phrase.places or left) or phrase.end + 1 < len(text):
+        return None
+    return [Find(object=to_object(phrase, sentence.scope))], len(text)
+
+
 def whether(sentence: Sentence, at: int) -> Found | None:
     """Look whether the ball is behind the box; go and see how many there are."""
     start = sentence.text.phrase_end(_LOOKS, at)

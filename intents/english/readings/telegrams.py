@@ -65,7 +65,7 @@ def _is_bare(things: Complement) -> bool:
 
 
 def _closes(text: Text, at: int) -> bool:
-    return at >= len(text) or text.word(at) in (COMMA, FULL_STOP)
+    return at >= len(text) or text.word(at) in (COMMA, FULL_STOP, "but")
 
 
 def _in_next_segment(text: Text, at: int) -> tuple[Complement, int] | None:

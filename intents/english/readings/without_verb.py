@@ -1,11 +1,13 @@
 """Commands without a verb that says it: "lights off", "three steps forward", "make a fist"."""
 
-from intents.english.clauses.results import brought_about
+from intents.english.clauses.results import brought_about, made_so
 from intents.english.clauses.verb_clauses import framed
+from intents.english.frames.devices import is_device
 from intents.english.phrases.complements import read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence
 from intents.english.trouble import Misfit, Unclear
+from intents.english.words.lexer import FULL_STOP
 from intents.english.words.verbs import verbs_at
 from intents.goals import Close, LookAt, Switch
 
@@ -51,10 +53,18 @@ def moved(sentence: Sentence, at: int) -> Found | None:
 
 
 def switched(sentence: Sentence, at: int) -> Found | None:
-    """The kettle on."""
+    """The kettle on; on the kettle, as it is said in Singapore."""
     text = sentence.text
+    phrase = noun_phrase(text, at + 1) if text.word(at) in ("on", "off") else None
+    if phrase is not None:
+        made = made_so(text, phrase, at, sentence.scope, end=phrase.end)
+        closed = text.word(phrase.end) == FULL_STOP  # on the stove, which is the largest?
+        return made if made and closed and is_device(made[0][0]) else None
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
+    thing = noun_phrase(text, at)
+    if thing is None or text.word(thing.end) in ("is", "are"):
+        return None  # the lamp is on: so it is
     found = brought_about(text, at, sentence.scope)
     return found if found and isinstance(found[0][0], Switch) else None
 

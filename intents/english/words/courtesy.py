@@ -55,7 +55,9 @@ _TAILS = lexicon.phrases(
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
     "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
     "and hurry up,and nothing else,and nothing more,and be quick,and be quick about it,"
-    "and step on it,and quick,and quickly,"
+    "arrange,oblige,do the needful,do needful,and oblige,do oblige,get a move on,look lively,"
+    "look sharp,hop to it,jump to it,shake a leg,snap to it,move it,"
+    "get cracking,come on,make haste,spit spot,vamos,andale,and step on it,and quick,and quickly,"
     "there is a good chap,there is a good lad,there is a good girl,there is a good boy,"
     "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
@@ -75,17 +77,22 @@ _HEDGES = lexicon.words(
     "kill hurt i was am were just wondering wonder wondered whether if you might may could would "
     "can possibly perhaps maybe be able to kindly so good kind as enough mind terribly awfully "
     "very please do think there is any chance that of me trouble bother ask it us we bothering "
-    "appreciate greatly really grateful for will not possible happen sorry hope hoping ya do "
-    "should shall obliged indebted delighted much most"
+    "inconvenience appreciate greatly really grateful for will not possible happen sorry hope "
+    "hoping ya do should be obliged indebted thankful delighted pleased glad happy honoured "
+    "honored most ever esteem consider count a favour favor request suggest propose kindest "
+    "gracious nice much so immensely eternally exceedingly deeply shall kindness goodness "
+    "courtesy have had the please"
 )
 _HEDGED = lexicon.words(
-    "kill hurt wondering wonder wondered trouble bother chance mind possibly terribly awfully "
-    "appreciate grateful perhaps happen hoping hope possible might maybe obliged indebted "
-    "delighted"
+    "kill hurt wondering wonder wondered inconvenience trouble bother chance mind possibly "
+    "terribly awfully appreciate grateful perhaps happen hoping hope possible might maybe obliged "
+    "indebted thankful delighted pleased honoured honored kindness goodness courtesy esteem "
+    "favour favor request suggest propose"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
 )
+_KINDNESSES = lexicon.words("kindness goodness courtesy decency grace")
 _LONGEST = 20
 
 
@@ -103,6 +110,7 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
         or _tag(words, at, kept)
         or _thanks(words, at)
         or _address(words, at, kept)
+        or _insistence(words, at)
         or _small_word(words, at)
     )
 
@@ -120,6 +128,11 @@ def _gracious(words: list[str], at: int) -> int | None:
     """If it is not too much trouble; when you have got a sec."""
     if words[at] not in _IF:
         return None
+    if words[at + 1 : at + 3] == ["you", "are"] and _word(words, at + 3) in ("done", "finished"):
+        busy = at + 4
+        while _word(words, busy) not in _SIGNS and _word(words, at + 4).endswith("ing"):
+            busy += 1
+        return busy if busy > at + 4 else None  # when you are done faffing about
     end = at + 1
     while end < len(words) and words[end] in _GRACIOUS:
         end += 1
@@ -139,7 +152,9 @@ def _hedge(words: list[str], at: int) -> int | None:
     while end < min(len(words), at + _LONGEST) and words[end] in _HEDGES:
         end += 1
     said = words[at:end]
-    hedged = _HEDGED.intersection(said) and "you" in said and end > at + 2
+    wished = said[-2:] == ["if", "you"] and "would" in said
+    wished = wished or said[-2:] in (["as", "to"], ["enough", "to"])
+    hedged = (_HEDGED.intersection(said) or wished) and "you" in said and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
 
 
@@ -157,7 +172,7 @@ def _with_cherries(words: list[str], at: int) -> int | None:
     """Pretty please *with sugar on top and a cherry*."""
     if words[at] != "with" or "please" not in words[max(0, at - 4) : at]:
         return None
-    top = next((n for n in range(at + 2, min(len(words), at + 6)) if words[n] in ("top", "it")), 0)
+    top = next((n for n in range(at + 2, min(len(words), at + 8)) if words[n] in ("top", "it")), 0)
     if not top or words[top - 1] != "on":
         return None
     end = top + 1
@@ -176,6 +191,10 @@ def _prelude(words: list[str], at: int) -> int | None:
                 if words[n] == "is" and _is_verb(words, n + 1 + (_word(words, n + 1) == "to")):
                     return n + 1 + (_word(words, n + 1) == "to")
         return None
+    if first == "have" and _word(words, at + 2) in _KINDNESSES and _word(words, at + 3) == "to":
+        return at + 4  # have the goodness to ...
+    if words[at : at + 2] == ["do", "be"]:
+        return _prelude(words, at + 1)
     bidden = first == "be" and words[at + 1 : at + 2] in (["a"], ["an"])
     done = first == "do" and bool(_DUTIES.intersection(words[at + 1 : at + 5]))
     if not (bidden or done):
@@ -183,6 +202,8 @@ def _prelude(words: list[str], at: int) -> int | None:
     for n in range(at + 2, min(len(words), at + 7)):
         if words[n] in ("and", COMMA) and _is_verb(words, n + 1):
             return n + 1
+        if words[n] == "of" and done and _word(words, n + 1).endswith("ing"):
+            return n + 1  # do me the kindness of bringing ...
     return None
 
 
@@ -193,8 +214,14 @@ def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
     for end in range(min(len(words), at + 6), at, -1):
         if tuple(words[at:end]) in _TAILS and _closes(words, end):
             ambiguous = words[at:end] in (
-                ["right"], ["no"], ["all", "right"], ["that"], ["whatever"]
+                ["right"], ["no"], ["all", "right"], ["that"], ["whatever"], ["move", "it"]
             )  # fmt: skip
+            praised = words[at : at + 2] in (["would", "be"], ["will", "do"]) and kept[-1] not in (
+                "that",
+                "it",
+            )
+            if praised and not any(_is_verb(kept, n) for n in range(len(kept))):
+                return None  # a tea would be lovely
             return end if not ambiguous or kept[-1] == COMMA else None
     end = at + 2 + (_word(words, at + 1) in ("not", "nt"))
     tagged = words[at] in _TAGS and _word(words, end - 1) in _TAGGED
@@ -240,6 +267,12 @@ def _address(words: list[str], at: int, kept: list[str]) -> int | None:
     plain = bool(kept) and kept[-1] not in lexicon.DETERMINERS | lexicon.OTHER_WORDS
     apart = bool(kept) and (kept[-1] == COMMA or (plain and words[end] in _FAMILIAR))
     return end + 1 if opens or (closes and apart) else None
+
+
+def _insistence(words: list[str], at: int) -> int | None:
+    """The lamp, *I say*."""
+    said = at and words[at : at + 2] == ["i", "say"] and _word(words, at + 2) in _SIGNS
+    return at + 2 if said else None
 
 
 def _small_word(words: list[str], at: int) -> int | None:

@@ -147,7 +147,7 @@ LOCATIVES: dict[tuple[str, ...], How | None] = _meanings(
         "on": "on,on or in,on and in,in or on,in and on,on or at,on top of,upon,atop,atop of",
         "in": "in,right in,out in,down in,inside,inside of,within",
         None: "at,right at,just at,around,up at,over at,over in,over on,over by,up on,in at",
-        "near": "near,next to,next of,close to,by,beside,besides,alongside,nearby,near to,"
+        "near": "near,next to,close to,by,beside,besides,alongside,nearby,near to,"
         "at the side of,"
         "in the vicinity of,against",
         "under": "under,underneath,below,beneath,from under,from underneath,"
@@ -212,10 +212,13 @@ FILLERS = phrases(
     "if it is not too much bother,if it is not too much to ask,if that is okay,"
     "if that is all right,if it is okay,if you like,if you want,if you wish,whenever you are ready,"
     "when you are ready,whenever you like,wherever she goes,wherever he goes,wherever they go,"
-    "wherever i go,everywhere she goes,everywhere he goes,everywhere i go,see if you can,"
+    "at the moment,at this moment,at present,for the moment,properly,neatly,nicely,tidily,"
+    "mind you,on your way back,on the way back,on your way past,"
+    "on your way,wherever i go,everywhere she goes,everywhere he goes,everywhere i go,"
+    "see if you can,"
     "see whether you can,go see if you can,check if you can,while you are up,while you are there,"
     "while you are here,while you are out,while you are passing,after all,"
-    "on your way back,on the way back,on your way out,on your way past,on your way there,"
+    "on your way out,on your way there,"
     "now that i think of it,now that i think about it,"
     "as fast as you can,as quick as you can,as quickly as you can,"
     "as fast as possible,as quickly as possible,quick as you can"
@@ -267,7 +270,16 @@ _OPENINGS = phrases(
     "i do hope i am not disturbing,i hope i am not disturbing,i do hope i am not disturbing you,"
     "i hope i am not disturbing you,i do hope i am not being a nuisance,"
     "i hope i am not being a nuisance,good evening to you,good morning to you,"
-    "good afternoon to you,good day to you,will you not"
+    "good afternoon to you,good day to you,will you not,pray,i pray you,do one thing,"
+    "one thing you do,go on and,i beg you to,i beg of you to,i must ask you to,"
+    "i have to ask you to,i shall ask you to,i am going to ask you to,please to,do,"
+    "i would have you,you do one thing,it is possible to,is possible to,"
+    "it is possible that you,it is possible for you to,you are going to want to,you will want to,"
+    "want to,be good enough to,be decent enough to,you are requested to,you are asked to,"
+    "you are instructed to,you are ordered to,you are invited to,you are told to,"
+    "away and,away with you and,och,ach,aye,ooh,gosh,blimey,crikey,golly,wow,righto,rightio,"
+    "you want to,be so very kind as to,be so very good as to,be so nice as to,be so good and,"
+    "i wish that you would,i want for you to,you shall,might i prevail upon you to"
 )
 _ANNOUNCED = phrases(
     "look,right,your next job,your job,your task,your next task,your mission,next job,next task,"
@@ -325,68 +337,6 @@ LEVELS = {
     "close": ("close", "near"), "front": ("front",), "rear": ("rear", "back"),
 }  # fmt: skip
 """Adjectives that tell parts of furniture apart, with what a world may call them."""
-
-SYNONYMS = tuple(
-    group.split(",")
-    for group in (
-        "couch,sofa,settee",
-        "fridge,refrigerator,icebox",
-        "trash can,trashcan,trash bin,garbage can,garbage bin,rubbish bin,waste bin,dustbin,"
-        "wastebasket,waste basket,trash,bin,garbage",
-        "hallway,corridor,hall",
-        "bathroom,washroom,restroom",
-        "television,tv,telly",
-        "bookshelf,bookcase",
-        "cupboard,cabinet",
-        "wardrobe,closet",
-        "dinner table,dining table",
-        "living room,lounge,sitting room",
-        "nightstand,bedside table,night stand",
-        "office,study",
-        "coke,coca cola,cola,coca",
-        "orange juice,oj",
-        "crisps,chips,potato chips",
-        "mug,coffee mug",
-        "desk,writing desk",
-        "baby chair,high chair,highchair",
-        "armchair,arm chair,easy chair",
-        "oven,stove,cooker",
-        "tap,faucet",
-        "cell phone,mobile phone,mobile,phone,cellphone,smartphone",
-        "entrance,front door,main door,entrance door",
-        "exit,exit door",
-        "bath tub,bathtub,tub",
-        "counter,kitchen counter,countertop,worktop",
-        "rag,cloth,washcloth",
-        "toilet,loo,lavatory",
-        "mayonnaise,mayo,mayonaise",
-        "kitchen table,breakfast table",
-    )
-)
-"""Groups of names that mean the same where a world has just one of them."""
-
-AKIN = tuple(
-    frozenset(group.split(","))
-    for group in (
-        "cup,mug,glass,beaker,tumbler,teacup",
-        "bottle,flask,carafe,jug",
-        "box,carton,package,packet,parcel,crate,case,container",
-        "bag,sack,pouch,backpack,handbag,purse",
-        "plate,dish,saucer,platter",
-        "bowl,basin,pot",
-        "shelf,rack,board,bookshelf,bookcase,ledge",
-        "table,desk,sideboard,stand",
-        "counter,worktop,bench,sideboard",
-        "cabinet,cupboard,wardrobe,dresser,drawer,closet",
-        "chair,stool,seat,armchair",
-        "couch,sofa,settee,bench",
-        "rag,cloth,towel,napkin,sponge,wipe",
-        "book,notebook,magazine,newspaper",
-        "soda,coke,cola,lemonade,pop",
-        "cookie,biscuit,cracker,snack",
-    )
-)
-"""Groups of things that are taken for one another: asked about, never taken by themselves."""
 
 ELSE = phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")
 IN_ALL = phrases("over,in a row,in total,altogether,in all,each")

@@ -16,7 +16,8 @@ _TENS = {
     "seventy": 70, "eighty": 80, "ninety": 90,
 }  # fmt: skip
 _GROUPS: dict[tuple[str, ...], float] = {
-    ("a", "couple", "of"): 2, ("couple", "of"): 2, ("a", "pair", "of"): 2, ("a", "dozen"): 12,
+    ("a", "couple", "of"): 2, ("couple", "of"): 2, ("couple",): 2,
+    ("a", "pair", "of"): 2, ("a", "dozen"): 12,
     ("half", "a", "dozen"): 6, ("a", "few"): 3, ("dozen",): 12,
     ("three", "quarters", "of", "a"): 0.75, ("a", "quarter", "of", "a"): 0.25,
     ("three", "quarters", "of", "an"): 0.75, ("a", "quarter", "of", "an"): 0.25,

@@ -7,7 +7,8 @@ from typing import Literal, NamedTuple
 from rapidfuzz import fuzz, process
 
 from intents.english.words.lexer import singular, tokenize
-from intents.english.words.lexicon import AKIN, COLORS, SYNONYMS
+from intents.english.words.lexicon import COLORS
+from intents.english.words.synonyms import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]

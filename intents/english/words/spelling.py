@@ -82,6 +82,17 @@ def _typing_slip(word: str) -> str | None:
     return single if single != word and single in lexicon.FUNCTION_WORDS else None
 
 
+def _beside(one: str, other: str) -> bool:
+    """Whether two words begin with keys that lie side by side, or with the same two letters."""
+    rows = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
+    here, there = (
+        next(((y, row.index(word[0])) for y, row in enumerate(rows) if word[0] in row), (9, 0))
+        for word in (one, other)
+    )
+    near = abs(here[0] - there[0]) < 2 and -2 < here[1] - there[1] < 2
+    return near or set(one[:2]) == set(other[:2])
+
+
 class Speller:
     """Corrects words towards one vocabulary."""
 
@@ -89,7 +100,7 @@ class Speller:
         self._names = sorted(w for w in index.words if len(w) > 2)
         self._known = index.words | GRAMMAR_WORDS
         self._grammar = sorted(CORE)
-        self._corrected: dict[str, list[str]] = {}
+        self._corrected: dict[tuple[str, bool], list[str]] = {}
 
     def correct(self, word: str, *, begins: bool = False) -> list[str]:
         """The words that were meant: usually the word itself; "thecup" is two words.
@@ -111,11 +122,12 @@ class Speller:
         verb = self._verb(word) if begins else None
         if verb:
             return [verb]
-        if word not in self._corrected:
+        if (word, begins) not in self._corrected:
             if len(self._corrected) > _KEPT:
                 self._corrected.clear()
-            self._corrected[word] = self._parts(word) or [self._nearest(word)]
-        return self._corrected[word]
+            meant = self._parts(word) or [self._nearest(word, begins=begins)]
+            self._corrected[word, begins] = meant
+        return self._corrected[word, begins]
 
     def _verb(self, word: str) -> str | None:
         """The verb that a word may be a misspelling of; begins and length tell."""
@@ -125,7 +137,7 @@ class Speller:
         found = process.extractOne(word, _VERBS, scorer=OSA.distance, score_cutoff=slack)
         return found[0] if slack and found and found[0][0] == word[0] else None
 
-    def _nearest(self, word: str) -> str:
+    def _nearest(self, word: str, *, begins: bool) -> str:
         slack = _slack(word)
         ranked: list[tuple[float, str]] = []
         # Penalties under one edit: they only decide between words that are equally far. A name is
@@ -135,6 +147,8 @@ class Speller:
                 word, words, scorer=OSA.distance, score_cutoff=slack, limit=4
             ):
                 elsewhere = known[0] != word[0]
+                if elsewhere and begins and len(known) == len(word) and not _beside(known, word):
+                    continue  # "yeet" is a verb of its own, and not "meet"
                 if distance < 2 or not elsewhere:
                     ranked.append((distance + penalty + 0.5 * elsewhere, known))
         if ranked:

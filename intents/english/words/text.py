@@ -6,6 +6,7 @@ from copy import copy
 from typing import TypeVar
 
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
+from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
@@ -15,11 +16,14 @@ from intents.english.words.lexicon import (
     FILLERS,
     FUNCTION_WORDS,
     Phrase,
+    phrases,
     words,
 )
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.precise import plain_quantities
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.texting import spelled_out
 from intents.english.words.verbs import participle_base
 from intents.vocabulary import Vocabulary
 
@@ -32,7 +36,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
-_WISHING = words("would it i")
+_WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
 _PREDICATES = words(
@@ -41,10 +45,15 @@ _PREDICATES = words(
 )
 """What follows "the bottle's" where that is no owner."""
 _RECEIVERS = words("him her me them us want wants")
+_WISHES = phrases(
+    "need,want,going to need,going to want,have to have,have got to have,could do with,could use,"
+    "could murder,would kill for,wanting,needing,will need,gonna need"
+)
+"""How a wish begins whose subject goes without saying: "need a screwdriver here"."""
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
-_MADE = words("close open turn go walk bring take put switch come")
+_MADE = words("close open turn go walk bring take put switch come on off")
 _CASES = words("on onto in into to from off under behind at")
-_POLITE = words("please please. please, please! pls plz thanks thanks. thanks! thanks,")
+_POLITE = words("please thanks")
 _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
 
@@ -75,12 +84,14 @@ class Text:
         self.index: NameIndex = index_of(vocabulary)
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
-        self.corrections: list[tuple[str, str]] = []
+        tokens, self.corrections = spelled_out(
+            _without_name(tokenize(text), self.index), self.index
+        )
         begins = True
         pace = _PACE.search(text)
         self.pace = pace.group().strip() if pace else ""
-        self.polite = not _POLITE.isdisjoint(text.lower().split())
-        for token in _without_name(tokenize(text), self.index):
+        self.polite = any(token.text in _POLITE for token in tokens)
+        for token in tokens:
             meant = speller.correct(token.text, begins=begins)
             begins = token.text in _BEFORE_VERBS
             if meant == [token.text]:
@@ -94,8 +105,9 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        plain = unrepeated(_without_fillers(fluent(corrected), self.index))
-        self.tokens: list[Token] = _colloquial(_unfinished(plain))
+        corrected = _wished(plain_quantities(corrected))
+        plain = _unfinished(unrepeated(_without_fillers(fluent(corrected), self.index)))
+        self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
@@ -226,12 +238,23 @@ def _done_before(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _wished(tokens: list[Token]) -> list[Token]:
+    """Would it be nice if you *waved*: if you wave."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):
+        base = participle_base(words[at]) if words[at - 2 : at] == ["if", "you"] else None
+        if base:
+            tokens[at] = Token(base, tokens[at].raw)
+    return tokens
+
+
 def _unfinished(tokens: list[Token]) -> list[Token]:
-    """Once you *have picked* it up: you pick it up; would it be nice if you *waved*: you wave."""
+    """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
     tokens = _done_before(_said_first(tokens))
     words = [t.text for t in tokens]
-    if words[:1] == ["need"] and words[1:2] not in (["to"], ["you"]):
-        tokens.insert(0, Token("i", ""))  # need a screwdriver here
+    wished = next((n for n in (4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
+    if wished and words[wished : wished + 1] not in (["to"], ["you"], []):
+        tokens[:wished] = [Token("i", ""), Token("need", _said(tokens[:wished]))]
     for at in range(len(words) - 2, 0, -1):
         if words[at : at + 2] == ["with", "you"] and words[at - 1] not in _ACCOMPANY:
             tokens[at : at + 2] = [Token("along", f"{tokens[at].raw} {tokens[at + 1].raw}")]
@@ -240,17 +263,16 @@ def _unfinished(tokens: list[Token]) -> list[Token]:
         if words[at] == "'s" and words[at + 1] in _PREDICATES:
             tokens[at] = Token("is", tokens[at].raw)
     words = [t.text for t in tokens]
-    for at in range(len(words) - 1, 1, -1):
-        wished = words[at - 2 : at] == ["if", "you"] and words[0] in _WISHING
-        base = participle_base(words[at]) if wished else None
-        if base:
-            tokens[at] = Token(base, tokens[at].raw)
     for at in range(len(words) - 2, 1, -1):
         done = words[at] == "have" and words[at - 1] == "you" and words[at - 2] in _ONCE
         base = participle_base(words[at + 1]) if done else None
         if base:
             tokens[at : at + 2] = [Token(base, tokens[at + 1].raw)]
     return tokens
+
+
+def _said(tokens: list[Token]) -> str:
+    return " ".join(token.raw for token in tokens if token.raw)
 
 
 def _colloquial(tokens: list[Token]) -> list[Token]:

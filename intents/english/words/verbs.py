@@ -17,7 +17,9 @@ SPELLINGS: dict[str, str] = {
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
-        "sidestep,side step,strafe,shuffle,scoot"
+        "leg it,leg it over,peg it,skip over,pootle over,potter over,shoot over,nip across,sprint,"
+        "dart,dart over,scoot over,race,race over,haul yourself,drag yourself,plant yourself,"
+        "translate,sidestep,side step,strafe,shuffle,scoot"
     ),
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
@@ -49,6 +51,8 @@ SPELLINGS: dict[str, str] = {
         "set,lay,deposit,store,position,insert,hang,stow,put back,put away,stick,stack,"
         "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
         "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
+        "keep,lob,fling,hurl,heave,cram,squash,slap,perch,prop,nestle,lodge,ditch,dunk,drape,"
+        "pitch,hoist,prop up,stand up,heap,hoy,"
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
@@ -63,7 +67,8 @@ SPELLINGS: dict[str, str] = {
         "run,run over,run on over,deliver,carry,transport,transfer,bring over,bring back,"
         "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
-        "pull"
+        "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,hoof,trundle,"
+        "relay,smuggle,sneak,pass along,bring round,take round,drop round,fetch over,walk,jog"
     ),
     "inform": (
         "i need,i want,i would like,give me,give us,give,provide,provide me with,show me,share,"
@@ -82,6 +87,8 @@ SPELLINGS: dict[str, str] = {
         "i want to have,i am looking for,we need,we want,we would like,i require,"
         "can we have,could we have,i could use,i could do with,we could do with,i fancy,we fancy,"
         "i could murder,i would kill for,i am after,i am wanting,i am needing,"
+        "i am going to need,i am going to want,i have to have,i have got to have,i will need,"
+        "i shall need,i must have,we will need,we are going to need,"
         "might i trouble you for,might i bother you for,could i trouble you for,"
         "can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
@@ -109,7 +116,7 @@ SPELLINGS: dict[str, str] = {
         "greet,say hello to,say hi to,say hello,say hi,say good morning to,"
         "say good evening to,salute,welcome,introduce yourself to,introduce yourself,"
         "present yourself to,present yourself,give a greeting to,wave hello to,say hey to,"
-        "say goodbye to,say good morning,hello to,introduce,say greetings to,"
+        "say good morning,hello to,introduce,say greetings to,"
         "give your regards to,self introduce to"
     ),
     "say": (
@@ -123,6 +130,7 @@ SPELLINGS: dict[str, str] = {
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
         "speak with,talk to,talk with,wish,bid,do you happen to know,would you know,any idea,"
         "do you have any idea,have you any idea,respond with,recount,communicate,communicate to,"
+        "revert with,revert to me with,revert back with,get back to me with,come back to me with,"
         "indicate,learn,verify,let know,say to,state to,i wonder,report to,disclose,"
         "reveal,detail,point out"
     ),
@@ -255,7 +263,11 @@ SPELLINGS: dict[str, str] = {
         "do the following,do it once more,do that once more,same again,do it,do that"
     ),
 }  # fmt: skip
-"""Sense to spellings; a spelling may have several senses, the frames tell them apart."""
+"""Sense to spellings; a spelling may have several senses, the frames tell them apart.
+
+What things are put, brought and thrown with is from the classes 9.1 to 9.4, 11.1, 11.4, 11.5 and
+17.1 of [Levin1993] (English Verb Classes and Alternations), and from what people say at home.
+"""
 
 SENSES: dict[Phrase, tuple[str, ...]] = {}
 for _sense, _text in SPELLINGS.items():

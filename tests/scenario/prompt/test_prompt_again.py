@@ -1,6 +1,5 @@
 """What was done at a prompt and cut off goes on at a prompt."""
 
-import io
 from pathlib import Path
 
 from executive.journal.journal import read
@@ -12,7 +11,9 @@ MISSION = "name: again\nworld: kitchen\nsteps:\n  - say hello\n  - go to the tab
 
 
 def at_the_prompt(monkeypatch, *lines: str) -> None:
-    monkeypatch.setattr("sys.stdin", io.StringIO("\n".join(lines) + "\n"))
+    file = Path("lines")
+    file.write_text("\n".join(lines) + "\n")
+    monkeypatch.setattr("sys.stdin", file.open())
 
 
 def cut_after(event: str, step: str) -> None:

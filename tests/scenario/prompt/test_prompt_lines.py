@@ -27,6 +27,7 @@ from executive.meaning import request
 from executive.runs.runtimes import Setup
 from executive.skills.catalogue import SKILLS
 from intents.language_model import Endpoint, LanguageModel
+from intents.language_model.endpoint import MAX_DEADLINE_S
 from intents.speech.ear import Ear, Spoken
 from robot.clock import WallClock
 from tests.fakes.voices import Loudspeaker
@@ -459,7 +460,7 @@ def test_a_plan_that_is_agreed_to_beforehand_is_shown_and_done(tmp_path: Path):
 def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
     """A shell at work, whose language model never answers."""
     with serving(Reply(delay_s=3600.0)) as server:
-        endpoint = Endpoint(base_url=server.url, model="local", deadline_s=3600.0)
+        endpoint = Endpoint(base_url=server.url, model="local", deadline_s=MAX_DEADLINE_S)
         with shell_in(folder, "empty", LanguageModel(endpoint)) as shell:
             shell.line("squat for 60 seconds")
             assert eventually(shell.under_way)

@@ -97,7 +97,7 @@ SAME = [
      "tell me whether the saddle is on the rack"),
     ("bring me all the feed, but the oats no", "bring me all the feed but not the oats"),
     ("bring Ilse the oats, then the carrot", "bring Ilse the oats, bring Ilse the carrot"),
-    ("bring the buckets here, both of them", "bring the buckets here"),
+    ("bring the buckets here, both of them", "bring both buckets here"),
     ("see how many buckets are in the yard, come back and tell me the number",
      "see how many buckets are in the yard, come back"),
     # conditions and what is left

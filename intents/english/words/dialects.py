@@ -1,0 +1,96 @@
+"""What dialects and learners put where others put another little word.
+
+"Dump *me* socks in the basket" (my), "put *them* scissors there" (those), "next *of* the printer"
+(to), "*what you are* holding" (what are you). Each is turned into the word that the grammar knows,
+where the words around it leave no other sense.
+"""
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import FULL_STOP, Token
+from intents.english.words.names import NameIndex
+
+_GIVES_ME = lexicon.words(
+    "give bring get fetch hand pass find show tell buy lend send offer serve make pour grab teach "
+    "read leave let help with for to us"
+)
+_GIVES_THEM = lexicon.words(
+    "give bring hand pass show tell buy lend send offer serve make pour teach read let help with "
+    "for to of"
+)
+"""After these "me" and "them" may be who gets something: "bring them towels"."""
+_DESCRIBING = frozenset(lexicon.SIZES) | frozenset(lexicon.COLORS) | lexicon.EMPTY_ADJECTIVES
+_PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
+    ("next", "of"): ("next", "to"), ("next", "from"): ("next", "to"), ("near", "of"): ("near",),
+    ("near", "from"): ("near",), ("close", "of"): ("close", "to"),
+    ("close", "from"): ("close", "to"),
+    ("beside", "of"): ("beside",), ("besides", "of"): ("beside",), ("beside", "to"): ("beside",),
+    ("besides", "to"): ("beside",), ("behind", "of"): ("behind",), ("behind", "from"): ("behind",),
+    ("under", "of"): ("under",), ("in", "front", "from"): ("in", "front", "of"),
+    ("in", "front", "to"): ("in", "front", "of"), ("between", "of"): ("between",),
+    ("above", "of"): ("above",), ("inside", "to"): ("inside",), ("on", "top", "from"): ("on",),
+    ("in", "which", "place"): ("where",), ("at", "which", "place"): ("where",),
+    ("in", "what", "place"): ("where",), ("on", "which", "place"): ("where",),
+    ("say", "me"): ("tell", "me"), ("explain", "me"): ("tell", "me"),
+    ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
+    ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
+}  # fmt: skip
+_LONGEST = 3
+_OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}
+_ASK = lexicon.words("what where why how")
+_BEFORE_SUBJECTS = lexicon.words("are were have can could will do did should must")
+"""What stands before its subject in a question."""
+_SEEING = lexicon.words("see have find hold carry")
+
+
+def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """The tokens with the words of the grammar in place of those of a dialect."""
+    tokens = _prepositions(tokens)
+    words = [t.text for t in tokens]
+    for at, token in enumerate(tokens):
+        owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
+        last = words[at - 1] if at else FULL_STOP
+        owned = owner and (last not in gives or last in ("us", "me"))
+        if owned and _is_thing(words, at + 1, index):
+            tokens[at] = Token(owner, token.raw)
+    return _asked_the_other_way_round(tokens)
+
+
+def _is_thing(words: list[str], at: int, index: NameIndex) -> bool:
+    """Whether a thing or a place is named at a word, or after one that describes it."""
+    at += at < len(words) and (words[at] in _DESCRIBING or words[at] in index.colors)
+    match = index.match(words, at) if at < len(words) else None
+    return match is not None and not match.of("person")
+
+
+def _prepositions(tokens: list[Token]) -> list[Token]:
+    """Next *of* the printer: next to it."""
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        for size in range(_LONGEST, 0, -1):
+            said = tuple(t.text for t in tokens[at : at + size])
+            meant = _PREPOSITIONS.get(said)
+            if meant:
+                raws = [t.raw for t in tokens[at : at + size]]
+                kept += [Token(word, raw) for word, raw in zip(meant, raws, strict=False)]
+                at += size
+                break
+        else:
+            kept.append(tokens[at])
+            at += 1
+    return kept
+
+
+def _asked_the_other_way_round(tokens: list[Token]) -> list[Token]:
+    """*What you are* holding? *Where I can* find it? Only where a sentence begins."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 2):
+        begins = at == 0 or words[at - 1] == FULL_STOP
+        if not begins or words[at] not in _ASK or words[at + 1] not in ("you", "i", "we", "they"):
+            continue
+        if words[at + 2] in _BEFORE_SUBJECTS and (at + 3 < len(words) or words[at] == "where"):
+            tokens[at + 1], tokens[at + 2] = tokens[at + 2], tokens[at + 1]
+        elif words[at + 2] in _SEEING:
+            tokens.insert(at + 1, Token("do", ""))
+        break
+    return tokens
