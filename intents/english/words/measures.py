@@ -78,12 +78,30 @@ def number(words: list[str], start: int) -> Number | None:
             return Number(_GROUPS[phrase], start + len(phrase))
     whole = _whole(words, start)
     if whole and words[whole.end : whole.end + 1] == ["point"]:
-        digits = _whole(words, whole.end + 1)
+        digits, end = _decimals(words, whole.end + 1)
         if digits:
-            return Number(float(f"{whole.value:.0f}.{digits.value:.0f}"), digits.end)
+            return Number(float(f"{whole.value:.0f}.{digits}"), end)
     if whole and tuple(words[whole.end : whole.end + 3]) == ("and", "a", "half"):
         return Number(whole.value + 0.5, whole.end + 3)
     return whole
+
+
+def _decimals(words: list[str], start: int) -> tuple[str, int]:
+    """The digits behind a decimal point, and where they end: "seven five", "twenty five", "05"."""
+    digits, end = "", start
+    while end < len(words):
+        word = "zero" if words[end] in ("oh", "o", "nought") else words[end]
+        if word in _TENS and words[end + 1 : end + 2] and 0 < _ONES.get(words[end + 1], 0) < 10:
+            digits += f"{_TENS[word] + _ONES[words[end + 1]]:.0f}"
+            end += 1
+        elif word in _ONES or word in _TENS:
+            digits += f"{_ONES.get(word, 0) + _TENS.get(word, 0):.0f}"
+        elif word.isascii() and word.isdecimal():
+            digits += word
+        else:
+            break
+        end += 1
+    return digits, end
 
 
 def _whole(words: list[str], start: int) -> Number | None:
@@ -100,7 +118,12 @@ def _whole(words: list[str], start: int) -> Number | None:
     while end < len(words):
         word = words[end]
         if word in _ONES or word in _TENS:
-            value += _ONES.get(word, 0) + _TENS.get(word, 0)
+            more = _ONES.get(word, 0) + _TENS.get(word, 0)
+            if 0 < value < 10 and 10 <= more < 100:
+                value *= 100  # one eighty
+            elif value % 100 and not (value % 10 == 0 and more < 10):
+                break  # seven five is two numbers
+            value += more
         elif word == "hundred" and end > start:
             value = max(value, 1) * 100
         elif word == "thousand" and end > start:
