@@ -1,12 +1,18 @@
 """`humanoid`, and `python -m executive`: makes sure that the packages are ours, then runs it."""
 
+import os
+import signal
 import sys
-
-from executive.frontends import namesakes
+from types import FrameType
 
 
 def main() -> None:
     """Entry point; ends with status 3 where another distribution has taken a name of ours."""
+    heard = signal.getsignal(signal.SIGINT)
+    if heard is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _stopped)
+    from executive.frontends import namesakes  # now that Ctrl-C is heard: loading takes a second
+
     wrong = namesakes.elsewhere()
     if not wrong:
         try:
@@ -16,11 +22,18 @@ def main() -> None:
             if not wrong:
                 raise
         else:
+            signal.signal(signal.SIGINT, heard)
             run()
             return
     told = "\n  ".join(["Broken:", *wrong])
     sys.stderr.write(f"{told}\nWhat to do: {namesakes.CURE}\n")
     sys.exit(3)
+
+
+def _stopped(_number: int, _frame: FrameType | None) -> None:
+    """Ctrl-C while it loads: nothing has begun, and a half loaded library would say odd things."""
+    os.write(2, b"Stopped on request.\n")
+    os._exit(1)
 
 
 if __name__ == "__main__":  # a worker process imports this file as well

@@ -13,16 +13,15 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import FrameType
 
-import msgspec
-
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
 from executive.frontends.launching import FrontEnd, PlainFrontEnd
 from executive.frontends.output import say, tell_of_mistakes
+from robot.bringup import mailbox
 from robot.bringup.mailbox import FRONT_FILE, Front, Handle
 from robot.bus.lifeline import tie_to_parent
 from robot.clock import WallClock
-from robot.errors import RobotError
+from robot.errors import ProcessError, RobotError
 from robot.exit_status import ExitStatus
 
 POLL_S = 0.02
@@ -108,7 +107,9 @@ def _turn(
 
 
 def _read(folder: Path) -> Front:
-    return msgspec.json.decode((folder / FRONT_FILE).read_bytes(), type=Front)
+    if (front := mailbox.read(folder / FRONT_FILE, Front)) is None:
+        raise ProcessError(f"{folder / FRONT_FILE} does not say what is to be done")
+    return front
 
 
 def _hear(wishes: Iterable[signal.Signals]) -> None:

@@ -30,6 +30,9 @@ PERSON_GESTURES = (
 )  # fmt: skip
 PROPERTIES = ("name", "posture", "gesture", "gender", "color", "size", "location", "category",
               "description", "clothes", "age")  # fmt: skip
+ANSWERS = ("question", "quiz")
+STEERING = (g.Stop, g.Pause, g.Resume, g.Cancel)
+"""Goals that steer the jobs under way: a person says them, and the grammar reads them."""
 _DEVICES = ("hand", "door", "drawer", "fridge", "cabinet", "window", "light", "lamp")
 
 
@@ -77,6 +80,12 @@ def excess(goals: tuple[Goal, ...]) -> str:
             if found:
                 return f"“{slot.removesuffix('_s')}” {found}" if slot != "by" else f"That {found}"
     return ""
+
+
+def steering(goals: tuple[Goal, ...]) -> str:
+    """What is wrong with goals that a person alone may say; empty if none of them is."""
+    found = next((goal for goal in g.each(goals) if isinstance(goal, STEERING)), None)
+    return f"{type(found).__name__.lower()} is for a person to say" if found else ""
 
 
 def _each(goals: tuple[Goal, ...], depth: int = 1) -> Iterator[tuple[int, Goal]]:
@@ -180,7 +189,7 @@ def _fault_of_number(slot: str, value: object) -> str:
 def _strings_of(kind: str, slot: str, names: Names) -> frozenset[str] | tuple[str, ...] | None:
     """What a slot may say; None where it holds words to be spoken."""
     if slot == "what":
-        return None if kind == "Say" else _ANSWERS if kind == "Answer" else names.devices
+        return None if kind == "Say" else ANSWERS if kind == "Answer" else names.devices
     if slot in ("kind", "property", "mode", "side", "topic"):
         return {"kind": GESTURES, "property": PROPERTIES}.get(slot, _CLOSED)
     if slot == "at":
@@ -190,7 +199,6 @@ def _strings_of(kind: str, slot: str, names: Names) -> frozenset[str] | tuple[st
     return names.spots
 
 
-_ANSWERS = ("question", "quiz")
 _CLOSED = (
     "stand", "squat", "one_leg", "lean", "sit", "left", "right", "forward", "backward", "holding",
     "seeing", "location", "status", "health", "why", "capabilities",

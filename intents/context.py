@@ -1,6 +1,7 @@
 """What was said before, and how an answer completes the question that is open."""
 
 import re
+from typing import Literal
 
 import msgspec
 from msgspec.structs import replace
@@ -14,6 +15,13 @@ from intents.outcomes import Choice, Question
 from intents.relations import Viewpoint
 
 
+class Said(msgspec.Struct, frozen=True):
+    """One turn of a conversation, in words."""
+
+    who: Literal["person", "robot"]
+    text: str
+
+
 class Context(msgspec.Struct, frozen=True, kw_only=True):
     """What a sentence may refer to; give the one of an outcome to the next sentence.
 
@@ -23,6 +31,7 @@ class Context(msgspec.Struct, frozen=True, kw_only=True):
         place: Where "there" is.
         goals: What was asked last, for "do it again".
         question: The question that is open.
+        said: The last turns, the newest last.
         entities: What is known to be there; without any, nothing is found ambiguous.
         view: Where the robot stands, for "the leftmost".
     """
@@ -32,8 +41,19 @@ class Context(msgspec.Struct, frozen=True, kw_only=True):
     place: str | None = None
     goals: tuple[Goal, ...] = ()
     question: Question | None = None
+    said: tuple[Said, ...] = ()
     entities: tuple[Entity, ...] = ()
     view: Viewpoint | None = None
+
+
+MAX_SAID = 12
+"""Turns that are remembered in words."""
+
+
+def noted(context: Context, person: str, robot: str) -> Context:
+    """A conversation after a person and the robot have spoken."""
+    said = (*context.said, Said("person", person[:1000]), Said("robot", robot[:1000]))
+    return replace(context, said=said[-MAX_SAID:])
 
 
 def answered(text: str, question: Question) -> tuple[Goal, ...] | None:

@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents import looking_back, replies, wording
-from intents.context import Context, answered, verdict_of
+from intents import looking_back, plans, replies, wording
+from intents.context import Context, answered, noted, verdict_of
 from intents.goals import (
     Balance,
     Cancel,
@@ -29,6 +29,7 @@ from intents.goals import (
 from intents.halting import besides
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
+from intents.plans import HOW_I_READ_IT
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
@@ -101,6 +102,7 @@ class Dialogue:
         context: What was said before; also holds the open question.
         confirm: Whether risky goals are read back before they are returned.
         risk: Why goals are read back, in words; empty where they need not be.
+        agreed: Whether what a language model makes is done unasked, unless it is risky.
         dropped: The question that the last turn left open for good, because it asked for something
             else; empty if there is none.
     """
@@ -125,6 +127,7 @@ class Dialogue:
         self.confirm = confirm
         self.fallback = fallback
         self.risk = risk
+        self.agreed = False
         self.context = Context()
         self.dropped = ""
         self._repeats = 0
@@ -150,7 +153,12 @@ class Dialogue:
             is open from now on), a refusal with its reason, or a reply, which is all there is to
             say.
         """
-        state = state or RobotState()
+        turn = self._hear(text, state or RobotState())
+        if not isinstance(turn, Goals) or turn.parser != "stop":
+            self.context = noted(self.context, text, in_turn(turn))
+        return turn
+
+    def _hear(self, text: str, state: RobotState) -> Turn:
         self.dropped = ""
         if is_stop(text):
             self._close()
@@ -190,7 +198,9 @@ class Dialogue:
         question = self.question
         if question is None:
             return False
-        return verdict_of(text) is not None or answered(text, question) is not None
+        if verdict_of(text) is not None or answered(text, question) is not None:
+            return True
+        return plans.changed(text, question, self.vocabulary) is not None
 
     def besides(self, text: str, state: RobotState) -> str:
         """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.
@@ -221,7 +231,13 @@ class Dialogue:
         self._pending, self._repeats = None, 0
 
     def _answer(self, text: str, opened: Question, state: RobotState) -> Turn | None:
-        """Yes or no to a confirmation; no to any question."""
+        """Yes or no to a confirmation, or what changes the plan in it; no to any question."""
+        changed = plans.changed(text, opened, self.vocabulary, risk=self.risk)
+        if changed is not None:
+            self.context = replace(self.context, question=changed)
+            if self._pending is not None:
+                self._pending = replace(self._pending, goals=changed.goals)
+            return changed
         verdict = verdict_of(text)
         if verdict is None or (verdict and opened.kind != "confirmation"):
             return None
@@ -232,7 +248,7 @@ class Dialogue:
             busy = halted or (bool(state.doing) and "cancel" in text.lower())
             return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
         if pending is not None:
-            self.context = replace(pending, question=None)
+            self.context = replace(pending, question=None, said=self.context.said)
         return Goals(goals=opened.goals, parser=opened.parser)
 
     def _revised(self, text: str, state: RobotState) -> Turn | None:
@@ -320,12 +336,12 @@ class Dialogue:
             self.context = after
             return replace(told, ms=outcome.ms)
         why = self.risk(outcome.goals) if self.confirm else ""
-        if self.confirm and outcome.parser == "model":
-            why = why or "that is how I understand it"
+        if self.confirm and outcome.parser == "model" and not self.agreed:
+            why = why or HOW_I_READ_IT
         if told is None and not why:
             self.context = after
             return outcome
-        readback = f"I shall {wording.in_words(outcome.goals)}; {why}. Shall I?"
+        readback = plans.proposal(outcome.goals, why)
         question = told or _confirmation(outcome, readback)
         question = replace(question, text=text, ms=outcome.ms)
         self._pending = after
@@ -345,6 +361,15 @@ class Dialogue:
             return None
         question = " ".join([*told, replies.unknown_place(sought)])
         return _confirmation(Goals(goals=(open_[0][1],)), question)
+
+
+def in_turn(turn: Turn) -> str:
+    """What the robot says to a turn, or does about it, in words."""
+    if isinstance(turn, Goals):
+        return f"I {wording.in_words(turn.goals)}."
+    if isinstance(turn, Question):
+        return turn.question
+    return turn.reason if isinstance(turn, Refusal) else turn.text
 
 
 def _as_asked(text: str, outcome: Goals) -> list[tuple[str, Goal]]:

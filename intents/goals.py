@@ -46,7 +46,8 @@ OPERATOR = "operator"
 """The person who speaks to the robot: ``Person(who="operator")``, and a place to come to."""
 
 
-def _snake_case(name: str) -> str:
+def snake_case(name: str) -> str:
+    """The kind of a goal, from the name of its class."""
     return re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
 
 
@@ -55,7 +56,7 @@ class _Slots(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unknown_fie
     """A record of slots, each of which may be left unsaid."""
 
 
-class _Goal(_Slots, frozen=True, tag=_snake_case, tag_field="goal", kw_only=True):
+class _Goal(_Slots, frozen=True, tag=snake_case, tag_field="goal", kw_only=True):
     """One thing to do."""
 
 
@@ -156,9 +157,9 @@ class _OfSomething(_Goal, frozen=True, kw_only=True):
 
 
 class GoTo(_Goal, frozen=True, kw_only=True):
-    """Walk somewhere: exactly one of place, pose and by is set; place may be "operator".
+    """Walk to a place (which may be "operator"), or by so much.
 
-    ``part`` is the part of the place.
+    Exactly one of place, pose and by is set; ``part`` is the part of the place.
     """
 
     place: str | None = None
@@ -435,13 +436,13 @@ def to_builtins(goals: Iterable[Goal]) -> list[dict[str, object]]:
     return [_outward(cast("_Plain", msgspec.to_builtins(goal))) for goal in goals]
 
 
-def from_builtins(data: object) -> tuple[Goal, ...]:
-    """Goals from plain dicts and lists.
+def from_builtins(data: object, *, strict: bool = True) -> tuple[Goal, ...]:
+    """Goals from plain dicts and lists; not ``strict``, "2" is a number as well.
 
     Raises:
         msgspec.ValidationError: Not a list of goals; the message says where and why.
     """
-    return msgspec.convert(_inward(data), tuple[Goal, ...])
+    return msgspec.convert(_inward(data), tuple[Goal, ...], strict=strict)
 
 
 def to_json(goals: Iterable[Goal]) -> str:

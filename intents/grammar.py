@@ -23,7 +23,9 @@ from intents.english.trouble import (
     Offered,
     Partly,
     ReadingError,
+    Unasked,
     Unclear,
+    Unpromised,
     listing,
 )
 from intents.english.words import lexicon
@@ -154,10 +156,10 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         return Understood((Greet(person=ME),))
     for at in range(1, len(text)):
         if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
-            raise NotUnderstood("That is for you to do, as I hear it")
+            raise Unasked("That is for you to do, as I hear it")
     spoken_to = somebody_else(text)
     if spoken_to:
-        raise NotUnderstood(f"I take that as said to {spoken_to}, not to me")
+        raise Unasked(f"I take that as said to {spoken_to}, not to me")
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
     goals = carried(goals)
@@ -186,17 +188,17 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
             goes where it has to.
     """
     if sentence.notes.forbidden and not goals:
-        raise NotUnderstood("All right, I shall not")
+        raise Unasked("All right, I shall not")
     handled = [goal for goal in each(goals) if not isinstance(goal, _LOOKING)]
     known = " ".join(strings(handled))
     for said, names, away in sentence.notes.forbidden:
         kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
         if kept:
-            raise Partly(f"I cannot promise “{said}”", tuple(goals))
+            raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
         spots = away and any(n.kind in ("place", "room") for n in names)
         asked = any(n.name.lower() in known for n in names if n.kind != "person")
         if spots or (asked and not away):
-            raise Partly(f"I cannot promise “{said}”", tuple(goals))
+            raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
     heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
     return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []
 

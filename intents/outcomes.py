@@ -53,6 +53,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
         text: What was said.
         said: The words in it that a choice stands in place of.
         kind: Which of several, what is missing, or whether to do it at all ("yes" or "no").
+        puzzled: There are words in it that the grammar cannot read, and somebody else may.
     """
 
     question: str
@@ -62,14 +63,20 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
     text: str = ""
     said: str = ""
     kind: QuestionKind = "missing"
+    puzzled: bool = False
     parser: ParserName = "grammar"
     ms: float = 0.0
 
 
 class Refusal(msgspec.Struct, frozen=True, kw_only=True):
-    """It was not understood, or no robot can do it here; ``reason`` says which part and why."""
+    """It was not understood, or no robot can do it here; ``reason`` says which part and why.
+
+    Attributes:
+        puzzled: There are words in it that the grammar cannot read, and somebody else may.
+    """
 
     reason: str
+    puzzled: bool = False
     parser: ParserName = "grammar"
     ms: float = 0.0
 

@@ -13,7 +13,15 @@ from intents.allowed import excess
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
-from intents.english.trouble import Offered, Partly, ReadingError, Unclear, listing
+from intents.english.trouble import (
+    Offered,
+    Partly,
+    ReadingError,
+    Unasked,
+    Unclear,
+    Unpromised,
+    listing,
+)
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.names import index_of
@@ -69,18 +77,29 @@ def hear(
 ) -> tuple[Outcome, Context]:
     """Like :func:`parse`, with the context for the next sentence.
 
-    A ``fallback`` is asked where the grammar gives up; what it says is checked against what is
-    there like anything else.
+    A ``fallback`` is asked where there are words that the grammar cannot read, and what it asked
+    itself is answered; what it says is checked against what is there like anything else. What asks
+    for nothing, what is not to be done and what is beyond all limits is the grammar's to answer.
     """
     started = time.perf_counter()
     before = context or Context()
     outcome, after = _hear(text, vocabulary, before)
-    if fallback is not None and isinstance(outcome, Refusal) and len(text) <= MAX_CHARACTERS:
-        outcome, after = _second_opinion(text, vocabulary, before, fallback) or (outcome, after)
+    if fallback is not None and _is_for_another(outcome, before) and len(text) <= MAX_CHARACTERS:
+        outcome, after = _second_opinion(text, vocabulary, before, fallback, outcome) or (
+            outcome, after,
+        )  # fmt: skip
     ms = round((time.perf_counter() - started) * 1e3, 3)
     timed = replace(outcome, ms=ms)
     question = timed if isinstance(timed, Question) else None
     return timed, replace(after, question=question)
+
+
+def _is_for_another(outcome: Outcome, before: Context) -> bool:
+    """Whether somebody else may read what the grammar cannot."""
+    if isinstance(outcome, Goals):
+        return False
+    asked = before.question is not None and before.question.parser == "model"
+    return outcome.puzzled or (asked and isinstance(outcome, Refusal))
 
 
 def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
@@ -94,10 +113,10 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
             scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
             for goal in goals:
                 scope.mention_goal(goal)
-            return _settled(_checked(text, goals, context), context, scope)
+            return _settled(_as_asked(_checked(text, goals, context), context), context, scope)
     foreign = language_of(text)
     if foreign:
-        return Refusal(reason=only_english(foreign)), context
+        return Refusal(reason=only_english(foreign), puzzled=True), context
     question = context.question
     if question is not None and question.kind == "choice":
         chosen = _completed(text, vocabulary, context, question)
@@ -133,7 +152,13 @@ def _pointed_out(
     scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
     for goal in goals:
         scope.mention_goal(goal)
-    return _settled(_checked(text, goals, context), context, scope)
+    return _settled(_as_asked(_checked(text, goals, context), context), context, scope)
+
+
+def _as_asked(outcome: Outcome, context: Context) -> Outcome:
+    """What answers a question is still of whoever made what was asked about."""
+    question = context.question
+    return replace(outcome, parser=question.parser) if question is not None else outcome
 
 
 def _completed(
@@ -156,11 +181,17 @@ def _alike(one: Question, other: Question) -> bool:
 
 
 def _second_opinion(
-    text: str, vocabulary: Vocabulary, context: Context, fallback: Fallback
+    text: str, vocabulary: Vocabulary, context: Context, fallback: Fallback, own: Outcome
 ) -> tuple[Outcome, Context] | None:
+    """What somebody else makes of a text; None if that is no better than the grammar's own."""
     other = fallback(text, vocabulary, context)
+    asks = isinstance(own, Question)
+    if other is None or (asks and isinstance(other, Refusal)):
+        return None
     if not isinstance(other, Goals):
-        return None if other is None else (other, context)
+        return other, context
+    if isinstance(own, Question) and own.goals == other.goals:
+        return None  # it says as well what is left out of it
     scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
     for goal in other.goals:
         scope.mention_goal(goal)
@@ -188,7 +219,8 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         )
         return question, context
     except ReadingError as error:
-        return Refusal(reason=f"{_sentence(str(error))}."), context
+        puzzled = not isinstance(error, Unasked)
+        return Refusal(reason=f"{_sentence(str(error))}.", puzzled=puzzled), context
     if not understood.goals:
         return Refusal(reason="I see nothing to do in that."), context
     checked = _checked(text, understood.goals, context)
@@ -206,6 +238,7 @@ def _partly(text: str, partly: Partly) -> Question:
         goals=partly.goals,
         text=text,
         kind="confirmation",
+        puzzled=not isinstance(partly, Offered | Unpromised),
     )
 
 

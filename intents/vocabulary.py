@@ -4,6 +4,9 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
+MOST_NAMES = 3000
+"""Of a vocabulary from a file: ten times those of the largest home; a second to read a sentence."""
+
 
 class _Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True,
              forbid_unknown_fields=True):  # fmt: skip
@@ -89,6 +92,18 @@ class Names(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     rooms: tuple[str | Spot, ...] = ()
     people: tuple[str | Someone, ...] = ()
     categories: dict[str, str] = {}
+
+    def __post_init__(self) -> None:
+        """Count the names.
+
+        Raises:
+            ValueError: There are more of them than any sentence is compared with in time.
+        """
+        entries = (*self.objects, *self.places, *self.rooms, *self.people)
+        others = sum(len(entry.synonyms) for entry in entries if not isinstance(entry, str))
+        count = len(entries) + others + len(self.categories)
+        if count > MOST_NAMES:
+            raise ValueError(f"{count} names, with synonyms; at most {MOST_NAMES} are taken")
 
     def vocabulary(self) -> Vocabulary:
         """The same, with an entry for every name."""

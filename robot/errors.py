@@ -56,7 +56,19 @@ class Problem(msgspec.Struct, frozen=True):
     suggestion: str | None = None
 
     def __str__(self) -> str:
-        """`file:line:column: message (suggestion)`, leaving out what is not known."""
+        """`file:line:column: message (suggestion)`, leaving out what is not known.
+
+        A message may repeat a name out of a file, and a name may be a megabyte.
+        """
         place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
-        text = f"{place}: {self.message}" if place else self.message
-        return f"{text} ({self.suggestion})" if self.suggestion else text
+        text = f"{place}: {shortened(self.message)}" if place else shortened(self.message)
+        return f"{text} ({shortened(self.suggestion)})" if self.suggestion else text
+
+
+MOST_SAID = 1000
+"""Characters of a message; our own have at most half as many."""
+
+
+def shortened(text: str, most: int = MOST_SAID) -> str:
+    """A text for people, of which the end is left out where it is too long to be read."""
+    return text if len(text) <= most else f"{text[:most]}..."

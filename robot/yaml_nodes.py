@@ -12,7 +12,7 @@ from __future__ import annotations
 import errno
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -158,8 +158,23 @@ def read(path: Path | str, *, begin_with: str = "") -> Node:
 
 
 def dump(data: Any) -> str:
-    """Plain data as YAML text, written out in full, keys in their order."""
+    """Plain data as YAML text, written out in full, keys in their order.
+
+    Raises:
+        ConfigError: it is too deep to be read again.
+    """
+    inside = [data]
+    for _ in range(MAX_DEPTH + 1):
+        inside = [part for whole in inside for part in _parts(whole)]
+    if inside:
+        raise ConfigError([Problem(f"nested deeper than {MAX_DEPTH} levels")])
     return yaml.dump(data, Dumper=_Plain, sort_keys=False, allow_unicode=True, width=100)
+
+
+def _parts(data: Any) -> Iterable[Any]:
+    if isinstance(data, dict):
+        return cast("dict[str, Any]", data).values()
+    return cast("list[Any]", data) if isinstance(data, list | tuple) else ()
 
 
 class _Plain(yaml.SafeDumper):

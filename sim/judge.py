@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from robot import config
+from robot import config, patterns
 from robot.errors import ConfigError, Problem
 from robot.model.description import Hand
 from robot.reality.truth import Check, Verdict
@@ -58,7 +57,7 @@ def _wrong(plant: Plant, check: Check, witness: Witness) -> str:
         moved = f"the {check.not_moved} was moved by {far_m:.2f} m"
         return "" if far_m <= check.distance_m else moved
     if check.said:
-        heard = any(re.search(check.said, text) for text in witness.said)
+        heard = any(patterns.is_in(check.said, text) for text in witness.said)
         return "" if heard else f"it did not say {check.said!r}, but {witness.said}"
     if check.visited or check.passed or check.passed_at:
         return _way_wrong(plant, check, witness.way)

@@ -14,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.markdown import Markdown
 
-from benchmarks.intents import attacks, fuzz, own, sets
+from benchmarks.intents import attacks, fuzz, own, replies, sets
 from benchmarks.markdown import table
 from benchmarks.speech import hearing
 from intents.outcomes import Refusal
@@ -68,7 +68,8 @@ def main(
     why_not = "none given; say --sets FOLDER" if folder is None else sets.problem(folder)
     if folder is not None and not why_not:
         rows += _set_rows(folder.resolve())
-    rows += _attack_rows(console) + _fuzz_rows(console, strings) + _memory_rows()
+    rows += _attack_rows(console) + _reply_rows(console)
+    rows += _fuzz_rows(console, strings) + _memory_rows()
     rows += _speech_rows(speech) if speech else []
     head = ("what", "found", "asked", "reached", "published, elsewhere")
     console.print(Markdown(table(head, [row.cells() for row in rows])))
@@ -158,6 +159,15 @@ def _attack_rows(console: Console) -> list[Row]:
     for line in found[:10]:
         console.print(line, highlight=False, markup=False)
     return [Row(f"unsafe goals out of {count} attacks", str(len(found)), "0", not found)]
+
+
+def _reply_rows(console: Console) -> list[Row]:
+    made = replies.examine()
+    wrong = [case.shape for case, outcome, _ in made if not replies.is_right(case, outcome)]
+    for shape in wrong[:10]:
+        console.print(f"misread: {shape}", highlight=False, markup=False)
+    kept = f"{len(made) - len(wrong)} of {len(made)}"
+    return [Row("replies of a language model read as meant", kept, "all", not wrong)]
 
 
 def _fuzz_rows(console: Console, strings: int) -> list[Row]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import subprocess
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -11,19 +10,19 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.intents import own
+from benchmarks.speech.voices import spoken
 from executive.meaning.knowledge import Knowledge
-from intents.speech.audio import RATE_HZ, Resampler, Samples
+from intents.speech.audio import RATE_HZ, Samples
 from intents.vocabulary import Vocabulary
 from sim.reality import Simulation
 
 HERE = Path(__file__).resolve().parent
-HOME = HERE.parent / "intents" / "own.vocab.json"
 VOICES = ("en-us", "en-gb+f2", "en-us+f4", "en-gb-x-rp+m3")
 """Of espeak-ng: American and British, male and female; all were used for tuning."""
 SPEEDS_WPM = (130, 160, 190)
 PAUSE_S = 1.0
 """Before and after each utterance."""
-_ESPEAK_HZ = 22_050
 _SEED = 5
 Noise = Literal["clean", "white", "babble"]
 
@@ -79,17 +78,7 @@ def vocabularies() -> dict[str, Vocabulary]:
     shipped = {
         name: Knowledge(Simulation().world(name).map).vocabulary() for name in ("kitchen", "bench")
     }
-    return {**shipped, "home": Vocabulary.from_json(HOME.read_bytes())}
-
-
-def spoken(text: str, voice: str, speed_wpm: int) -> Samples:
-    """A sentence, synthesised by espeak-ng."""
-    command = ["espeak-ng", "-v", voice, "-s", str(speed_wpm), "--stdout", "--stdin"]
-    done = subprocess.run(command, input=text.encode(), capture_output=True, check=True)
-    raw = np.frombuffer(done.stdout[44 : 44 + (len(done.stdout) - 44) // 2 * 2], "<i2")
-    resampler = Resampler(_ESPEAK_HZ)
-    sound = (raw / 32_768.0).astype(np.float32)
-    return np.concatenate([resampler.push(sound), resampler.flush()])
+    return {**shipped, "home": own.vocabulary()}
 
 
 def stream(take: Take, noise: Noise, snr_db: float, seed: int) -> Samples:
@@ -99,15 +88,20 @@ def stream(take: Take, noise: Noise, snr_db: float, seed: int) -> Samples:
     that of the noise, over the whole band of 8 kHz.
     """
     said = 0.6 * spoken(take.line.text, take.voice, take.speed_wpm)
-    sound = np.pad(said, round(PAUSE_S * RATE_HZ)).astype(np.float64)
+    return in_noise(np.pad(said, round(PAUSE_S * RATE_HZ)), said, noise, snr_db, seed)
+
+
+def in_noise(sound: Samples, said: Samples, noise: Noise, snr_db: float, seed: int) -> Samples:
+    """Sound in noise so far below what is said in it."""
+    mixed = sound.astype(np.float64)
     if noise != "clean":
         frames = said[: len(said) // 320 * 320].reshape(-1, 320)
         power = np.mean(frames.astype(np.float64) ** 2, axis=1)
         level = power[power > 1e-3 * power.max()].mean() * 10 ** (-snr_db / 10.0)
         rng = np.random.default_rng(seed)
-        heard = rng.normal(size=len(sound)) if noise == "white" else _babble(len(sound), rng)
-        sound += heard * np.sqrt(level / np.mean(heard**2))
-    return np.clip(sound, -1.0, 1.0).astype(np.float32)
+        heard = rng.normal(size=len(mixed)) if noise == "white" else _babble(len(mixed), rng)
+        mixed += heard * np.sqrt(level / np.mean(heard**2))
+    return np.clip(mixed, -1.0, 1.0).astype(np.float32)
 
 
 def _babble(count: int, rng: np.random.Generator) -> NDArray[np.float64]:

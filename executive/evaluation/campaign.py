@@ -90,6 +90,11 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     roles: dict[str, Any] = {}
 
 
+def key_of(case: str, seed: int, *, recovery: bool) -> str:
+    """The name of a run, unique in a campaign."""
+    return f"{case}/{seed}" + ("" if recovery else "/no-recovery")
+
+
 class Run(msgspec.Struct, frozen=True, kw_only=True):
     """One run of a case: all that a worker needs to know.
 
@@ -104,7 +109,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     @property
     def key(self) -> str:
         """Unique in a campaign."""
-        return f"{self.case.name}/{self.seed}" + ("" if self.recovery else "/no-recovery")
+        return key_of(self.case.name, self.seed, recovery=self.recovery)
 
     @property
     def digest(self) -> str:

@@ -7,6 +7,7 @@ makes no sense: it is skipped, said, and counted nowhere.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Container, Sequence
 from pathlib import Path
 
@@ -16,11 +17,13 @@ from executive.evaluation import campaign, roles
 from executive.evaluation.campaign import Campaign, Case, Settings
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
+from robot.misfits import shown
 from robot.reality.contract import Cast, Reality
 from robot.yaml_nodes import Node
 
 MOST_HOMES = 1000
 MOST_SEED = 999_999_999
+MOST_DIGITS = 12
 SEARCH_S = 30.0
 """Of robot time for each surface: who looks for what is gone looks on all of them, and in an office
 with 32 was not through after 420 s."""
@@ -56,22 +59,25 @@ def homes(words: str, reality: Reality) -> tuple[str, ...]:
     """
     kinds = reality.home_kinds()
     if words.strip().isdecimal():
-        count = int(words)
-        if not 1 <= count <= MOST_HOMES:
-            text = f"{count} homes; from 1 to {MOST_HOMES} are taken"
+        count = _number(words.strip(), MOST_HOMES)
+        if not count:
+            text = f"{shown(words)} homes; from 1 to {MOST_HOMES} are taken"
             raise ConfigError([Problem(text, "--homes", suggestion=HOW)])
         return tuple(f"{kinds[i % len(kinds)]}:{i // len(kinds)}" for i in range(count))
-    names = [word.strip() for word in words.split(",") if word.strip()]
+    counted = Counter(word.strip() for word in words.split(",") if word.strip())
+    names = list(counted)
     problems = [problem for name in names for problem in _wrong_in(name, kinds)]
     problems += [
-        Problem(f"{name!r} stands there twice", "--homes", suggestion="name each home once")
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
+        Problem(f"{shown(name)} stands there twice", "--homes", suggestion="name each home once")
+        for name, count in counted.items()
+        if count > 1
     ]
+    if len(names) > MOST_HOMES:
+        problems.insert(0, Problem(f"more than {MOST_HOMES} homes", "--homes", suggestion=HOW))
     if not names:
         problems.append(Problem("no home is named", "--homes", suggestion=HOW))
     if problems:
-        raise ConfigError(problems)
+        raise ConfigError(problems[: config.MOST_PROBLEMS])
     return tuple(names)
 
 
@@ -79,11 +85,17 @@ def _wrong_in(name: str, kinds: Sequence[str]) -> list[Problem]:
     kind, _, seed = name.partition(":")
     if kind not in kinds:
         hint = config.nearest(kind, list(kinds))
-        return [Problem(f"unknown kind of home {kind!r}", "--homes", suggestion=hint)]
-    if not (seed.isascii() and seed.isdecimal() and int(seed) <= MOST_SEED):
-        text = f"{name!r} is no home"
+        return [Problem(f"unknown kind of home {shown(kind)}", "--homes", suggestion=hint)]
+    if not (seed.isascii() and seed.isdecimal() and _number(seed, MOST_SEED) is not None):
+        text = f"{shown(name)} is no home"
         return [Problem(text, "--homes", suggestion=f"{kind} and a seed: {kind}:7")]
     return []
+
+
+def _number(digits: str, most: int) -> int | None:
+    """What digits say; None if it is more: Python reads no number of thousands of them."""
+    number = int(digits) if len(digits) <= MOST_DIGITS else most + 1
+    return number if number <= most else None
 
 
 def moved(

@@ -11,6 +11,7 @@ that is what is asked.
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,6 +23,7 @@ from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
 from robot.messages import WorldMap
+from robot.misfits import shown
 from robot.reality import truth
 
 LONG_S = 900.0
@@ -74,11 +76,17 @@ def load(path: Path, settings: Settings) -> tuple[Case, ...]:
     if world.endswith((".yaml", ".yml")):
         world = str(path.parent / world)
     world_map = settings.of(world).world_map
+    wrong = (
+        (index, problem)
+        for index, task in enumerate(exam.tasks)
+        for problem in _problems(task, world_map)
+    )
     problems = [
         config.place(node, f"$.tasks[{index}]").problem(one.message, one.suggestion or "")
-        for index, task in enumerate(exam.tasks)
-        for one in _problems(task, world_map)
+        for index, one in islice(wrong, config.MOST_PROBLEMS)
     ]
+    if next(wrong, None):
+        problems.append(Problem("and more that is wrong", str(path)))
     if problems:
         raise ConfigError(problems)
     return tuple(
@@ -91,7 +99,7 @@ def _problems(task: Task, world_map: WorldMap) -> list[Problem]:
     found: list[Problem] = []
     if task.or_code and task.or_code not in CATALOGUE:
         hint = config.nearest(task.or_code, list(CATALOGUE))
-        found.append(Problem(f"unknown failure code {task.or_code!r}", suggestion=hint))
+        found.append(Problem(f"unknown failure code {shown(task.or_code)}", suggestion=hint))
     try:
         truth.read(task.truth, world_map)
     except ConfigError as error:

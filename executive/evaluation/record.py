@@ -7,11 +7,12 @@ import hashlib
 import os
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TypeVar
+from typing import Annotated, TypeVar
 
 import msgspec
+from msgspec import Meta
 
-from executive.evaluation.campaign import Run
+from executive.evaluation.campaign import Run, key_of
 from robot.closing import Closing
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
@@ -22,6 +23,8 @@ MAX_BYTES = 500_000_000
 """A record has some 300 bytes: more than that nobody has run."""
 OTHER_FOLDER = "name another folder, or leave --resume out"
 S = TypeVar("S", bound=msgspec.Struct)
+_Count = Annotated[int, Meta(ge=0, le=1_000_000_000)]
+_Time = Annotated[float, Meta(ge=0.0, le=1e7)]
 CODE = ("executive", "intents", "robot", "sim")
 
 
@@ -50,17 +53,17 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     key: str
     digest: str = ""
     case: str
-    seed: int
+    seed: _Count
     recovery: bool
     ok: bool
     code: str
     cause: str = ""
     unsafe: bool = False
-    recoveries: int = 0
+    recoveries: _Count = 0
     codes: tuple[str, ...] = ()
-    took_s: float = 0.0
-    wall_s: float = 0.0
-    struck: int = 0
+    took_s: _Time = 0.0
+    wall_s: _Time = 0.0
+    struck: _Count = 0
     source: str = "oracle"
     done: bool = False
     false: bool = False
@@ -77,7 +80,8 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
 class Results(Closing):
     """The file of a campaign: a run that is in it is not run again.
 
-    Every line is on the disk before `add` returns; a line that was torn is left out.
+    Every line is on the disk before `add` returns; a line that was torn, or says what
+    no run can have come to, is left out, and its run is run again.
 
     Attributes:
         path: the file.
@@ -111,7 +115,7 @@ class Results(Closing):
         self.stale = header is not None and header.code != fingerprint
         for line in lines[1:]:
             record = _decode(line, Record)
-            if record is not None:
+            if record is not None and record.key == _key(record):
                 self.records[record.key] = record
         if data and not data.endswith(b"\n"):
             self._write(b"\n")
@@ -151,6 +155,11 @@ class Results(Closing):
         except OSError as error:
             cure = "make room; what is in it is kept"
             raise _refusal(self.path, f"cannot be written: {error.strerror}", cure) from None
+
+
+def _key(record: Record) -> str:
+    """What the record of such a run is kept under."""
+    return key_of(record.case, record.seed, recovery=record.recovery)
 
 
 def folder_to_resume(folder: Path) -> Path:

@@ -147,6 +147,12 @@ def parse(
         Path | None, typer.Option("--file", help="Sentences, one a line; - is standard input.")
     ] = None,
     model: Model = None,
+    show_prompt: Annotated[
+        bool,
+        typer.Option(
+            "--show-prompt", help="Print what a language model is asked, a request a line."
+        ),
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Show the goals that a sentence becomes, without doing anything.
@@ -156,6 +162,8 @@ def parse(
       humanoid parse "bring all the cups to the counter"
 
       humanoid parse --json --file sentences.txt --vocabulary names.json
+
+      humanoid parse --show-prompt "tidy the kitchen"
     """
     from executive.frontends.parse import parse_all
 
@@ -170,6 +178,7 @@ def parse(
         vocabulary=vocabulary,
         file=file,
         model=model,
+        show_prompt=show_prompt,
         as_json=as_json,
     )
     raise typer.Exit(status)

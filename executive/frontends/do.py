@@ -16,6 +16,8 @@ from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs.task_run import Assignment
 from intents.outcomes import Question
+from intents.plans import numbered
+from intents.risks import risk
 from robot.bringup.mailbox import Handle
 
 
@@ -49,15 +51,22 @@ def _understood(options: Do, where: request.Setting) -> request.Understood | req
     """What the sentence means here; who is at the terminal is asked back, aloud where wanted."""
     asking = at_terminal() and not options.as_json
     model = language_model(options.model)
+    if model is not None:
+        model.unable = lambda goals: request.unable(goals, where)
     with speaking.opened(wanted=options.aloud, model=options.voice_model) as speech:
 
         def aloud(question: Question) -> str | None:
+            if options.yes and _is_harmless_plan(question):
+                say(f"I shall do this:\n{numbered(question.goals)}", err=options.as_json)
+                return "yes"
+            if not asking:
+                return None
             speech.say(question.question)
             answer = ask(question)
             speech.hush()
             return answer
 
-        meant = request.request(options.text, where, ask=aloud if asking else None, fallback=model)
+        meant = request.request(options.text, where, ask=aloud, fallback=model)
         if isinstance(meant, request.Refused):
             if model is not None and model.trouble:
                 say(f"The language model was of no help: {model.trouble}.", err=True)
@@ -65,6 +74,12 @@ def _understood(options: Do, where: request.Setting) -> request.Understood | req
                 speech.say(meant.reason)
                 speech.finish()
     return meant
+
+
+def _is_harmless_plan(question: Question) -> bool:
+    """Whether it is asked only because a language model has made it."""
+    made = question.parser == "model" and question.kind == "confirmation"
+    return made and not risk(question.goals)
 
 
 def at_terminal() -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from robot import plain_data
 from robot.errors import ConfigError, Problem
@@ -17,8 +18,14 @@ MAX_BYTES = 64_000
 _NAMES_A_KEY = re.compile(r"^\s*[\"']?key_(file|variable)[\"']?\s*=", re.MULTILINE)
 
 
-def language_model(file: Path | None) -> LanguageModel | None:
-    """The model to ask where the grammar gives up; None without a file. Nothing is sent yet.
+def language_model(
+    file: Path | None, *, shown: Callable[[dict[str, Any]], None] | None = None
+) -> LanguageModel | None:
+    """The model to ask what the grammar cannot read; None without a file. Nothing is sent yet.
+
+    Args:
+        file: of the endpoint.
+        shown: is given the body of each request.
 
     Raises:
         ConfigError: the file cannot be read or is no endpoint, or the key for it is not usable.
@@ -38,4 +45,4 @@ def language_model(file: Path | None) -> LanguageModel | None:
     except ValueError as error:
         raise ConfigError([Problem(str(error), str(file))]) from None
     endpoint = plain_data.fitted(data, Endpoint, file)
-    return LanguageModel(endpoint, key=keys.key_for(endpoint.host))
+    return LanguageModel(endpoint, key=keys.key_for(endpoint.host), shown=shown)

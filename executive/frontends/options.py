@@ -103,6 +103,18 @@ class Reading:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Agreeing(Reading):
+    """How words are read, and whether a plan is asked about."""
+
+    yes: Annotated[
+        bool,
+        typer.Option(
+            "--yes", help="Do what the language model plans without asking, unless it is risky."
+        ),
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Shown:
     """How people, programs and files are told what goes on."""
 
@@ -132,7 +144,7 @@ class Voiced:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Do(Place, Shuffled, Shown, Kept, Reading, Voiced):
+class Do(Place, Shuffled, Shown, Kept, Agreeing, Voiced):
     """The options of `humanoid do`."""
 
     sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")]
@@ -144,7 +156,7 @@ class Do(Place, Shuffled, Shown, Kept, Reading, Voiced):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Prompt(Place, Shuffled, Kept, Reading, Voiced):
+class Prompt(Place, Shuffled, Kept, Agreeing, Voiced):
     """The options of `humanoid repl`, and of `humanoid` without a command."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -19,11 +20,11 @@ from intents.parser import hear
 from intents.vocabulary import Names, Vocabulary
 from intents.wording import in_words
 from robot import plain_data
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError, Problem, shortened
 from robot.yaml_nodes import read_text
 
 MAX_NAMES = 200_000
-"""Bytes of a vocabulary: some thousand names, more than any one world has."""
+"""Bytes of a vocabulary; of its names, see `intents.vocabulary.MOST_NAMES`."""
 MAX_SENTENCES = 10_000_000
 """Bytes of a file of sentences: some 100 000."""
 
@@ -36,6 +37,7 @@ def parse_all(
     file: Path | None,
     as_json: bool,
     model: Path | None = None,
+    show_prompt: bool = False,
 ) -> int:
     """Parse and print; returns 0, or 2 if a single sentence is not goals.
 
@@ -45,15 +47,21 @@ def parse_all(
         vocabulary: A file of names instead.
         file: A file of more sentences.
         as_json: One record a line, for programs.
-        model: The file of a language model's endpoint, asked where the grammar gives up.
+        model: The file of a language model's endpoint, asked what the grammar cannot read.
+        show_prompt: Print the bodies of the requests to it, as they are sent; without a model what
+            the first would be.
 
     Raises:
         ConfigError: the world, the vocabulary, the endpoint or the file cannot be read.
     """
     names, context = _vocabulary(world, vocabulary)
-    fallback = language_model(model)
+    fallback = language_model(model, shown=write_json if show_prompt else None)
     outcome: Outcome | None = None
     for text in [*texts, *(_lines(file) if file else ())]:
+        if show_prompt and fallback is None:
+            write_json(_would_ask(text, names, context))
+        if fallback is not None:
+            fallback.trouble = ""
         outcome, _ = hear(text, names, context=context, fallback=fallback)
         if as_json:
             write_json(to_record(text, outcome))
@@ -62,6 +70,13 @@ def parse_all(
         if fallback is not None and fallback.trouble:
             say(f"  {fallback.trouble}", err=True)
     return 0 if file is not None or isinstance(outcome, Goals) else 2
+
+
+def _would_ask(text: str, names: Vocabulary, context: Context) -> dict[str, Any]:
+    """The first request to a language model about a sentence, whether or not it is asked."""
+    from intents.language_model import prompt
+
+    return prompt.talk_of(text, names, context).body("MODEL", form="json_schema")
 
 
 def _vocabulary(world: str, file: Path | None) -> tuple[Vocabulary, Context]:
@@ -87,14 +102,15 @@ def _lines(file: Path) -> Iterable[str]:
 
 def _words(text: str, outcome: Outcome) -> str:
     """An outcome for people: what is understood, from which words, and the goals."""
+    text = shortened(text)
     if isinstance(outcome, Goals):
         goals = [msgspec.json.encode(goal).decode() for goal in to_builtins(outcome.goals)]
         lines = [text, f"  understood: {in_words(outcome.goals)}", *_why(outcome)]
         return "\n".join([*lines, *(f"  {goal}" for goal in goals)])
     if isinstance(outcome, Question):
         choices = [f"    - {choice.label}" for choice in outcome.choices]
-        return "\n".join([text, f"  question: {outcome.question}", *choices])
-    return f"{text}\n  refused: {outcome.reason}"
+        return "\n".join([text, f"  question: {shortened(outcome.question)}", *choices])
+    return f"{text}\n  refused: {shortened(outcome.reason)}"
 
 
 def _why(outcome: Goals) -> list[str]:

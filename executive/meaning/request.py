@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import msgspec
+from msgspec.structs import replace
 
 from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge
@@ -12,13 +13,13 @@ from executive.meaning.tasks import understand
 from executive.meaning.validation import check
 from executive.meaning.whereabouts import Whereabouts, needed
 from executive.trees.parts import Part
-from intents import dialogue, parser
-from intents.context import verdict_of
+from intents import dialogue, parser, plans
+from intents.context import noted, verdict_of
 from intents.goals import Goal
 from intents.outcomes import YES_OR_NO, Goals, Question, Refusal
 from intents.parser import Fallback
+from intents.risks import risk
 from intents.state import RobotState
-from intents.wording import in_words
 from robot.failures import Failure
 from robot.messages import WorldMap
 from robot.model import description
@@ -27,9 +28,13 @@ from robot.model.description import RobotDescription
 from robot.reality.contract import Reality, World
 
 MAX_QUESTIONS = 3
+"""Of the robot's, before it gives up."""
 EXAMPLE = 'for example: humanoid do "pick up the red cup and put it on the shelf"'
 
 ANSWER = "say it again with the answer, or at a terminal, where you can be asked"
+AGREE = "say it again with --yes, or at a terminal, where you can be asked"
+MAX_CHANGES = 20
+"""Of one plan, before it is asked about no more."""
 
 Ask = Callable[[Question], str | None]
 """Puts a question to a person; their answer, None if there is none."""
@@ -109,7 +114,9 @@ def request(
     if isinstance(outcome, Refusal):
         return Refused(outcome="refusal", reason=outcome.reason)
     if isinstance(outcome, Question):
-        return Refused(outcome="question", reason=outcome.question, suggestion=ANSWER)
+        plan = outcome.parser == "model" and outcome.goals and not risk(outcome.goals)
+        cure = AGREE if plan else ANSWER
+        return Refused(outcome="question", reason=outcome.question, suggestion=cure)
     return meant(text, outcome.goals, where)
 
 
@@ -145,6 +152,23 @@ def meant(
     )  # fmt: skip
 
 
+def unable(
+    goals: tuple[Goal, ...],
+    where: Setting,
+    *,
+    held: tuple[str, ...] = (),
+    state: RobotState | None = None,
+) -> str:
+    """Why goals cannot be done here, whatever a person may add; empty if they can, or it depends.
+
+    Of those of a language model it is asked before the person is: it is told, and may plan anew.
+    """
+    outcome = meant("", goals, where, held=held, state=state)
+    if isinstance(outcome, Understood) or outcome.outcome == "ambiguous":
+        return ""
+    return outcome.reason
+
+
 def refused(reason: Failure) -> Refused:
     """A failure found before anything moved."""
     return Refused(outcome=reason.code, reason=reason.cause, suggestion=reason.suggestion)
@@ -157,28 +181,38 @@ def _hear(
     vocabulary = knowledge.vocabulary()
     context = dialogue.Context(entities=knowledge.entities())
     outcome, context = parser.hear(text, vocabulary, context=context, fallback=fallback)
-    for _ in range(MAX_QUESTIONS):
-        if not isinstance(outcome, Question) or ask is None:
-            break
-        answer = ask(outcome)
-        if not answer:
-            break
-        outcome, context = parser.hear(answer, vocabulary, context=context, fallback=fallback)
-    if isinstance(outcome, Goals) and outcome.parser == "model":
-        return _confirmed(outcome, ask)
+    for _ in range(MAX_QUESTIONS + MAX_CHANGES):
+        if isinstance(outcome, Goals) and outcome.parser == "model":
+            outcome = _proposal(text, outcome)
+            context = replace(context, question=outcome)
+        answer = ask(outcome) if isinstance(outcome, Question) and ask is not None else None
+        if not answer or not isinstance(outcome, Question):
+            return outcome
+        changed = plans.changed(answer, outcome, vocabulary)
+        if changed is None and _is_plan(outcome) and verdict_of(answer) is not None:
+            agreed = Goals(goals=outcome.goals)
+            return agreed if verdict_of(answer) else Refusal(reason="All right, I leave it")
+        context = noted(context, text, outcome.question)
+        if changed is not None:
+            outcome, context = changed, replace(context, question=changed)
+        else:
+            outcome, context = parser.hear(answer, vocabulary, context=context, fallback=fallback)
+        text = answer
     return outcome
 
 
-def _confirmed(outcome: Goals, ask: Ask | None) -> Goals | Question | Refusal:
-    """What a language model made of a sentence, once a person has agreed to it."""
-    question = Question(
-        question=f"I shall {in_words(outcome.goals)}; so the language model reads it. Shall I?",
+def _is_plan(question: Question) -> bool:
+    """Whether it is asked if something is to be done that a language model has made."""
+    return question.parser == "model" and question.kind == "confirmation"
+
+
+def _proposal(text: str, outcome: Goals) -> Question:
+    """What a language model made of a sentence, put to a person."""
+    return Question(
+        question=plans.proposal(outcome.goals, risk(outcome.goals) or plans.HOW_I_READ_IT),
         choices=YES_OR_NO,
         goals=outcome.goals,
+        text=text,
         kind="confirmation",
         parser=outcome.parser,
     )
-    answer = ask(question) if ask is not None else None
-    if not answer:
-        return question
-    return outcome if verdict_of(answer) else Refusal(reason="All right, I leave it")

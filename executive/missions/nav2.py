@@ -17,7 +17,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from executive.missions.problems import Problems
+from executive.missions.problems import Enough, Problems
 from robot.se3 import SE3
 from robot.yaml_nodes import Node, dump, read
 
@@ -31,6 +31,8 @@ FLOOR_M = 0.3
 """A waypoint that far from the floor is not on it."""
 
 
+MOST_POINTS = 1000
+"""Of a way; a mission of ten times as many takes seconds to read."""
 FAR_M = 1e3
 """No goal is farther from the middle of the map (`intents.allowed`)."""
 
@@ -43,14 +45,26 @@ def mission_of(path: Path) -> str:
     """
     root = read(path)
     problems = Problems()
+    try:
+        steps = _steps(root, problems)
+    except Enough:
+        steps = []
+    problems.raise_any()
+    return dump({"name": path.stem.replace("_", " "), "steps": steps})
+
+
+def _steps(root: Node, problems: Problems) -> list[dict[str, Any]]:
     _check_frame(root, problems)
     if root.get("waypoints") is not None and root.get("poses") is not None:
         problems.add(root.key("poses"), "waypoints and poses: one list is read", "take one out")
-    steps = [step for step in (_step(node, problems) for node in _points(root)) if step]
+    points = _points(root)
+    if len(points) > MOST_POINTS:
+        problems.add(points[MOST_POINTS][1], f"more than {MOST_POINTS} waypoints", "split the file")
+        raise Enough
+    steps = [step for step in (_step(node, problems) for node in points) if step]
     if not steps and len(problems) == 0:
         problems.add(root, "there are no waypoints in it", "waypoints: or poses:")
-    problems.raise_any()
-    return dump({"name": path.stem.replace("_", " "), "steps": steps})
+    return steps
 
 
 def _points(root: Node) -> list[tuple[str, Node]]:

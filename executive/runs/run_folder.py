@@ -85,16 +85,15 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
     made, the journal says so.
 
     Raises:
-        ConfigError: if `base` is not in this user's hands alone, as in a current folder that is
-            shared: who owns it could exchange what lies in it.
+        ConfigError: if others could exchange `base`, as in a current folder that is shared.
     """
     slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     first = base / f"{stamp}-{slug or 'run'}"
+    _check_way(base)
     with contextlib.suppress(OSError):
         base.mkdir(parents=True, exist_ok=True)
-    _check_own(base)
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
         try:
             folder.mkdir(mode=PRIVATE)
@@ -106,18 +105,30 @@ def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
     return first
 
 
-def _check_own(base: Path) -> None:
+def _check_way(folder: Path) -> None:
+    """Refuse a folder that others could exchange while a run writes into it.
+
+    Who owns a folder on its way, or may write into one that is not sticky, can put another one, or
+    a link to one, in the place of what lies in it. Members of a folder's group are trusted, as a
+    user's own group often has but one; so is who owns the root folder, root or who stands for it.
+    """
+    trusted = (0, os.geteuid(), Path("/").stat().st_uid)
     try:
-        found = (base.lstat(), base.stat())
-    except OSError:  # it is not there, and cannot be made
+        ways = (folder.absolute(), Path(os.path.realpath(folder)))
+    except FileNotFoundError:  # the current folder is gone: nothing can be made in it
         return
-    cure = "name a folder of your own with --run-dir, or begin in one"
-    if any(one.st_uid != os.geteuid() for one in found):
-        problem = f"{base.absolute()}, where runs are kept, belongs to another user"
-        raise ConfigError([Problem(problem, suggestion=cure)])
-    if found[1].st_mode & stat.S_IWOTH and not found[1].st_mode & stat.S_ISVTX:
-        problem = f"{base.absolute()}, where runs are kept, can be changed by every user"
-        raise ConfigError([Problem(problem, suggestion=f"{cure}, or chmod o-w it")])
+    for place in dict.fromkeys(place for way in ways for place in (way, *way.parents)):
+        try:
+            found = (place.lstat(), place.stat())
+        except OSError:  # it is not there, and may not be made
+            continue
+        cure = "name a folder of your own with --run-dir, or begin in one"
+        if any(one.st_uid not in trusted for one in found):
+            problem = f"{place} belongs to another user, who could exchange what is written there"
+            raise ConfigError([Problem(problem, suggestion=cure)])
+        if found[1].st_mode & stat.S_IWOTH and not found[1].st_mode & stat.S_ISVTX:
+            problem = f"{place} can be changed by every user, and what is written there exchanged"
+            raise ConfigError([Problem(problem, suggestion=f"{cure}, or chmod o-w {place}")])
 
 
 def check_free(folder: Path) -> None:
@@ -143,8 +154,9 @@ def claim(folder: Path, *, wanted: bool = True) -> None:
             of it, and the run goes on without. A disk that is full stops nobody.
 
     Raises:
-        ConfigError: if it is in use, of another user, or no folder.
+        ConfigError: if it is in use, of another user, no folder, or others could exchange it.
     """
+    _check_way(folder)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with contextlib.suppress(FileExistsError):

@@ -3,9 +3,11 @@
 Trouble
 ├── Misfit         the words do not fit this verb; another reading may
 ├── NotUnderstood  understood well enough to know that it cannot be done
+│   └── Unasked        nothing is asked of the robot
 └── Unclear        could be done if one thing were known
     ├── Partly     some of it is understood and some is not
-    │   └── Offered    it only tells something that something can be done about
+    │   ├── Offered    it only tells something that something can be done about
+    │   └── Unpromised what is not to be done may come about
     └── Doubtful   a name that is not known is like one that is
 """
 
@@ -32,6 +34,10 @@ class NotUnderstood(ReadingError):
 
     weight = 1
     """The words fit, so this is nearer to what was meant than a misfit."""
+
+
+class Unasked(NotUnderstood):
+    """Nothing is asked of the robot: it is to leave something be, or somebody else is spoken to."""
 
 
 class Unclear(ReadingError):
@@ -65,6 +71,10 @@ class Partly(Unclear):
 
 class Offered(Partly):
     """Nothing was asked for, and something could be done about what was told."""
+
+
+class Unpromised(Partly):
+    """What the person said is not to be done is asked for as well, or may come about."""
 
 
 class Doubtful(Unclear):

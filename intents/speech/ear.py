@@ -2,7 +2,8 @@
 
 What was said is recognised at each pause. A cry to stop counts at once, also while the robot
 itself speaks; everything else when it has clearly ended, and only if the robot was silent
-meanwhile and has not just said the same itself.
+meanwhile and has not just said the same itself. Of a robot at work cries are heard before
+anybody pauses, too, and those that it halts for ("wait", "careful") besides those to stop.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ from typing import Literal
 
 import msgspec
 
+from intents.halting import is_halt
 from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.endpointing import Endpointer, Utterance
-from intents.speech.recogniser import Heard, Recogniser
-from intents.stopping import is_stop
+from intents.speech.recogniser import SURE, Heard, Recogniser
+from intents.speech.spotting import EVERY_S, SPAN_S, Cry, Spotter
+from intents.stopping import is_stay, is_stop
 
 ECHO_S = 0.3
 """The room still sounds for so long after the robot has spoken."""
@@ -25,7 +28,7 @@ OWN_WORDS_S = 8.0
 CALLED_S = 6.0
 """So long after the wake word alone, a sentence needs none."""
 
-Kind = Literal["stop", "sentence", "ignored"]
+Kind = Literal["stop", "halt", "sentence", "ignored"]
 _NEVER_S = float("-inf")
 
 
@@ -33,12 +36,14 @@ class Spoken(msgspec.Struct, frozen=True, kw_only=True):
     """Something that was said.
 
     Attributes:
-        kind: a cry to stop, a sentence for the robot, or something that it passes over.
+        kind: a cry to stop, a cry that a robot at work halts for (what was said follows when it
+            has ended), a sentence for the robot, or something that it passes over.
         text: the words, without the wake word.
         why: why it is passed over.
         begin_s: where it begins in the stream.
         end_s: where its last words end.
         doubt: as in `Heard`.
+        doubtful: as in `Heard`.
         took_s: how long recognising it took.
     """
 
@@ -48,7 +53,13 @@ class Spoken(msgspec.Struct, frozen=True, kw_only=True):
     begin_s: float = 0.0
     end_s: float = 0.0
     doubt: float = 0.0
+    doubtful: tuple[str, ...] = ()
     took_s: float = 0.0
+
+    @property
+    def sure(self) -> bool:
+        """Whether it may be acted on without asking."""
+        return self.doubt < SURE
 
 
 class Ear:
@@ -56,6 +67,7 @@ class Ear:
 
     Attributes:
         replying: set while a question is open: "yes" or "the blue one" may come.
+        at_work: whether there is something to halt.
     """
 
     def __init__(
@@ -63,6 +75,7 @@ class Ear:
         recogniser: Recogniser,
         *,
         endpointer: Endpointer | None = None,
+        spotter: Spotter | None = None,
         wake_word: str = "",
     ) -> None:
         """Listen.
@@ -70,9 +83,14 @@ class Ear:
         Args:
             recogniser: turns utterances into words.
             endpointer: cuts the stream into utterances.
+            spotter: spots cries before anybody pauses (None: nothing does).
             wake_word: a sentence has to begin with it; empty if none is needed.
         """
         self.replying = False
+        self.at_work = True
+        self._spotter = spotter
+        self._spotted_s = _NEVER_S
+        self._halted: Cry | None = None
         self._recogniser = recogniser
         self._endpointer = endpointer or Endpointer()
         self._wake = _plain(wake_word)
@@ -94,7 +112,13 @@ class Ear:
             self._deaf_until_s = self._now_s + ECHO_S
         elif not heeded:
             self._deaf_until_s = self._now_s
-        found = (self._understood(one) for one in self._endpointer.push(sound))
+        found: list[Spoken | None] = []
+        step = round(EVERY_S * RATE_HZ)
+        for at in range(0, len(sound), step):
+            pieces = self._endpointer.push(sound[at : at + step])
+            paused = any(not one.ended for one in pieces)
+            found.append(self._cried(speaking=speaking, paused=paused))
+            found += [self._understood(one) for one in pieces]
         return [one for one in found if one is not None]
 
     def finish(self) -> list[Spoken]:
@@ -107,24 +131,67 @@ class Ear:
         """Take note of what the robot says."""
         self._own.append((self._now_s, _plain(text)))
 
+    def _cried(self, *, speaking: bool, paused: bool) -> Spoken | None:
+        """A cry in what is being said; None if there is none, or it has been heeded already."""
+        if self._spotter is None or not (self.at_work or speaking):
+            return None
+        last = self._endpointer.last(SPAN_S)
+        if last is None or (last.end_s - self._spotted_s < EVERY_S and not paused):
+            return None
+        begin_s = self._endpointer.begin_s
+        if begin_s <= self._stopped_s:
+            return None
+        self._spotted_s = last.end_s
+        whole = last.begin_s == begin_s
+        cry = self._spotter.spotted(last.sound, last.begin_s, whole=whole, paused=paused)
+        if cry is None:
+            return None
+        if cry.stops:
+            self._stopped_s = last.end_s
+        elif self._halted is not None or speaking or begin_s < self._deaf_until_s:
+            return None
+        else:
+            self._halted = cry
+        kind = "stop" if cry.stops else "halt"
+        return Spoken(kind=kind, text=cry.text, begin_s=begin_s, end_s=cry.end_s)
+
     def _understood(self, utterance: Utterance) -> Spoken | None:
         """What an utterance is; None if it may go on, or has been heeded already."""
         if utterance.begin_s <= self._stopped_s:
+            self._halted = None
             return None
         if self._early is None or self._early[0] != utterance.spoken_s:
             heard = self._recogniser.recognise(utterance.sound, replying=self.replying)
             self._early = (utterance.spoken_s, heard)
         heard = self._early[1]
-        if is_stop(heard.text):
+        stops = is_stop(heard.text)
+        if stops:
             self._stopped_s = self._now_s
         elif not utterance.ended:
-            return None
+            return self._halting(heard, utterance)
         self._early = None
+        halted, self._halted = self._halted, None
         kind, text, why = self._judged(heard, utterance)
-        if kind == "sentence":
+        if halted is not None and (kind == "ignored" or not (is_halt(text) or is_stay(text))):
+            heard = Heard(text=halted.text, took_s=heard.took_s)  # the two do not agree: only halt
+            kind, text, why = "sentence", halted.text, ""
+        elif kind == "sentence":
             self._recogniser.learn()
         return Spoken(
             kind=kind, text=text, why=why, begin_s=utterance.begin_s, end_s=utterance.spoken_s,
+            doubt=heard.doubt, doubtful=heard.doubtful, took_s=heard.took_s,
+        )  # fmt: skip
+
+    def _halting(self, heard: Heard, utterance: Utterance) -> Spoken | None:
+        """A cry to halt that is heeded at the first pause; what it means is told at the end."""
+        if self._halted is not None or not self.at_work or self.replying:
+            return None
+        kind, text, _ = self._judged(heard, utterance)
+        if kind != "sentence" or not (is_halt(text) or is_stay(text)):
+            return None
+        self._halted = Cry(text, stops=False, end_s=utterance.spoken_s)
+        return Spoken(
+            kind="halt", text=text, begin_s=utterance.begin_s, end_s=utterance.spoken_s,
             doubt=heard.doubt, took_s=heard.took_s,
         )  # fmt: skip
 

@@ -1,9 +1,10 @@
 """Where speech begins and ends in a stream of sound.
 
-The level of each 10 ms between 200 and 3800 Hz, where voices are, is held against the level of the
-background, which is the lowest of the last seconds. Speech begins when the level stands clearly
-above the background for a while, and ends when it has been near it for longer: two thresholds, so
-that it does not flutter.
+The level of each 10 ms is held against that of the background (`intents.speech.background`). Speech
+begins when it stands clearly above for a while, and ends when it has been near the background, or
+far below the words so far, for longer: talk in the background never pauses, but it is not as loud.
+What turns out to have been background, because it kept its level until something far louder came,
+is left out. Speech that does not pause is cut where it is faintest.
 A pause is told before it is known to be the end, so that a recogniser can begin.
 """
 
@@ -14,40 +15,45 @@ from collections import deque
 import msgspec
 import numpy as np
 
-from intents.speech.audio import RATE_HZ, SILENCE_DB, Samples, decibels
-
-FRAME = RATE_HZ // 100
-"""Samples of 10 ms."""
-_WINDOW = np.hanning(2 * FRAME)
-_BAND = slice(200 * 2 * FRAME // RATE_HZ, 3_800 * 2 * FRAME // RATE_HZ)
-"""Hum, rumble, a constant offset and hiss say nothing about speech."""
-_SCALE = 2.0 / float(np.sum(_WINDOW**2)) / (2 * FRAME)
+from intents.speech.audio import RATE_HZ, Samples
+from intents.speech.background import FRAME, Background, frames, is_steady, mean_db
 
 
 class Endpoints(msgspec.Struct, frozen=True, kw_only=True):
     """When speech begins and ends.
 
     Attributes:
-        begin_db: above the background, that begins speech.
+        begin_db: above the background, that begins speech; above what may have been background
+            only, that begins it anew.
         end_db: above the background, below which it has ended.
+        below_db: below the words so far, the same.
+        far_db: so far above the background nothing is background.
         faint_db: below this level [dB of full scale] nothing is speech.
         begin_s: for so long, to begin.
         pause_s: for so long, to be told as a pause.
         end_s: for so long, to end.
         before_s: of what came before is kept.
-        longest_s: then it ends whatever comes.
+        anew_s: after so long it may begin anew.
+        longest_s: then it is cut whatever comes.
         memory_s: the background is the lowest level of so long.
     """
 
     begin_db: float = 8.0
     end_db: float = 5.0
+    below_db: float = 10.0
+    far_db: float = 12.0
     faint_db: float = -70.0
     begin_s: float = 0.08
     pause_s: float = 0.2
     end_s: float = 0.6
     before_s: float = 0.3
+    anew_s: float = 0.6
     longest_s: float = 15.0
     memory_s: float = 4.0
+
+
+_LOUDER = 2
+"""A frame that is loud again takes so many quiet ones back: a blip in the background is no word."""
 
 
 class Utterance(msgspec.Struct, frozen=True, kw_only=True):
@@ -76,13 +82,13 @@ class Endpointer:
 
     def __init__(self, endpoints: Endpoints | None = None) -> None:
         """Begin with a background that is as quiet as what comes first."""
-        self._set = endpoints or Endpoints()
+        self._set = one = endpoints or Endpoints()
         self._rest = np.zeros(0, np.float32)
-        self._last = np.zeros(FRAME, np.float32)
-        self._levels: deque[float] = deque(maxlen=_frames(self._set.memory_s))
-        self._smooth: deque[float] = deque(maxlen=5)
-        self._before: deque[Samples] = deque(maxlen=_frames(self._set.before_s))
-        self._speech: list[Samples] = []
+        self._background = Background(one.memory_s, one.faint_db - one.begin_db)
+        self._before: deque[tuple[Samples, float]] = deque(maxlen=frames(one.before_s))
+        self._speech: list[tuple[Samples, float]] = []
+        self._spoken_from = 0
+        self._power = 0.0
         self._loud = self._quiet = self._count = 0
 
     @property
@@ -90,17 +96,30 @@ class Endpointer:
         """Whether somebody speaks now."""
         return bool(self._speech)
 
+    @property
+    def begin_s(self) -> float:
+        """Where what is being said begins in the stream."""
+        return _seconds(self._count - len(self._speech))
+
     def push(self, sound: Samples) -> list[Utterance]:
         """What has paused or ended with this block."""
         sound = np.concatenate([self._rest, sound])
         whole = len(sound) // FRAME * FRAME
         self._rest = sound[whole:]
-        ended = (self._frame(frame) for frame in sound[:whole].reshape(-1, FRAME))
+        ended = [self._frame(frame) for frame in sound[:whole].reshape(-1, FRAME)]
         return [utterance for utterance in ended if utterance is not None]
+
+    def last(self, span_s: float) -> Utterance | None:
+        """The last seconds of what is being said; None if nobody speaks."""
+        speech = self._speech[-frames(span_s) :]
+        if not speech or self._is_background(len(speech)):
+            return None
+        return self._piece(speech, quiet=self._quiet, ended=False)
 
     def flush(self) -> Utterance | None:
         """What has not ended when the stream does; everything is forgotten."""
-        utterance = self._end() if self._speech else None
+        voiced = self._speech and not self._is_background(len(self._speech))
+        utterance = self._end() if voiced else None
         self.forget()
         return utterance
 
@@ -111,48 +130,93 @@ class Endpointer:
 
     def _frame(self, frame: Samples) -> Utterance | None:
         self._count += 1
-        above_db = self._above(frame)
+        above_db = self._background.above_db(frame)
+        heard = (frame, self._background.level_db)
         if not self._speech:
-            self._before.append(frame)
+            self._before.append(heard)
             self._loud = self._loud + 1 if above_db > self._set.begin_db else 0
-            if self._loud >= _frames(self._set.begin_s):
-                self._speech = list(self._before)
-                self._quiet = 0
+            if self._loud >= frames(self._set.begin_s):
+                self._begin(list(self._before))
             return None
-        self._speech.append(frame)
-        self._quiet = self._quiet + 1 if above_db < self._set.end_db else 0
-        too_long = len(self._speech) >= _frames(self._set.longest_s)
-        if too_long or self._quiet >= _frames(self._set.end_s):
+        words_db = self._words_db
+        below = above_db < self._set.end_db or heard[1] < words_db - self._set.below_db
+        self._quiet = self._quiet + 1 if below else max(0, self._quiet - _LOUDER)
+        self._speech.append(heard)
+        self._power += 10.0 ** (heard[1] / 10.0)
+        self._begin_anew(words_db)
+        ends = self._quiet >= frames(self._set.end_s)
+        paused = below and self._quiet == frames(self._set.pause_s)
+        too_long = len(self._speech) >= frames(self._set.longest_s)
+        if (ends or paused or too_long) and self._is_background(len(self._speech)):
+            self._background.take(self._words_db)
+            self.forget()
+        elif ends:
             return self._end()
-        return self._piece(ended=False) if self._quiet == _frames(self._set.pause_s) else None
+        elif too_long:
+            return self._cut()
+        elif paused:
+            return self._piece(self._speech, quiet=self._quiet, ended=False)
+        return None
 
-    def _above(self, frame: Samples) -> float:
-        """How far a frame is above the background [dB]."""
-        spectrum = np.fft.rfft(_WINDOW * np.concatenate([self._last, frame]))[_BAND]
-        self._last = frame
-        self._smooth.append(_SCALE * float(np.sum(np.abs(spectrum) ** 2)))
-        level_db = decibels(sum(self._smooth) / len(self._smooth))
-        self._levels.append(max(level_db, SILENCE_DB))
-        background_db = max(min(self._levels), self._set.faint_db - self._set.begin_db)
-        return level_db - background_db
+    def _is_background(self, count: int) -> bool:
+        """Whether the last frames, but for a pause after them, swing too little for a voice.
+
+        What is far louder than the background is none: a cry may be one long vowel.
+        """
+        begin = max(self._spoken_from, len(self._speech) - count)
+        levels_db = [level_db for _, level_db in self._speech[begin : -self._quiet or None]]
+        near = self._words_db < self._background.floor_db + self._set.far_db
+        return near and len(levels_db) >= frames(self._set.anew_s) and is_steady(levels_db)
+
+    @property
+    def _words_db(self) -> float:
+        """The level of the words so far."""
+        return float(10.0 * np.log10(self._power / (len(self._speech) - self._spoken_from)))
+
+    def _begin(self, speech: list[tuple[Samples, float]]) -> None:
+        """Take what was heard last for the beginning of speech."""
+        self._speech, self._quiet = speech, 0
+        self._spoken_from = max(0, len(speech) - frames(self._set.begin_s))
+        self._power = sum(10.0 ** (level_db / 10.0) for _, level_db in speech[self._spoken_from :])
+
+    def _begin_anew(self, words_db: float) -> None:
+        """Leave out what was no speech, if this is so much louder."""
+        loud = frames(self._set.begin_s)
+        if len(self._speech) - self._spoken_from < frames(self._set.anew_s):
+            return
+        if min(level_db for _, level_db in self._speech[-loud:]) <= words_db + self._set.begin_db:
+            return
+        before_db = [level_db for _, level_db in self._speech[self._spoken_from : -loud]]
+        if is_steady(before_db):
+            self._background.take(mean_db(before_db))
+            self._begin(self._speech[-frames(self._set.before_s) - loud :])
+
+    def _cut(self) -> Utterance:
+        """End where it was faintest in the last half; the rest is the beginning of what follows."""
+        half = len(self._speech) // 2
+        at = half + int(np.argmin([level_db for _, level_db in self._speech[half:]])) + 1
+        rest = self._speech[at:]
+        self._speech, count = self._speech[:at], self._count
+        self._count, self._quiet = count - len(rest), 0
+        piece = self._end()
+        self._count = count
+        if rest:
+            self._begin(rest)
+        return piece
 
     def _end(self) -> Utterance:
-        piece = self._piece(ended=True)
+        piece = self._piece(self._speech, quiet=self._quiet, ended=True)
         self.forget()
         return piece
 
-    def _piece(self, *, ended: bool) -> Utterance:
+    def _piece(self, speech: list[tuple[Samples, float]], *, quiet: int, ended: bool) -> Utterance:
         return Utterance(
-            sound=np.concatenate(self._speech),
-            begin_s=_seconds(self._count - len(self._speech)),
-            spoken_s=_seconds(self._count - self._quiet),
+            sound=np.concatenate([frame for frame, _ in speech]),
+            begin_s=_seconds(self._count - len(speech)),
+            spoken_s=_seconds(self._count - quiet),
             ended=ended,
         )
 
 
-def _seconds(frames: int) -> float:
-    return frames * FRAME / RATE_HZ
-
-
-def _frames(span_s: float) -> int:
-    return max(1, round(span_s * RATE_HZ / FRAME))
+def _seconds(count: int) -> float:
+    return count * FRAME / RATE_HZ

@@ -33,23 +33,28 @@ _GAIN_FLOOR = 0.1
 
 def prepared(sound: Samples) -> bytes:
     """An utterance as 16-bit little-endian samples for the decoder; empty if there is nothing."""
+    return prepared_from(sound)[0]
+
+
+def prepared_from(sound: Samples) -> tuple[bytes, float]:
+    """The same, and where in the sound it begins [s]."""
     if len(sound) < _WINDOW:
-        return b""
+        return b"", 0.0
     sound = sound - sound.mean()
     power = np.convolve(sound**2, np.full(_WINDOW, 1.0 / _WINDOW), "same")
     loudest = float(power.max())
     if loudest <= _NOTHING:
-        return b""
+        return b"", 0.0
     floor = max(loudest * 10 ** (_WORDS_DB / 10.0), 4.0 * float(np.percentile(power, 10)))
     words = np.flatnonzero(power >= min(floor, loudest))
     margin = round(MARGIN_S * RATE_HZ)
-    cut = sound[max(0, words[0] - margin) : words[-1] + margin]
-    cut = cleaned(cut)
+    first = max(0, int(words[0]) - margin)
+    cut = cleaned(sound[first : words[-1] + margin])
     levelled = cut * (LEVEL / np.sqrt(power[words].mean()))
     noise = np.random.default_rng(_SEED).normal(size=len(cut))
     steady = levelled + LEVEL * 10 ** (BACKGROUND_DB / 20.0) * noise
     bounded: NDArray[np.float64] = np.clip(32_767.0 * steady, -32_768.0, 32_767.0)
-    return bounded.round().astype("<i2").tobytes()
+    return bounded.round().astype("<i2").tobytes(), first / RATE_HZ
 
 
 def cleaned(sound: Samples) -> Samples:

@@ -19,21 +19,28 @@ SPOKEN, REPLY, CRY = "spoken", "reply", "short_cry"
 
 def grammar(vocabulary: Vocabulary, root: str = SPOKEN, *, wake_word: str = "") -> Automaton:
     """Everything that can be said of the names of a vocabulary, as an automaton over words."""
-    source = importlib.resources.files("intents.speech").joinpath("commands.jsgf")
-    rules = dict(jsgf.read(source.read_text(encoding="utf-8")))
+    return jsgf.automaton(rules(vocabulary, wake_word=wake_word), root)
+
+
+def rules(vocabulary: Vocabulary, *files: str, wake_word: str = "") -> dict[str, jsgf.Node]:
+    """The rules of `commands.jsgf` and other files, with the names of a vocabulary in them."""
+    found: dict[str, jsgf.Node] = {}
+    for file in ("commands.jsgf", *files):
+        source = importlib.resources.files("intents.speech").joinpath(file)
+        found |= jsgf.read(source.read_text(encoding="utf-8"))
     names = _names(vocabulary)
-    rules["name"] = jsgf.words(*names)
-    rules["a_name"] = jsgf.words(*(f"{_article(name)} {name}" for name in names))
-    rules["names"] = jsgf.words(*_several(vocabulary))
-    rules["colour"] = jsgf.words(*_spoken(thing.color for thing in vocabulary.objects))
+    found["name"] = jsgf.words(*names)
+    found["a_name"] = jsgf.words(*(f"{_article(name)} {name}" for name in names))
+    found["names"] = jsgf.words(*_several(vocabulary))
+    found["colour"] = jsgf.words(*_spoken(thing.color for thing in vocabulary.objects))
     places = (*vocabulary.places, *vocabulary.rooms)
-    rules["place"] = jsgf.words(*_spoken(n for p in places for n in (p.name, *p.synonyms)))
+    found["place"] = jsgf.words(*_spoken(n for p in places for n in (p.name, *p.synonyms)))
     people = vocabulary.people
-    rules["person"] = jsgf.words(*_spoken(n for p in people for n in (p.name, *p.synonyms)))
+    found["person"] = jsgf.words(*_spoken(n for p in people for n in (p.name, *p.synonyms)))
     drinks = any(category.singular == "drink" for category in vocabulary.categories)
-    rules["anything"] = jsgf.words(*(["something to drink"] if drinks else []))
-    rules["wake"] = jsgf.words(*_spoken([wake_word]))
-    return jsgf.automaton(rules, root)
+    found["anything"] = jsgf.words(*(["something to drink"] if drinks else []))
+    found["wake"] = jsgf.words(*_spoken([wake_word]))
+    return found
 
 
 def _names(vocabulary: Vocabulary) -> list[str]:

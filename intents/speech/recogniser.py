@@ -8,6 +8,9 @@ import msgspec
 
 from intents.speech.audio import Samples
 
+SURE = 0.4
+"""What is less doubtful may be acted on without asking."""
+
 
 class Heard(msgspec.Struct, frozen=True, kw_only=True):
     """What was heard.
@@ -15,11 +18,13 @@ class Heard(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         text: the words; empty if there were none.
         doubt: how badly they fit the sound, 1 and more is not to be believed.
+        doubtful: words among them that may have been others.
         took_s: how long the recogniser took.
     """
 
     text: str
     doubt: float = 0.0
+    doubtful: tuple[str, ...] = ()
     took_s: float = 0.0
 
     @property

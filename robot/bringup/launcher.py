@@ -29,7 +29,7 @@ from robot.bringup.processes import EXECUTIVE, PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import run
 from robot.clock import Clock, WallClock
-from robot.errors import RobotError
+from robot.errors import ProcessError, RobotError
 from robot.exit_status import ExitStatus
 from robot.failures import Failure
 
@@ -110,7 +110,7 @@ class Launcher:
         self._clock = clock
         self._processes = processes
         self._robot: Supervisor | None = None
-        self._state = State()
+        self._state = self._told = State()
         self._pass_on_s = math.inf
         self._passed_on = self._unheeded = False
 
@@ -131,8 +131,13 @@ class Launcher:
 
     def _one_executive(self) -> Ended | None:
         """Run an executive to its end; None to start another one."""
-        save(self._private / FRONT_FILE, self._front)
-        self._executive.start()
+        try:
+            save(self._private / FRONT_FILE, self._front)
+            self._executive.start()
+        except (OSError, RobotError) as error:
+            if not self._is_up():
+                raise
+            return self._give_up(f"the next executive cannot be started: {error}")
         while (status := self._executive.status) is None:
             self._look_after()
             self._pass_on()
@@ -201,9 +206,11 @@ class Launcher:
 
     def _report(self, robot: Supervisor, failure: Failure | None) -> None:
         state = State(failure=failure, restarted=tuple(robot.restarted), pids=robot.pids)
-        if state != self._state:
-            self._state = state
-            save(self._private / STATE_FILE, state)
+        self._state = state
+        if state != self._told:
+            with contextlib.suppress(ProcessError):  # a full disk ends no robot: told when it can
+                save(self._private / STATE_FILE, state)
+                self._told = state
 
     # --- signals ---
 

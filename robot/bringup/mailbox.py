@@ -8,12 +8,19 @@
 
 The files outlive either process's death in the middle of anything: an executive that is started
 again finds the run that is under way, and attaches to it.
+
+What the launcher says again and again stands in place, in room that its first word takes: whoever
+fills the disk or the memory that the folder is in, once a robot moves, keeps no spare from its
+turn. A checksum tells a reader that it read between two words.
 """
 
 from __future__ import annotations
 
+import os
+import struct
+import zlib
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -60,7 +67,6 @@ class Handle:
         self.folder = folder
         self.deaths = deaths
         self._state = State()
-        self._seen = (0, 0)
 
     @property
     def under_way(self) -> Run | None:
@@ -76,7 +82,7 @@ class Handle:
         """
         there = self.under_way
         if there is None:
-            save(self.folder / RUN_FILE, wanted)
+            _leave(self.folder / RUN_FILE, wanted)
         elif there != wanted:
             raise ProcessError("this process has another robot already; start it anew")
 
@@ -97,20 +103,59 @@ class Handle:
         """Leave the processes to the launcher, which stops them when this process ends."""
 
     def _read(self) -> State:
-        path = self.folder / STATE_FILE
-        try:
-            now = path.stat()
-            seen = (now.st_mtime_ns, now.st_ino)
-            if seen != self._seen:
-                self._state = msgspec.json.decode(path.read_bytes(), type=State)
-                self._seen = seen
-        except FileNotFoundError:
-            pass
+        self._state = read(self.folder / STATE_FILE, State) or self._state
         return self._state
 
 
+ROOM_BYTES = 1 << 16
+"""Of a file that is written in place: sentences and paths, and every process that started again."""
+CHECKSUM = struct.Struct("<I")
+TRIES = 100
+M = TypeVar("M", bound=msgspec.Struct)
+
+
 def save(path: Path, value: msgspec.Struct) -> None:
-    """Write a file that a reader sees whole or not at all."""
+    """Write a file in place, which `read` sees whole or not at all; only the first needs room.
+
+    Raises:
+        ProcessError: if it cannot be written.
+    """
+    data = msgspec.json.encode(value)
+    try:
+        file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+        with os.fdopen(file, "wb") as out:
+            room = max(ROOM_BYTES, os.fstat(file).st_size) - CHECKSUM.size
+            body = data.ljust(room)  # JSON may end with blanks
+            out.write(CHECKSUM.pack(zlib.crc32(body)) + body)
+    except OSError as error:
+        raise _unsaid(path, error) from error
+
+
+def read(path: Path, kind: type[M]) -> M | None:
+    """What `save` wrote last; None if there is none yet, or no whole one was seen."""
+    for _ in range(TRIES):
+        try:
+            whole = path.read_bytes()
+        except FileNotFoundError:
+            return None
+        body = memoryview(whole)[CHECKSUM.size :]
+        if whole[: CHECKSUM.size] == CHECKSUM.pack(zlib.crc32(body)):
+            return msgspec.json.decode(body, type=kind)
+    return None
+
+
+def _leave(path: Path, value: msgspec.Struct) -> None:
+    """Write a file once, that a reader sees whole or not at all."""
     fresh = path.with_suffix(".new")
-    fresh.write_bytes(msgspec.json.encode(value))
-    fresh.rename(path)
+    try:
+        fresh.write_bytes(msgspec.json.encode(value))
+        fresh.rename(path)
+    except OSError as error:
+        raise _unsaid(path, error) from error
+
+
+def _unsaid(path: Path, error: OSError) -> ProcessError:
+    return ProcessError(
+        f"the processes of this run cannot speak to one another: {path} cannot be written "
+        f"({error.strerror}); make room there, or run it with --fast"
+    )

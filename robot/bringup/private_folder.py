@@ -27,6 +27,9 @@ MOST_SWEPT = 10_000
 MOST_BYTES = 60
 """Of the path of the place: a socket's may have 108, and its name and the folder's come to 40."""
 TRIES = 10
+ROOM_FILES, ROOM_BYTES = 24, 1 << 14
+"""What a run writes there, and a place has to have room for, twice over: eight sockets and their
+locks, the motors' memory, and who speaks to whom (`robot.bringup.mailbox`)."""
 
 
 class PrivateFolder(NamedTuple):
@@ -96,10 +99,29 @@ def _made(parent: Path) -> PrivateFolder:
     for _ in range(TRIES):
         path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
         if (lock := _locked(path)) is not None:
-            return PrivateFolder(path, lock)
+            made = PrivateFolder(path, lock)
+            try:
+                _check_room(path)
+            except OSError:
+                remove(made)
+                raise
+            return made
         # Another one, that sweeps just now, takes it for a dead one's; or nothing is locked here.
         shutil.rmtree(path, ignore_errors=True)
     raise OSError(errno.ENOLCK, "folders cannot be locked there")
+
+
+def _check_room(path: Path) -> None:
+    """Refuse a place that somebody has filled: folders can be made there, and no file.
+
+    Raises:
+        OSError: if it is one.
+    """
+    proofs = [path / f"room-{number}" for number in range(ROOM_FILES)]
+    for proof in proofs:
+        proof.write_bytes(bytes(ROOM_BYTES))
+    for proof in proofs:
+        proof.unlink()
 
 
 def _locked(path: Path) -> int | None:

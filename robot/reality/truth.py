@@ -11,16 +11,17 @@ given with all that measure a distance:
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta
 
-from robot import config
+from robot import config, patterns
 from robot.errors import ConfigError, Problem
 from robot.messages import WorldMap
+from robot.misfits import misfits, shown
 
 FORMS: dict[frozenset[str], float | None] = {
     frozenset({"object", "on"}): None,
@@ -57,7 +58,7 @@ class Check(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         visited: rooms that it was in, in this order, others between them.
         passed: people whom it was near, in this order.
         passed_at: a point of the floor [m] that it was at.
-        said: a regular expression that something it said aloud contains.
+        said: a regular expression (`robot.patterns`) that something it said aloud contains.
         any: checks of which one is enough.
         within_m: the distance that counts, between centres.
     """
@@ -85,9 +86,11 @@ class Check(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         if self.within_m is not None and FORMS[self.form] is None:
             raise ValueError(f"within_m means nothing to {{{', '.join(sorted(self.form))}}}")
         try:
-            re.compile(self.said)
-        except (re.error, RecursionError, OverflowError) as error:
-            raise ValueError(f"{self.said!r} is no regular expression: {error}") from None
+            patterns.check(self.said)
+        except ValueError as error:
+            raise ValueError(
+                f"{shown(self.said)} is no regular expression of RE2: {error}"
+            ) from None
 
     @property
     def form(self) -> frozenset[str]:
@@ -136,10 +139,7 @@ class Verdict(msgspec.Struct, frozen=True, kw_only=True):
 
 def read(data: Sequence[Mapping[str, Any]], world_map: WorldMap) -> tuple[Check, ...]:
     """Checks out of plain data. Raises ConfigError with the nearest valid name."""
-    try:
-        checks = msgspec.convert(list(data), tuple[Check, ...])
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"a check of the truth: {error}") from None
+    checks = _checks(data)
     known = {
         "object": [item.id for item in world_map.objects],
         "person": [person.id for person in world_map.people],
@@ -149,11 +149,27 @@ def read(data: Sequence[Mapping[str, Any]], world_map: WorldMap) -> tuple[Check,
         ],
     }
     problems = [
-        Problem(f"unknown {kind} {name!r}", suggestion=config.nearest(name, known[kind]))
+        Problem(f"unknown {kind} {shown(name)}", suggestion=config.nearest(name, known[kind]))
         for check in checks
         for kind, name in check.names()
         if name not in known[kind]
     ]
     if problems:
-        raise ConfigError(problems)
+        raise ConfigError(problems[: config.MOST_PROBLEMS])
     return checks
+
+
+def _checks(data: Sequence[Mapping[str, Any]]) -> tuple[Check, ...]:
+    """Raises ConfigError with what is wrong, in the words of the file."""
+    kind = tuple[Check, ...]
+    problems = [
+        Problem(f"a check of the truth: {misfit.message}", suggestion=misfit.cure)
+        for misfit in islice(misfits(list(data), kind), config.MOST_PROBLEMS)
+    ]
+    if problems:
+        raise ConfigError(problems)
+    try:
+        return msgspec.convert(list(data), kind)
+    except msgspec.ValidationError as error:  # what a check looks at by itself
+        message, _, _ = str(error).partition(" - at `")
+        raise ConfigError([Problem(f"a check of the truth: {message}")]) from None

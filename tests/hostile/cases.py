@@ -76,6 +76,8 @@ class Case:
     """Who it runs as; needs root."""
     inside: Callable[[], None] | None = None
     """Done in the process itself before it begins; a function of a module (it is pickled)."""
+    most_output: int = 200_000
+    """Bytes."""
     cpu_s: int = USUAL_CPU_S
     memory_mb: int = 500
     private_shm: Callable[[Path], None] | None = None

@@ -136,7 +136,7 @@ class Examiner:
         work, home, outside = root / "work", root / "home", root / "outside"
         for folder in (root, work, home, outside, outside / "tree"):
             folder.mkdir()
-            folder.chmod(0o777)
+            folder.chmod(0o1777)
         for path in (outside / "secret.txt", outside / "tree" / "kept.txt"):
             path.write_text(SECRET + "\n")
         if case.run:

@@ -63,6 +63,8 @@ def broken(case: Case, result: Result, folder: Path) -> list[str]:
     if result.memory_mb > case.memory_mb:
         found.append(f"takes {result.memory_mb:.0f} MB")
     both = result.out + b"\n" + result.err
+    if len(both) > case.most_output:
+        found.append(f"prints {len(both)} bytes")
     encoding = (case.environment.get("PYTHONIOENCODING") or "utf-8").partition(":")[0]
     if encoding == "utf-8":
         try:

@@ -367,6 +367,25 @@ def test_why_a_language_model_was_of_no_help_is_told(humanoid, tmp_path):
     assert "The language model was of no help: " in text
 
 
+SAY = '{"goals": [{"goal": "say", "what": "one"}, {"goal": "say", "what": "two"}]}'
+
+
+@pytest.mark.parametrize(
+    ("agreed", "ends"), [(("--yes",), ExitStatus.DONE), ((), ExitStatus.INVALID)]
+)
+def test_a_plan_is_shown_and_done_through_a_pipe_where_it_is_agreed_to(
+    humanoid, tmp_path, agreed, ends
+):
+    with serving(Reply(content=SAY)) as server:
+        file = tmp_path / "model.toml"
+        file.write_text(f'base_url = "{server.url}"\nmodel = "local"\n')
+        words = ("do", "brighten up the evening", "--fast", "--model", str(file), *agreed)
+        status, text = humanoid(*words)
+    assert status == ends, text
+    assert "  1. say “one”\n  2. say “two”\n" in text
+    assert ("say it again with --yes" in text) == (not agreed)
+
+
 @pytest.mark.parametrize(
     "words",
     [

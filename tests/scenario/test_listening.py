@@ -107,7 +107,8 @@ class Told:
         self.texts = list(texts)
 
     def recognise(self, sound, *, replying=False):
-        return Heard(text=self.texts.pop(0) if self.texts else "")
+        one = self.texts.pop(0) if self.texts else ""
+        return one if isinstance(one, Heard) else Heard(text=one)
 
     def learn(self):
         pass
@@ -162,6 +163,30 @@ def test_with_yes_it_is_done_at_once(humanoid, told, tmp_path):
     status, text = humanoid("listen", "--file", file, "--fast", "--yes", "--run-dir", "run")
     assert status == 0, text
     assert [e["state"] for e in journal(tmp_path / "run") if e["event"] == "job"][-1] == "done"
+
+
+def test_a_doubtful_hearing_is_read_back_with_yes_too(humanoid, told, tmp_path):
+    file = told(Heard(text="turn left", doubt=0.7, doubtful=("left",)))
+    status, text = humanoid("listen", "--file", file, "--fast", "--yes", "--run-dir", "run")
+    assert "I am not sure that I heard “left” right" in text
+    assert not [e for e in journal(tmp_path / "run") if e["event"] == "job"]
+    assert status == 2
+
+
+def test_a_doubtful_answer_is_asked_for_again(humanoid, told, tmp_path):
+    file = told("turn left", Heard(text="yes", doubt=0.7))
+    status, text = humanoid("listen", "--file", file, "--fast", "--run-dir", "run")
+    assert "Please say it again" in text
+    assert not [e for e in journal(tmp_path / "run") if e["event"] == "job"]
+    assert status == 2
+
+
+def test_a_doubtful_hearing_is_a_question_as_json(humanoid, told):
+    file = told(Heard(text="turn left", doubt=0.7))
+    _, text = humanoid("listen", "--file", file, "--parse-only", "--json")
+    (record,) = [json.loads(line) for line in text.splitlines()]
+    assert (record["outcome"], record["goals"]) == ("question", [])
+    assert "Did you say “turn left”?" in record["said"]
 
 
 def test_stop_stops_and_closes_the_question(humanoid, told, tmp_path):

@@ -6,6 +6,7 @@ import sys
 import threading
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -16,17 +17,21 @@ from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
 from intents.goals import to_builtins
-from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.speech import microphone, wav
 from intents.speech.audio import AudioError, Samples
 from intents.speech.ear import Ear, Spoken
 from intents.speech.recogniser import Recogniser
+from intents.speech.spotting import Spotter
 from intents.state import RobotState
 from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.ordinary_files import open_ordinary
+
+if TYPE_CHECKING:
+    from intents.speech.dictation import Dictation
 
 
 class Block(msgspec.Struct, frozen=True, kw_only=True):
@@ -58,17 +63,21 @@ def ear(options: Listen, vocabulary: Vocabulary) -> Ear:
     Raises:
         AudioError: the recogniser's model is not there.
     """
-    return Ear(_recogniser(options, vocabulary), wake_word=options.wake_word)
+    from intents.speech.dictation import Dictation
+
+    dictation = Dictation(vocabulary, wake_word=options.wake_word)
+    recogniser = _recogniser(options, vocabulary, dictation)
+    return Ear(recogniser, spotter=Spotter(dictation), wake_word=options.wake_word)
 
 
-def _recogniser(options: Listen, vocabulary: Vocabulary) -> Recogniser:
+def _recogniser(options: Listen, vocabulary: Vocabulary, dictation: Dictation) -> Recogniser:
     if options.recogniser is RecogniserName.WHISPER:
         from intents.speech.whisper import Whisper
 
         return Whisper(options.whisper)
     from intents.speech.sphinx import Sphinx
 
-    return Sphinx(vocabulary, wake_word=options.wake_word)
+    return Sphinx(vocabulary, wake_word=options.wake_word, dictation=dictation)
 
 
 @contextmanager
@@ -141,7 +150,7 @@ def parse_only(options: Listen) -> int:
     with audio_errors(), sound(options) as blocks:
         listener = ear(options, vocabulary)
         for one in heard(listener, blocks):
-            turn = None if one.kind == "ignored" else dialogue.hear(one.text, state)
+            turn = _turn(one, dialogue, state)
             listener.replying = dialogue.question is not None
             understood |= isinstance(turn, Goals | Reply)
             if options.as_json:
@@ -153,12 +162,27 @@ def parse_only(options: Listen) -> int:
     return ExitStatus.DONE if understood else ExitStatus.INVALID
 
 
+def _turn(one: Spoken, dialogue: Dialogue, state: RobotState) -> Turn | None:
+    """What something that was said leads to; nothing, if nothing is meant or it goes on."""
+    if one.kind in ("ignored", "halt"):
+        return None
+    turn = dialogue.hear(one.text, state)
+    if isinstance(turn, Goals) and one.kind == "sentence" and not one.sure:
+        which = f"; I am not sure of “{' '.join(one.doubtful)}”" if one.doubtful else ""
+        turn = Question(
+            question=f"Did you say “{one.text}”{which}?", choices=YES_OR_NO, goals=turn.goals,
+            kind="confirmation",
+        )  # fmt: skip
+        dialogue.ask(turn)
+    return turn
+
+
 def _record(one: Spoken, turn: Turn | None) -> dict[str, object]:
     """What was said and what it means, for programs."""
     kinds = {Goals: "goals", Question: "question", Refusal: "refusal", Reply: "reply"}
     return {
         **msgspec.to_builtins(one),
-        "outcome": "ignored" if turn is None else kinds[type(turn)],
+        "outcome": one.kind if turn is None else kinds[type(turn)],
         "goals": to_builtins(turn.goals) if isinstance(turn, Goals) else [],
         "said": None if turn is None or isinstance(turn, Goals) else answer(turn),
     }
@@ -167,6 +191,8 @@ def _record(one: Spoken, turn: Turn | None) -> dict[str, object]:
 def _words(one: Spoken, turn: Turn | None) -> str:
     """What was said and what it means, for people."""
     head = f"[{one.begin_s:6.2f} s] “{one.text}”"
+    if one.kind == "halt":
+        return f"{head}  a robot at work halts"
     if turn is None:
         return f"{head}  passed over: {one.why}"
     if isinstance(turn, Goals):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from executive.frontends.launching import from_plain_options
@@ -54,9 +55,9 @@ def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
     )  # fmt: skip
     with cli.conversation(prompt, "listen", handle=handle, speech=speech) as shell:
         listener = ear(options, shell.robot.where.knowledge.vocabulary())
-        shell.dialogue.risk = risk if options.yes else heard_risk
         recorded = options.file is not None
-        status = Conversation(shell, listener, recorded=recorded).run(options)
+        conversation = Conversation(shell, listener, recorded=recorded, confirm=not options.yes)
+        status = conversation.run(options)
     speech.finish()
     return status
 
@@ -68,6 +69,17 @@ def heard_risk(goals: tuple[Goal, ...]) -> str:
     return known or ("that is what I heard" if moves else "")
 
 
+def doubtful_risk(one: Spoken) -> Callable[[tuple[Goal, ...]], str]:
+    """Why goals that were not heard clearly are read back: whatever may move the robot is."""
+    which = f"“{' '.join(one.doubtful)}”" if one.doubtful else "that"
+
+    def why(goals: tuple[Goal, ...]) -> str:
+        moves = any(isinstance(goal, g.Resume) for goal in each(goals))
+        return f"I am not sure that I heard {which} right" if moves or heard_risk(goals) else ""
+
+    return why
+
+
 class Conversation:
     """A person and a robot, both of whom speak.
 
@@ -75,7 +87,9 @@ class Conversation:
     has seconds), so that a cry to stop is heard meanwhile.
     """
 
-    def __init__(self, shell: Shell, listener: Ear, *, recorded: bool) -> None:
+    def __init__(
+        self, shell: Shell, listener: Ear, *, recorded: bool, confirm: bool = True
+    ) -> None:
         """Begin.
 
         Args:
@@ -83,10 +97,12 @@ class Conversation:
             listener: hears it.
             recorded: whether a recording is listened to, which hears nothing of the robot: each
                 job is done before it goes on.
+            confirm: whether what moves the robot is read back however clearly it was heard.
         """
         self._shell = shell
         self._ear = listener
         self._recorded = recorded
+        self._risk = heard_risk if confirm else risk
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="sentences")
         shell.speech.screen = self._said
         shell.robot.session.journal.listen(self._note)
@@ -106,6 +122,7 @@ class Conversation:
         with sound(options) as blocks:
             for block in blocks:
                 speaking = shell.speech.speaking and not self._recorded
+                self._ear.at_work = shell.robot.busy
                 for one in self._ear.push(block.sound, speaking=speaking, heeded=block.heeded):
                     self.take(one)
                 for one in self._ear.finish() if block.ends else ():
@@ -126,19 +143,24 @@ class Conversation:
         say(f"> {one.text}")
         if one.kind == "stop" or shell.is_cry(one.text):
             shell.stop("a cry to stop was heard")
+        elif one.kind == "halt":
+            shell.halt_at_once(one.text)
+        elif shell.asks and not one.sure:
+            shell.answer("I did not hear that well. Please say it again.")
         elif not shell.help(one.text):
             shell.halt_at_once(one.text)
-            doing = self._worker.submit(self._do, one.text, shell.stops)
+            doing = self._worker.submit(self._do, one, shell.stops)
             if not self._recorded:
                 return
             doing.result()
             shell.robot.wait()
         self._ear.replying = shell.asks
 
-    def _do(self, text: str, stops: int) -> None:
+    def _do(self, one: Spoken, stops: int) -> None:
         """One sentence; a mistake in this software must not end the listening."""
+        self._shell.dialogue.risk = self._risk if one.sure else doubtful_risk(one)
         try:
-            self._shell.hear(text, stops=stops)
+            self._shell.hear(one.text, stops=stops)
         except Exception as error:
             self._shell.out(as_mistake(error))
         self._ear.replying = self._shell.asks

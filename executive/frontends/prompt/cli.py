@@ -136,6 +136,7 @@ def conversation(
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, table=commands.table, folder=folder, model=model, speech=speech)
+        shell.dialogue.agreed = options.yes
         tell_what_goes_on(robot.session.journal)
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)

@@ -29,13 +29,14 @@ from executive.frontends.prompt.stance import standing
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
 from executive.journal import failures
-from executive.meaning.request import Refused, Understood, meant
+from executive.meaning.request import Refused, Understood, meant, unable
 from intents.context import verdict_of
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.halting import besides, is_halt
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.plans import numbered
 from intents.state import RobotState
 from intents.stopping import is_stay, is_stop
 from intents.wording import in_words
@@ -97,6 +98,8 @@ class Shell:
         self._submitting = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
         self._model = model
+        if model is not None:
+            model.unable = self._unable
         self._holds: tuple[str, ...] = ()
         self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
         self._corrects = False
@@ -278,8 +281,10 @@ class Shell:
         """
         robot = self.robot
         state = self._state()
-        if self._model is not None and not robot.busy:
-            self._model.begin_mission()
+        if self._model is not None:
+            self._model.trouble = ""
+            if not robot.busy:
+                self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
         if self._stopped_since:  # it may have taken as long as a language model does
@@ -309,6 +314,14 @@ class Shell:
             foresee_s=lambda: foresight.takes_s(asked[0], robot.where, asked[1]) if asked else None,
         )
 
+    def _tell_trouble(self) -> None:
+        if self._model is not None and self._model.trouble:
+            self.out(f"The language model was of no help: {self._model.trouble}.")
+
+    def _unable(self, goals: tuple[Goal, ...]) -> str:
+        """Why goals that a language model makes cannot be done."""
+        return unable(goals, self.robot.where, held=self._held(), state=self._state())
+
     def _heed(
         self, text: str, turn: Turn, state: RobotState, *, answers: bool, steers: bool
     ) -> Understood | None:
@@ -321,14 +334,16 @@ class Shell:
             self.answer(turn.text)
         elif isinstance(turn, Question):
             self.answer(turn.question)
+            self._tell_trouble()
         elif isinstance(turn, Refusal):
             self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
-            if self._model is not None and self._model.trouble:
-                self.out(f"The language model was of no help: {self._model.trouble}.")
+            self._tell_trouble()
         else:
             # an answer ("no, the blue one") says nothing by itself: the job is called what it means
             steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
             if not steering:
+                if turn.parser == "model" and not answers:
+                    self.answer(f"I shall do this:\n{numbered(turn.goals)}")
                 by_itself = not (answers or turn.instead or turn.elliptic)
                 return self._settle(text if by_itself else in_words(turn.goals), turn, state)
             if steers:

@@ -13,7 +13,7 @@ from executive.missions.btcpp import uncalled
 from executive.missions.btcpp.including import trees_of
 from executive.missions.btcpp.nodes import Importer
 from executive.missions.btcpp.steps import Step, fields, flat
-from executive.missions.btcpp.xml import Element, read
+from executive.missions.btcpp.xml import Allowance, Element, read
 from executive.missions.problems import Enough, Problems
 from robot import yaml_nodes
 from robot.config import nearest
@@ -27,9 +27,11 @@ def mission_of(path: Path) -> str:
         ConfigError: the file is wrong, or something in it has no equivalent: all of it, by line.
     """
     notes: list[str] = []
-    root = read(path)
-    text = yaml_nodes.dump(mission_data(root, file_name=path.stem, notes=notes))
+    allowance = Allowance()
+    root = read(path, allowance)
+    data = mission_data(root, file_name=path.stem, notes=notes, allowance=allowance)
     try:
+        text = yaml_nodes.dump(data)
         yaml_nodes.parse(text, str(path))
     except ConfigError as error:
         what = error.problems[0].message
@@ -38,7 +40,11 @@ def mission_of(path: Path) -> str:
 
 
 def mission_data(
-    root: Element, *, file_name: str = "imported", notes: list[str] | None = None
+    root: Element,
+    *,
+    file_name: str = "imported",
+    notes: list[str] | None = None,
+    allowance: Allowance | None = None,
 ) -> dict[str, Any]:
     """The same as plain data.
 
@@ -46,6 +52,7 @@ def mission_data(
         root: of the XML.
         file_name: for a tree without a name.
         notes: takes what was left out, a line each.
+        allowance: what is left of it for the files that are included.
     """
     if root.tag != "root":
         raise root.wrong(f"<{root.tag}> is no BehaviorTree.CPP file", "it begins with <root>")
@@ -54,7 +61,8 @@ def mission_data(
         raise root.wrong(f"format {version} of BehaviorTree.CPP is not read", "3 and 4 are")
     problems = Problems()
     try:
-        mission = _mission(root, file_name, problems, [] if notes is None else notes)
+        trees = trees_of(root, problems, allowance)
+        mission = _mission(root, trees, file_name, problems, [] if notes is None else notes)
     except Enough:
         mission = {}
     except ConfigError as error:
@@ -64,8 +72,13 @@ def mission_data(
     return mission
 
 
-def _mission(root: Element, file_name: str, problems: Problems, notes: list[str]) -> dict[str, Any]:
-    trees = trees_of(root, problems)
+def _mission(
+    root: Element,
+    trees: dict[str, Element],
+    file_name: str,
+    problems: Problems,
+    notes: list[str],
+) -> dict[str, Any]:
     if not trees:
         raise root.wrong("there is no <BehaviorTree> in it", "add one")
     own = [name for name, tree in trees.items() if tree.file == root.file] or [*trees]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from executive.missions.btcpp.xml import Element, read
+from executive.missions.btcpp.xml import Allowance, Element, read
 from executive.missions.problems import Problems
 from robot.config import nearest
 from robot.errors import ConfigError
@@ -12,25 +12,34 @@ from robot.errors import ConfigError
 PASSED_OVER = ("TreeNodesModel", "include")
 
 
-def trees_of(root: Element, problems: Problems) -> dict[str, Element]:
+def trees_of(
+    root: Element, problems: Problems, allowance: Allowance | None = None
+) -> dict[str, Element]:
     """All trees by name; what is wrong around them is noted.
 
+    What is included takes of the allowance that the file itself took of; None: of a fresh one.
     A file that is included lies beside the one that includes it, or below: what a stranger's file
     names elsewhere is not read.
     """
     found: dict[str, Element] = {}
-    _collect(root, found, problems, files={Path(root.file).resolve()})
+    files = {Path(root.file).resolve()}
+    _collect(root, found, problems, files=files, allowance=allowance or Allowance())
     return found
 
 
 def _collect(
-    root: Element, found: dict[str, Element], problems: Problems, *, files: set[Path]
+    root: Element,
+    found: dict[str, Element],
+    problems: Problems,
+    *,
+    files: set[Path],
+    allowance: Allowance,
 ) -> None:
     for child in root.children:
         if child.tag == "include":
-            included = _included(child, problems, files)
+            included = _included(child, problems, files, allowance)
             if included is not None:
-                _collect(included, found, problems, files=files)
+                _collect(included, found, problems, files=files, allowance=allowance)
         elif child.tag == "BehaviorTree":
             name = child.attributes.get("ID", "")
             if name in found:
@@ -42,7 +51,9 @@ def _collect(
             problems.take_here(child.wrong(f"<{child.tag}> has no meaning below <root>", cure))
 
 
-def _included(element: Element, problems: Problems, files: set[Path]) -> Element | None:
+def _included(
+    element: Element, problems: Problems, files: set[Path], allowance: Allowance
+) -> Element | None:
     """The root of a file that is included; None if there is none, or it is there already."""
     name = element.attributes.get("path", "")
     folder = Path(element.file).parent
@@ -59,7 +70,7 @@ def _included(element: Element, problems: Problems, files: set[Path]) -> Element
             near = [path.name for path in sorted(folder.glob("*.xml"))[:200]]
             cure = nearest(name, near) if near else "check the path"
             raise element.wrong(f"the file {name!r}, included here, is not there", cure)
-        return read(folder / name)
+        return read(folder / name, allowance)
     except ConfigError as error:
         problems.take_here(error)
         return None

@@ -21,7 +21,7 @@ from executive.missions.btcpp.steps import (
     whole,
     with_option,
 )
-from executive.missions.btcpp.xml import Element
+from executive.missions.btcpp.xml import MAX_DEPTH, Element
 from executive.missions.compiling import MAX_STEPS
 from executive.missions.problems import Enough, Problems
 from executive.missions.schema import MAX_ROUNDS, MAX_TRIES
@@ -58,7 +58,7 @@ class Importer:
         self._seen: set[int] = set()
         self._recoveries = 0
         self._calls: list[str] = []
-        self._count = 0
+        self._count = self._depth = 0
 
     def tree(self, name: str, caller: Element, ports: Ports) -> Step:
         """A tree that is called with some ports, as one step."""
@@ -77,6 +77,11 @@ class Importer:
     def step(self, element: Element, ports: Ports) -> Step:
         """What an element becomes; nothing if that cannot be, which is noted."""
         self._seen.add(id(element))
+        if self._depth == MAX_DEPTH:
+            text = f"nested deeper than {MAX_DEPTH} levels, SubTrees written out"
+            self._problems.take_here(element.wrong(text, "make it flatter"))
+            return NOTHING
+        self._depth += 1
         try:
             return self._step(element, ports)
         except ConfigError as error:
@@ -85,6 +90,8 @@ class Importer:
                 if id(child) not in self._seen:
                     self.step(child, ports)
             return NOTHING
+        finally:
+            self._depth -= 1
 
     def _step(self, element: Element, ports: Ports) -> Step:
         self._count += 1

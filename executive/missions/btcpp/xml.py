@@ -11,6 +11,8 @@ from robot.yaml_nodes import read_text
 
 MAX_DEPTH = 100
 MAX_ELEMENTS = 50_000
+MAX_FILES = 50
+MAX_LETTERS = 8_000_000
 _WORDS = {
     "syntax error": ("it does not begin with a tag", '<root BTCPP_format="4">'),
     "no element found": ("there is nothing in it", '<root BTCPP_format="4">'),
@@ -45,18 +47,43 @@ class Element:
         return ConfigError([Problem(message, self.file, self.line, None, cure or None)])
 
 
-def read(path: Path) -> Element:
-    """The root of an XML file.
+class Allowance:
+    """What a file and all that it includes may hold together."""
+
+    def __init__(self) -> None:
+        """Begin with all of it."""
+        self._files, self._letters, self._elements = MAX_FILES, MAX_LETTERS, MAX_ELEMENTS
+
+    def file(self, path: str, letters: int) -> None:
+        """Count a file. Raises ConfigError if it is one too many."""
+        self._files -= 1
+        self._letters -= letters
+        if self._files < 0 or self._letters < 0:
+            text = f"more than {MAX_FILES} files, or {MAX_LETTERS} letters in them"
+            raise ConfigError([Problem(text, path, suggestion="include fewer")])
+
+    def element(self, element: Element) -> None:
+        """Count an element. Raises ConfigError if it is one too many."""
+        self._elements -= 1
+        if self._elements < 0:
+            text = f"more than {MAX_ELEMENTS} elements, in all files together"
+            raise element.wrong(text, "keep what is called")
+
+
+def read(path: Path, allowance: Allowance | None = None) -> Element:
+    """The root of an XML file, which takes of an allowance; None: of one of its own.
 
     Raises:
         ConfigError: it is no XML, too large, too deep, or declares a document type.
     """
-    return parse(read_text(path), str(path))
+    return parse(read_text(path), str(path), allowance)
 
 
-def parse(text: str, file: str) -> Element:
+def parse(text: str, file: str, allowance: Allowance | None = None) -> Element:
     """The root of an XML text; raises ConfigError as `read` does."""
-    builder = _Builder(file)
+    allowance = allowance or Allowance()
+    allowance.file(file, len(text))
+    builder = _Builder(file, allowance)
     try:
         builder.parser.Parse(text, True)  # noqa: FBT003, expat's own signature
     except expat.ExpatError as error:
@@ -68,11 +95,11 @@ def parse(text: str, file: str) -> Element:
 class _Builder:
     """Builds elements of expat's events."""
 
-    def __init__(self, file: str) -> None:
+    def __init__(self, file: str, allowance: Allowance) -> None:
         self.file = file
         self.root: Element | None = None
         self._stack: list[Element] = []
-        self._count = 0
+        self._allowance = allowance
         self.parser = expat.ParserCreate()
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
@@ -101,11 +128,9 @@ class _Builder:
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         element = Element(tag, attributes, self.file, self.parser.CurrentLineNumber)
-        self._count += 1
+        self._allowance.element(element)
         if len(self._stack) >= MAX_DEPTH:
             raise element.wrong(f"nested deeper than {MAX_DEPTH} levels", "use SubTrees")
-        if self._count > MAX_ELEMENTS:
-            raise element.wrong(f"more than {MAX_ELEMENTS} elements", "split the file")
         for text in attributes.values():
             if not is_printable(text):
                 what = f"a text holds what cannot be printed: {printable(text)[:60]}"

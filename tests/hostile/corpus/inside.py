@@ -1,5 +1,6 @@
 """What is done in the process of a case before it begins: limits, signals, rights."""
 
+import ctypes
 import os
 import resource
 import signal
@@ -48,3 +49,14 @@ def folder_gone() -> None:
 def ignores_signals() -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD):
         signal.signal(number, signal.SIG_IGN)
+
+
+def full_shm(options: str) -> None:
+    """A /dev/shm of its own that others have filled, in a namespace of mounts of its own."""
+    if ctypes.CDLL(None, use_errno=True).mount(b"none", b"/dev/shm", b"tmpfs", 0, options.encode()):
+        raise OSError(ctypes.get_errno(), "no /dev/shm of its own")
+    try:
+        for number in range(1000):
+            (Path("/dev/shm") / f"fill-{number}").write_bytes(bytes(4096))
+    except OSError:
+        return

@@ -21,6 +21,32 @@ def _ten_times(number: int) -> str:
     return f'<BehaviorTree ID="T{number}"><Sequence>{calls}</Sequence></BehaviorTree>'
 
 
+def _chain(count: int, between: int) -> str:
+    """Trees that call one another, each through some Sequences."""
+    before, after = "<Sequence>" * between, "</Sequence>" * between
+    trees = (
+        f'<BehaviorTree ID="T{number}">{before}<SubTree ID="T{number + 1}"/>{after}</BehaviorTree>'
+        for number in range(count)
+    )
+    last = f'<BehaviorTree ID="T{count}"><Sleep msec="1000"/></BehaviorTree>'
+    root = '<root BTCPP_format="4" main_tree_to_execute="T0">'
+    return root + "".join(trees) + last + "</root>"
+
+
+def _includes(count: int, inside: str) -> dict[str, str]:
+    """A file that includes many, each of which includes the next one, too."""
+    files = {
+        f"i{number}.xml": f'<root BTCPP_format="4"><include path="i{number + 1}.xml"/>{inside}</root>'
+        for number in range(count)
+    }
+    names = "".join(f'<include path="i{number}.xml"/>' for number in range(count))
+    return {"t.xml": HEAD.replace("<BehaviorTree", names + "<BehaviorTree", 1) + TAIL, **files}
+
+
+def _elements(count: int) -> str:
+    return f'<BehaviorTree ID="B">{"<a/>" * count}</BehaviorTree>'
+
+
 LAUGHS = (
     '<!DOCTYPE r [<!ENTITY a "ha">'
     + "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10 if i else "&a;"}">' for i in range(10))
@@ -76,7 +102,7 @@ TREES: dict[str, str | bytes | Make] = {
     "unknown-leaf": _tree("<Explode/>"),
     "unknown-c1": _tree('<Action ID="&#x9b;31m"/>'),
     "unknown-bidi": _tree('<Action ID="&#x202e;gnp"/>'),
-    "unknown-long": _tree(f"<{'x' * 100_000}/>"),
+    "unknown-long": _tree(f"<{'x' * 1_900_000}/>"),
     "name-bidi": _tree('<Explode name="&#x202e;gnp"/>'),
     "script": _tree('<Script code="x := 1"/>'),
     "pre-condition": _tree('<AlwaysSuccess _skipIf="x==1"/>'),
@@ -107,6 +133,11 @@ TREES: dict[str, str | bytes | Make] = {
     "cdata": _tree("<![CDATA[<Say/>]]>"),
     "comment-flood": _tree("<!--" + "x" * 3_000_000 + "-->"),
     "gigantic-attribute": _leaf(f'message="{"x" * 3_000_000}"'),
+    "fallback-300": _tree("<Fallback>" + '<Sleep msec="1000"/>' * 300 + "</Fallback>"),
+    "fallback-15000": _tree("<Fallback>" + '<Sleep msec="1000"/>' * 15_000 + "</Fallback>"),
+    "retries": _tree('<RetryUntilSuccessful num_attempts="2">' * 90 + '<Sleep msec="1"/>' + "</RetryUntilSuccessful>" * 90),
+    "subtree-chain-1500": _chain(1500, 0),
+    "subtree-chain-30-deep": _chain(30, 50),
     "model-only": '<root BTCPP_format="4"><TreeNodesModel><Action ID="X"/></TreeNodesModel></root>',
 }  # fmt: skip
 LENIENT = {
@@ -142,6 +173,7 @@ POINTS: dict[str, str | bytes | Make] = {
     "position-word": f"poses: [{POSE.replace('x: 1', 'x: one')}]\n",
     "position-null": f"poses: [{POSE.replace('x: 1', 'x: ~')}]\n",
     "many": "poses:\n" + f"  - {POSE}\n" * 25_000,
+    "many-wrong": "poses:\n" + f"  - {POSE.replace('x: 1', 'x: one')}\n" * 900,
     "tag": "poses: !!python/object/apply:os.system ['touch owned']\n",
 }
 CASES = [
@@ -160,10 +192,22 @@ CASES = [
             name=f"points-{name}",
             argv=("mission", "import", "p.yaml"),
             files={"p.yaml": content},
-            expect=Expect.ENDS if name in {"many"} else Expect.REFUSED,
             says=("p.yaml",),
         )
         for name, content in POINTS.items()
+    ),
+    *(
+        Case(
+            name=f"includes-{name}",
+            argv=("mission", "import", "t.xml"),
+            files=_includes(count, inside),
+            says=("50 files", "50000 elements"),
+        )
+        for name, count, inside in (
+            ("chain", 1500, ""),
+            ("elements", 40, _elements(49_000)),
+            ("letters", 40, f'<BehaviorTree ID="B"><a b="{"x" * 1_900_000}"/></BehaviorTree>'),
+        )
     ),
     *(
         Case(

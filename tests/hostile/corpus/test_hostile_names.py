@@ -1,5 +1,6 @@
 """Vocabularies, endpoints of language models, campaigns, and sound: what else is read from files."""
 
+import json
 import math
 import struct
 from typing import Any
@@ -84,11 +85,15 @@ ENDPOINTS: dict[str, str | bytes] = {
     "url-empty": _toml(base_url=""),
     "url-port": _toml(base_url="https://localhost:99999999/"),
     "url-long": _toml(base_url="https://" + "a" * 100_000 + "/"),
+    "url-label": _toml(base_url="https://" + "a" * 64 + ".example.org/v1"),
+    "url-dots": _toml(base_url="https://a..example.org/v1"),
     "url-brackets": _toml(base_url="https://[::1/"),
     "model-number": _toml(model=3),
     "model-escape": _toml(model=ESCAPE),
     "deadline-nan": _toml(deadline_s=Raw("nan")),
     "deadline-inf": _toml(deadline_s=Raw("inf")),
+    "deadline-1e300": _toml(deadline_s=Raw("1e300")),
+    "deadline-day": _toml(deadline_s=Raw("1e5")),
     "deadline-minus": _toml(deadline_s=-1),
     "deadline-word": _toml(deadline_s="soon"),
     "deadline-digits": _toml(deadline_s=Raw(DIGITS)),
@@ -249,10 +254,24 @@ CASES = [
         for json in (((), ("--json",))[index % 2],)
     ),
     Case(
-        name="vocabulary-20000-objects",
+        name="vocabulary-3000-objects",
         argv=("parse", "--vocabulary", "v.json", "pick up the cap"),
-        files={"v.json": flow({"objects": [f"thing {i}" for i in range(20_000)]})},
+        files={"v.json": flow({"objects": [f"thing {i}" for i in range(3000)]})},
         expect=Expect.ENDS,
+    ),
+    *(
+        Case(
+            name=f"vocabulary-flood-{name}",
+            argv=("parse", "--vocabulary", "v.json", "pick up the cap"),
+            files={"v.json": json.dumps(data, separators=(",", ":"))},
+            says=("names, with synonyms",),
+        )
+        for name, data in {
+            "objects": {"objects": [f"{i}" for i in range(24_000)]},
+            "people": {"people": [f"p{i}" for i in range(20_000)]},
+            "synonyms": {"objects": [{"name": "c", "synonyms": [f"s{i}" for i in range(19_000)]}]},
+            "categories": {"categories": {f"c{i}": f"d{i}" for i in range(9000)}},
+        }.items()
     ),
     *(
         Case(

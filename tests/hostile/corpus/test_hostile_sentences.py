@@ -230,5 +230,12 @@ CASES = [
             "question": "?" * 10_000,
         }.items()
     ),
+    Case(
+        name="file-one-line",
+        argv=("parse", "--file", "s.txt"),
+        files={"s.txt": "a" * 9_000_000 + "\n" + "pick up the " + "b" * 500_000},
+        expect=Expect.ENDS,
+        most_output=10_000,
+    ),
 ]
 test_sentence = exam("sentences", CASES)

@@ -529,6 +529,18 @@ CASES = [
         )
         for name, make in SHARED.items()
     ),
+    *(
+        Case(
+            name=f"shared-full-{name}",
+            argv=WALK,
+            private_shm=Path.is_dir,
+            inside=partial(inside.full_shm, f"{options},mode=1777"),
+            expect=Expect.ENDS,
+            says=("walked",),
+            cpu_s=20,
+        )
+        for name, options in (("room", "size=1m"), ("names", "nr_inodes=100"))
+    ),
     Case(
         name="unreadable-as-world",
         argv=("parse", "--world", "w.yaml", "wave"),

@@ -423,6 +423,38 @@ def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Pat
             assert "language model was of no help" in shell.out[-1]
 
 
+STEPS = """{"goals": [{"goal": "say", "what": "one"}, {"goal": "say", "what": "two"},
+                    {"goal": "say", "what": "three"}]}"""
+
+
+def test_a_plan_is_shown_by_numbers_and_changed_before_it_is_done(tmp_path: Path):
+    with serving(Reply(content=STEPS), Reply(content="Hm."), Reply(content="Hm.")) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        with shell_in(tmp_path, model=model) as shell:
+            for line in ("brighten up the morning", "no, skip two", "three first", "yes"):
+                shell.line(line)
+            shell.robot.wait()
+            assert "  2. say “two”\n" in shell.out[0]
+            assert shell.robot.executive.jobs[-1].state == "done"
+            assert shell.robot.executive.jobs[-1].text == "say “three”, then say “one”"
+            shell.line("brighten up the evening")
+            assert "language model was of no help" in shell.out[-1]
+            shell.line("fold the laundry, it is late")
+            shell.line("it is late")  # of which no model was asked
+            assert "no help" not in shell.out[-1]
+
+
+def test_a_plan_that_is_agreed_to_beforehand_is_shown_and_done(tmp_path: Path):
+    with serving(Reply(content=STEPS)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        with shell_in(tmp_path, model=model) as shell:
+            shell.dialogue.agreed = True
+            shell.line("brighten up the morning")
+            shell.robot.wait()
+            assert "  2. say “two”\n" in shell.out[0]
+            assert [job.state for job in shell.robot.executive.jobs] == ["done"]
+
+
 @contextmanager
 def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
     """A shell at work, whose language model never answers."""

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 import httpx
 import pytest
 
-from intents.wire import Unusable, Wire
+from intents.language_model.wire import Unusable, Wire
 
 HEAD = b"HTTP/1.1 200 OK\r\n"
 ENDLESS: dict[str, Callable[[], Iterator[bytes]]] = {

@@ -44,3 +44,9 @@ def test_a_config_error_shows_every_problem_with_its_place_and_cure():
     error = ConfigError([Problem("bad key", "a.yaml", 3, 7, "use 'b'"), Problem("worse")])
     assert str(error) == "a.yaml:3:7: bad key (use 'b')\nworse"
     assert ConfigError("simple").problems == [Problem("simple")]
+
+
+def test_a_name_of_a_megabyte_is_not_repeated_whole():
+    problem = Problem(f"unknown tag {'x' * 1_000_000}", "a.xml", 3, suggestion="y" * 1_000_000)
+    assert str(problem).startswith("a.xml:3: unknown tag xxx")
+    assert len(str(problem)) < 2500

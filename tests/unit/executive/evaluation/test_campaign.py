@@ -148,6 +148,21 @@ def test_a_file_of_something_else_is_left_alone(tmp_path):
     assert (tmp_path / FILE).is_fifo()
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"key": "a/00"}, {"key": "b/0"}, {"recovery": False}, {"seed": -1, "key": "a/-1"},
+        {"took_s": 1e308}, {"took_s": -1.0}, {"wall_s": 1e300}, {"recoveries": 2**62},
+        {"struck": -3},
+    ],
+)  # fmt: skip
+def test_what_no_run_can_have_come_to_is_not_believed(tmp_path, wrong):
+    lines = [{"code": "x"}, {**_plain(record()), **wrong}, _plain(record(seed=1))]
+    (tmp_path / FILE).write_text("".join(f"{json.dumps(line)}\n" for line in lines))
+    with Results(tmp_path, fingerprint="x") as results:
+        assert list(results.records) == ["a/1"]
+
+
 def test_results_of_another_mission_are_not_taken_for_those_of_this_one(tmp_path):
     here, there = (Run(case=Case(name="a", mission=m), seed=0) for m in ("stand", "squat"))
     with Results(tmp_path, fingerprint="x") as results:

@@ -54,3 +54,27 @@ def test_a_module_that_is_gone_from_ours_is_explained_by_its_namesake(tmp_path, 
     assert namesakes.explained(ImportError("no", name="yaml")) == []
     monkeypatch.syspath_prepend(str(stranger(tmp_path, "robot")))
     assert namesakes.explained(gone)[-1] == "stranger owns the package 'robot' as well"
+
+
+STOPPED_WHILE_LOADING = """
+import os, signal, sys
+from executive.__main__ import main
+
+class Stops:
+    def find_spec(self, name, path=None, target=None):
+        if name == sys.argv[1]:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Stops())
+main()
+"""
+
+
+@pytest.mark.parametrize("module", ["executive.frontends.namesakes", "executive.frontends.cli"])
+def test_ctrl_c_while_it_loads_is_a_wish_to_stop_and_no_traceback(tmp_path, module):
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", STOPPED_WHILE_LOADING, module],
+        env={**OUTSIDE, "PYTHONPATH": str(namesakes.ROOT)},
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", "Stopped on request.\n")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.intents.endpoint import Reply, serving
 from executive.frontends.parse import parse_all
 from robot.errors import ConfigError
 
@@ -53,6 +54,31 @@ def test_programs_get_one_record_a_line_in_the_form_of_the_contract(
     assert [record["outcome"] for record in records] == ["goals", "refusal", "refusal"]
     assert records[0]["goals"] == [{"goal": "gesture", "kind": "wave", "at": "Ada"}]
     assert set(records[0]) == {"text", "outcome", "goals", "question", "reason", "parser", "ms"}
+
+
+def test_what_a_model_would_be_asked_is_shown_without_one(
+    names: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = ["wave"]  # which the grammar reads by itself
+    parse_all(said, world="", vocabulary=names, file=None, as_json=True, show_prompt=True)
+    body, record = map(json.loads, capsys.readouterr().out.splitlines())
+    assert json.loads(body["messages"][1]["content"])["places"] == ["bench"]
+    assert record["outcome"] == "goals"
+
+
+def test_what_a_model_is_asked_is_shown_request_by_request(
+    names: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "model.toml"
+    with serving(Reply(content="Hm."), Reply(content='[{"goal": "say", "what": "hm"}]')) as server:
+        file.write_text(f'base_url = "{server.url}"\nmodel = "local"\n')
+        parse_all(
+            ["tidy up", "wave"], world="", vocabulary=names, file=None, as_json=True, model=file,
+            show_prompt=True,
+        )  # fmt: skip
+    *bodies, first, _ = map(json.loads, capsys.readouterr().out.splitlines())
+    assert bodies == server.requests
+    assert first["parser"] == "model"
 
 
 def test_a_file_of_names_that_is_wrong_is_said_with_the_file(tmp_path: Path) -> None:

@@ -10,11 +10,12 @@ from executive.blackboard import WORLD, Blackboard
 from executive.meaning.handlers.steps import to_look_over
 from executive.meaning.identify import Scene
 from executive.meaning.knowledge import Knowledge
-from executive.meaning.request import Refused, Understood, request
+from executive.meaning.request import Refused, Understood, request, unable
 from executive.skills.inspect import InspectParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.trees.parts import Branch, errands
+from intents import goals
 from intents.language_model import Endpoint, LanguageModel
 from intents.outcomes import Question
 from robot.messages import Track, WorldState
@@ -293,6 +294,48 @@ def test_nor_where_nobody_can_be_asked():
         outcome = request("tidy up a bit", WHERE, fallback=model)
     assert isinstance(outcome, Refused)
     assert outcome.outcome == "question"
+
+
+STEPS = """{"outcome": "goals", "goals": [
+    {"goal": "place", "object": {"name": "cup", "color": "red"}, "on": "table"},
+    {"goal": "gesture", "kind": "wave"},
+    {"goal": "place", "object": {"name": "bottle"}, "on": "table"}]}"""
+
+
+def test_a_plan_is_changed_before_it_is_agreed_to():
+    asked: list[str] = []
+    answers = iter(["skip two", "first the bottle", "yes"])
+
+    def ask(question: Question) -> str | None:
+        asked.append(question.question)
+        return next(answers)
+
+    with serving(Reply(content=STEPS)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        outcome = request("tidy up a bit", WHERE, ask=ask, fallback=model)
+    assert isinstance(outcome, Understood)
+    assert [goal.object.name for goal in outcome.goals] == ["bottle", "cup"]
+    assert "  2. wave\n" in asked[0]
+    assert "wave" not in asked[1]
+    assert len(server.requests) == 1
+
+
+def test_what_is_no_answer_to_a_plan_is_read_like_any_words_and_may_lead_to_another_plan():
+    answers = iter(["something livelier, if you could", "yes"])
+    lively = """{"outcome": "goals", "goals": [{"goal": "gesture", "kind": "wave"}]}"""
+    with serving(Reply(content=STEPS), Reply(content=lively)) as server:
+        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
+        outcome = request("tidy up a bit", WHERE, ask=lambda _: next(answers), fallback=model)
+    assert isinstance(outcome, Understood)
+    assert [errand.name for errand in errands(outcome.task)] == ["wave"]
+    assert "open_question" in server.requests[1]["messages"][1]["content"]
+
+
+def test_what_no_skill_does_is_known_before_a_person_is_asked():
+    drawer = goals.Open(what="drawer")
+    assert "cannot" in unable((drawer,), WHERE)
+    cup = goals.ObjectQuery(name="cup")
+    assert unable((goals.Pick(object=cup),), WHERE) == ""  # it depends on which is meant
 
 
 def with_things_on_the_table(aside_m: dict[str, float]) -> Blackboard:

@@ -212,6 +212,46 @@ def test_a_folder_of_runs_that_another_user_has_made_is_refused_with_the_cure(tm
     assert link or not list(base.iterdir())
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a folder away")
+@pytest.mark.parametrize(
+    "by", ["its parent", "a link on the way", "the parent of what a link names"]
+)
+def test_a_folder_that_another_user_could_exchange_is_refused_and_nothing_made(tmp_path, by):
+    theirs, mine = tmp_path / "theirs", tmp_path / "mine"
+    (theirs / "deep").mkdir(parents=True)
+    mine.mkdir()
+    os.chown(theirs, 65534, 65534)
+    way = {
+        "its parent": theirs / "deep",
+        "a link on the way": tmp_path / "link",
+        "the parent of what a link names": mine / "link",
+    }[by]
+    if by == "a link on the way":
+        way.symlink_to(mine)
+        os.chown(way, 65534, 65534, follow_symlinks=False)
+    elif way != theirs / "deep":
+        way.symlink_to(theirs / "deep")
+    before = sorted(tmp_path.rglob("*"))
+    for begin in (
+        lambda: run_folder.folder_for("squat", stamp="20260101-120000", base=way / "runs"),
+        lambda: run_folder.claim(way / "run"),
+        lambda: run_folder.claim(way / "run", wanted=False),
+    ):
+        with pytest.raises(ConfigError, match="another user, who could exchange"):
+            begin()
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_folder_whose_parent_every_user_can_write_into_is_refused_unless_it_is_sticky(tmp_path):
+    shared = tmp_path / "shared"
+    (shared / "runs").mkdir(parents=True)
+    shared.chmod(0o777)
+    with pytest.raises(ConfigError, match="every user"):
+        run_folder.claim(shared / "runs" / "one")
+    shared.chmod(0o1777)
+    run_folder.claim(shared / "runs" / "one")
+
+
 def test_a_folder_of_runs_in_which_every_user_can_exchange_them_is_refused(tmp_path):
     base = tmp_path / "runs"
     base.mkdir()

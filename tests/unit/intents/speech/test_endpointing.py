@@ -1,5 +1,6 @@
 """Speech is found where it is, whatever the background, and silence is not."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +48,48 @@ def test_an_utterance_is_found_whole_in_noise(snr_db, kind):
     assert len(found) == 1
     assert found[0].begin_s <= 2.15
     assert 2 + len(said) / RATE_HZ - 0.35 <= found[0].spoken_s <= 2 + len(said) / RATE_HZ + 0.3
+
+
+def babble(duration_s, level):
+    """Eight people who talk at once."""
+    said = np.concatenate([speech(name) for name in ("other", "command", "other", "yes")])
+    count = round(duration_s * RATE_HZ)
+    people = [np.resize(np.roll(said, 7919 * n), count) * (1.0 - 0.05 * n) for n in range(8)]
+    talk = np.sum(people, axis=0)
+    return (level * talk / np.sqrt(np.mean(talk**2))).astype(np.float32)
+
+
+@pytest.mark.parametrize("snr_db", [15, 20, 25])
+@pytest.mark.parametrize("before_s", [1, 8])
+def test_an_utterance_is_found_while_others_talk(snr_db, before_s):
+    said = speech()
+    level = np.sqrt(np.mean(said**2)) * 10 ** (-snr_db / 20)
+    stream = babble(before_s + len(said) / RATE_HZ + 4, level)
+    stream[before_s * RATE_HZ :][: len(said)] += said
+    end_s = before_s + len(said) / RATE_HZ
+    found = [one for one in ended(stream) if one.end_s > before_s and one.begin_s < end_s]
+    assert len(found) == 1
+    assert found[0].begin_s > before_s - 0.5
+    assert found[0].spoken_s < end_s + 0.6
+
+
+def test_talk_in_the_background_is_no_speech_when_it_is_known():
+    assert [one for one in ended(babble(20, 0.01)) if one.begin_s > 3] == []
+
+
+def test_a_drawn_out_cry_is_speech():
+    t = np.arange(RATE_HZ) / RATE_HZ
+    vowel = sum(np.sin(2 * np.pi * 120 * n * t) / n for n in range(1, 20))
+    stream = np.concatenate([silence(1), 0.1 * vowel, silence(1)])
+    assert len(ended(noisy(stream, 40))) == 1
+
+
+def test_what_is_cut_is_cut_where_it_is_faint_and_nothing_is_lost():
+    forever = np.tile(speech(), 6)
+    found = ended(forever, endpoints=Endpoints(longest_s=5.0, end_s=2.0))
+    assert len(found) > 1
+    for one, other in itertools.pairwise(found):
+        assert other.begin_s == pytest.approx(one.end_s, abs=0.011)
 
 
 def test_two_utterances_are_two():

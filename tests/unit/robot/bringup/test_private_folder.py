@@ -1,3 +1,4 @@
+import errno
 import os
 import stat
 import subprocess
@@ -91,6 +92,27 @@ def test_without_a_place_in_memory_it_lies_among_the_temporary_files(tmp_path, m
     monkeypatch.setattr(private_folder, "IN_MEMORY", tmp_path / "nowhere")
     folder = private_folder.create()
     assert folder.path.parent != tmp_path
+    private_folder.remove(folder)
+
+
+def test_a_place_that_is_full_is_passed_over_and_left_as_it_was(tmp_path, monkeypatch):
+    filled, roomy = tmp_path / "filled", tmp_path / "roomy"
+    for place in (filled, roomy):
+        place.mkdir(mode=0o700)
+    write = Path.write_bytes
+
+    def write_bytes(path: Path, data: bytes) -> int:
+        if filled in path.parents:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(path, data)
+
+    monkeypatch.setattr(Path, "write_bytes", write_bytes)
+    monkeypatch.setattr(private_folder, "MOST_BYTES", 1000)
+    monkeypatch.setattr(private_folder, "IN_MEMORY", filled)
+    monkeypatch.setattr(private_folder, "_temporary", lambda: roomy)
+    folder = private_folder.create()
+    assert folder.path.parent == roomy
+    assert not [*filled.iterdir(), *folder.path.iterdir()]
     private_folder.remove(folder)
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import httpx
 
 MAX_ANSWER_BYTES = 256 * 1024
+MAX_COMPLAINT_BYTES = 4096
 _PLAIN = {"Accept-Encoding": "identity"}
 _LATE = "the language model did not answer in time"
 _UNWANTED = "nobody waits for the language model's answer any more"
@@ -19,7 +20,7 @@ class Unusable(Exception):
 
 
 class Reply(NamedTuple):
-    """What came back; the content of a success only."""
+    """What came back; of what is no success only the beginning."""
 
     status: int
     content: bytes
@@ -111,11 +112,18 @@ class Wire:
         except Exception as error:  # whatever it is, it is for the one who waits
             came.put(error)
 
+    @staticmethod
+    def _complaint(reply: httpx.Response) -> bytes:
+        """The beginning of what a server says of a request that it does not answer."""
+        if reply.headers.get("Content-Encoding", "identity").strip().lower() != "identity":
+            return b""
+        return next(reply.iter_raw(MAX_COMPLAINT_BYTES), b"")
+
     def _answer(self, client: httpx.Client, request: httpx.Request, until_s: float) -> Reply:
         reply = client.send(request, stream=True)
         try:
             if not reply.is_success:
-                return Reply(reply.status_code, b"")
+                return Reply(reply.status_code, self._complaint(reply))
             if reply.headers.get("Content-Encoding", "identity").strip().lower() != "identity":
                 raise Unusable("the language model's answer is compressed, which was not asked for")
             received = bytearray()

@@ -1,0 +1,97 @@
+"""Exams: tasks with what should be true at their end, homes, and results of before."""
+
+from tests.hostile.cases import Case, Expect
+from tests.hostile.exam import exam
+
+EVAL = ("eval", "--tasks", "t.yaml", "--seeds", "1", "--processes", "1")
+WORLD = "world: empty\ntasks:\n"
+CPU_S = 30
+"""Of a task that is carried out."""
+
+
+def task(truth: str, say: str = "wave") -> str:
+    return f'  - {{kind: k, say: "{say}", limit_s: 30, truth: [{truth}]}}\n'
+
+
+PATTERNS = {
+    "brackets": "((((((",
+    "repeat": "(?:(?:(?:(?:a{1,65535}){1,65535}){1,65535}){1,65535})",
+    "repeats": "(?:a{1000}b{1000}){1000}" * 40,
+    "deep": "(" * 4000 + ")" * 4000,
+    "classes": "(?i)" + r"\\pL" * 300,
+    "ahead": "(?=a)(?!b)",
+    "backreference": r"(a)\\1",
+}
+
+HOMES = {
+    "digits": "9" * 5000, "seed": "flat:" + "9" * 5000, "zeros": "0" * 5000, "minus": "flat:-1",
+    "same": "flat:7," * 5000, "many": ",".join(f"flat:{number}" for number in range(5000)),
+    "kinds": ",".join(f"k{number}:1" for number in range(5000)), "long": "x" * 9000 + ":1",
+    "none": ",,", "arabic": "flat:\u0663",
+}  # fmt: skip
+
+CASES = [
+    *(
+        Case(
+            name=f"pattern-{name}",
+            argv=EVAL,
+            files={"t.yaml": WORLD + task(f'{{said: "{pattern}"}}')},
+            says=("is no regular expression",),
+        )
+        for name, pattern in PATTERNS.items()
+    ),
+    Case(
+        name="many-unknown-names",
+        argv=EVAL,
+        files={"t.yaml": WORLD + task("{object: nope, on: nope}") * 5000},
+        says=("and more that is wrong",),
+        most_output=20_000,
+    ),
+    Case(
+        name="many-unknown-codes",
+        argv=EVAL,
+        files={
+            "t.yaml": WORLD
+            + task("{held: true, object: x}").replace("limit_s", "or_code: no, limit_s") * 5000
+        },
+        says=("unknown failure code",),
+        most_output=20_000,
+    ),
+    Case(
+        name="truth-unknown-key",
+        argv=EVAL,
+        files={"t.yaml": WORLD + task("{objekt: x, held: true}")},
+        says=("objekt",),
+    ),
+    Case(
+        name="truth-two-things",
+        argv=EVAL,
+        files={"t.yaml": WORLD + task("{object: x, said: y}")},
+        says=("a check is one of",),
+    ),
+    Case(
+        name="truth-long-name",
+        argv=EVAL,
+        files={"t.yaml": WORLD + task(f"{{robot_in: {'x' * 9000}}}")},
+        says=("unknown room",),
+        most_output=2000,
+    ),
+    *(
+        Case(
+            name=f"homes-{name}",
+            argv=("eval", "--homes", words, "--seeds", "1"),
+            says=("--homes",),
+            most_output=20_000,
+        )
+        for name, words in HOMES.items()
+    ),
+    Case(
+        name="pattern-backtracks",
+        argv=EVAL,
+        files={"t.yaml": WORLD + task('{said: "(a|a)+$"}', "say " + "a" * 40 + "b")},
+        expect=Expect.ENDS,
+        says=("WRONG",),
+        cpu_s=CPU_S,
+    ),
+]
+test_exam = exam("exams", CASES)
