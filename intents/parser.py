@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
+from intents.english.background.passing import Remainder, remainders
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
@@ -202,7 +203,31 @@ def _second_opinion(
 
 
 def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
-    """What the grammar makes of a text."""
+    """What the grammar makes of a text, if need be without what is only background."""
+    outcome, after = _as_it_stands(text, vocabulary, context)
+    unclear = isinstance(outcome, Question) and not outcome.goals
+    if isinstance(outcome, Goals) or not (outcome.puzzled or unclear):
+        return outcome, after
+    for rest in remainders(text, index_of(vocabulary)):
+        told, then = _as_it_stands(rest.text, vocabulary, context)
+        if not isinstance(told, Goals):
+            continue
+        asked_already = isinstance(outcome, Question) and outcome.goals == told.goals
+        if rest.sure or not asked_already:
+            return _passed_over(text, told, rest), then
+    return outcome, after
+
+
+def _passed_over(text: str, outcome: Goals, rest: Remainder) -> Outcome:
+    """Say what was passed over, or ask about it where that is in doubt."""
+    said = f"I pass over {rest.passed}"
+    if rest.sure:
+        return replace(outcome, reason=f"{outcome.reason or ''} {said}.".strip())
+    return _partly(text, Partly(said, outcome.goals))
+
+
+def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
+    """What the grammar makes of every word of a text."""
     words = Text(text, vocabulary)
     if not any(w[0].isalnum() for w in words.words):
         return Refusal(reason="I heard nothing; say for example “bring me the cup”."), context
