@@ -11,7 +11,8 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
-from intents.english.background.passing import Remainder, remainders
+from intents.english.learnt.passing import Remainder, remainders
+from intents.english.learnt.rewording import Reworded, reworded
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
@@ -208,22 +209,37 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     unclear = isinstance(outcome, Question) and not outcome.goals
     if isinstance(outcome, Goals) or not (outcome.puzzled or unclear):
         return outcome, after
-    for rest in remainders(text, index_of(vocabulary)):
+    index = index_of(vocabulary)
+    doubtful: list[tuple[Outcome, Context]] = []
+    rests = remainders(text, index)
+    for rest in rests:
         told, then = _as_it_stands(rest.text, vocabulary, context)
-        if not isinstance(told, Goals):
-            continue
-        asked_already = isinstance(outcome, Question) and outcome.goals == told.goals
-        if rest.sure or not asked_already:
-            return _passed_over(text, told, rest), then
+        if isinstance(told, Goals) and rest.sure:
+            return _passed_over(told, rest), then
+        if isinstance(told, Goals):
+            said = f"I pass over {rest.passed}"
+            doubtful.append((_partly(text, Partly(said, told.goals)), then))
+    plain = reworded(rests[-1].text if rests else text, index)
+    if plain is not None:
+        told, then = _as_it_stands(plain.text, vocabulary, context)
+        if isinstance(told, Goals) and plain.sure and all(rest.sure for rest in rests):
+            return _taken_for(told, plain), then
+        if isinstance(told, Goals):
+            doubtful.append((_partly(text, Partly("I did not get every word", told.goals)), then))
+    for question, then in doubtful:
+        if not (isinstance(outcome, Question) and outcome.goals):
+            return question, then
     return outcome, after
 
 
-def _passed_over(text: str, outcome: Goals, rest: Remainder) -> Outcome:
-    """Say what was passed over, or ask about it where that is in doubt."""
-    said = f"I pass over {rest.passed}"
-    if rest.sure:
-        return replace(outcome, reason=f"{outcome.reason or ''} {said}.".strip())
-    return _partly(text, Partly(said, outcome.goals))
+def _passed_over(outcome: Goals, rest: Remainder) -> Outcome:
+    """Say what was passed over."""
+    return replace(outcome, reason=f"{outcome.reason or ''} I pass over {rest.passed}.".strip())
+
+
+def _taken_for(outcome: Goals, plain: Reworded) -> Outcome:
+    """Say in which plain words a sentence was taken."""
+    return replace(outcome, reason=f"I take that as “{plain.text}”. {outcome.reason or ''}".strip())
 
 
 def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:

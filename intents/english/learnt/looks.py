@@ -123,7 +123,9 @@ def looks(words: list[Said], index: NameIndex) -> list[list[str]]:
         features = ["always", *_of_word(plain, classes, kinds, at)]
         features += ["capital"] if word.raw[0].isupper() else []
         if at in within:
-            features += _of_clause(plain, classes[at], kinds, clauses, within[at], orders, at)
+            features += _of_clause(
+                plain, kinds, clauses, kind=classes[at], n=within[at], orders=orders, at=at
+            )
         else:
             features += _of_sign(clauses, within, at)
         found.append(features)
@@ -239,9 +241,10 @@ def _of_word(plain: list[str], classes: list[str], kinds: list[str], at: int) ->
 
 def _of_clause(
     plain: list[str],
-    kind: str,
     kinds: list[str],
     clauses: list[_Clause],
+    *,
+    kind: str,
     n: int,
     orders: int,
     at: int,

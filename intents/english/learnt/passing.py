@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-from intents.english.background.looks import said
-from intents.english.background.tagger import Passed, background
 from intents.english.faithfulness import CARRYING
+from intents.english.learnt.background import Passed, background
+from intents.english.learnt.looks import said
 from intents.english.trouble import listing
 from intents.english.words import lexicon
 from intents.english.words.measures import UNIT_WORDS

@@ -1,0 +1,91 @@
+"""A linear-chain conditional random field: how likely each label is at each place of a chain."""
+
+import io
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Field(NamedTuple):
+    """What was learnt.
+
+    Attributes:
+        labels: The labels, in the order of all arrays.
+        rows: Where the weights of a feature stand.
+        weights: What a feature adds to the score of each label, shape (features, labels).
+        steps: The score of going from one label to the next, shape (labels, labels).
+    """
+
+    labels: tuple[str, ...]
+    rows: dict[str, int]
+    weights: Array
+    steps: Array
+
+    def marginals(self, chain: list[list[str]]) -> Array:
+        """How likely each label is at each place [0..1], by the forward-backward algorithm.
+
+        Args:
+            chain: The features of each place; those that were not seen in learning count nothing.
+
+        Returns:
+            Shape (places, labels); the sum of each row is 1.
+        """
+        known = self.rows
+        scores = np.array(
+            [
+                self.weights[[known[name] for name in place if name in known]].sum(axis=0)
+                for place in chain
+            ]
+        )
+        forward, backward = scores.copy(), np.zeros_like(scores)
+        for at in range(1, len(chain)):
+            forward[at] += _log_sum(forward[at - 1][:, None] + self.steps)
+        for at in range(len(chain) - 2, -1, -1):
+            backward[at] = _log_sum((self.steps + scores[at + 1] + backward[at + 1]).T)
+        joint = forward + backward
+        odds = np.exp(joint - joint.max(axis=1, keepdims=True))
+        return odds / odds.sum(axis=1, keepdims=True)
+
+
+def _log_sum(scores: Array) -> Array:
+    """The logarithm of the sums of exponentials along the first axis."""
+    most = scores.max(axis=0)
+    return most + np.log(np.exp(scores - most).sum(axis=0))
+
+
+def packed(field: Field) -> bytes:
+    """A field as a file (npz), the same bytes for the same field."""
+    names = sorted(field.rows)
+    file = io.BytesIO()
+    np.savez_compressed(
+        file,
+        labels=_bytes(field.labels),
+        names=_bytes(names),
+        weights=field.weights[[field.rows[name] for name in names]].astype(np.float16),
+        steps=field.steps,
+    )
+    return file.getvalue()
+
+
+def _bytes(words: tuple[str, ...] | list[str]) -> NDArray[np.uint8]:
+    return np.frombuffer("\n".join(words).encode(), dtype=np.uint8)
+
+
+def unpacked(data: bytes) -> Field:
+    """A field out of a file."""
+    with np.load(io.BytesIO(data)) as stored:
+        labels, names = (stored[key].tobytes().decode().split("\n") for key in ("labels", "names"))
+        rows = {name: row for row, name in enumerate(names)}
+        weights = stored["weights"].astype(np.float64)
+        return Field(tuple(labels), rows, weights, stored["steps"].astype(np.float64))
+
+
+@cache
+def learnt(name: str) -> Field:
+    """A field that comes with the package, read when it is first asked for."""
+    return unpacked(files("intents.english.learnt").joinpath(f"{name}.npz").read_bytes())

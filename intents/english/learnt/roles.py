@@ -1,0 +1,132 @@
+"""What a sentence asks for, and what each name in it has to do with that.
+
+Two fields say it: one of a single place, whose labels are what can be asked for, and one over the
+words, whose labels are what a name is to that. Both look at names by their kind only, so that what
+was learnt in one world holds in another.
+"""
+
+from itertools import groupby, pairwise
+from typing import Literal, NamedTuple, cast, get_args
+
+from intents.english.learnt.field import Field, learnt
+from intents.english.learnt.looks import Said, looks, said
+from intents.english.words import lexicon
+from intents.english.words.names import NameIndex
+
+Act = Literal[
+    "bring", "place", "pick", "go_to", "find", "guide", "follow", "switch_on", "switch_off",
+    "open", "close", "count", "greet",
+]  # fmt: skip
+"""What can be said again in plain words."""
+Role = Literal["what", "who", "from", "to"]
+"""What a name is: the thing, the person, where one of them is, where or to whom it is to come."""
+OTHER, NOTHING = "other", "-"
+"""Anything else, as what is asked for and as what a name is to it."""
+_ACTS: tuple[str, ...] = get_args(Act)
+_SELF = lexicon.words("me us here")
+
+
+class Mention(NamedTuple):
+    """A name, a part of one or a word for who speaks, in words ``start`` to ``end``.
+
+    ``names`` is what it can stand for; empty for who speaks.
+    """
+
+    start: int
+    end: int
+    names: frozenset[str]
+
+
+class Meant(NamedTuple):
+    """What a sentence asks for.
+
+    Attributes:
+        act: What is to be done.
+        words: The sentence.
+        roles: The mention of each role.
+        idle: Mentions that have nothing to do with it.
+        sure: How likely the least likely of all that is [0..1].
+    """
+
+    act: Act
+    words: list[Said]
+    roles: dict[Role, Mention]
+    idle: list[Mention]
+    sure: float
+
+
+def mentions(words: list[Said], index: NameIndex) -> list[Mention]:
+    """The names in a sentence, in order."""
+    plain = [word.raw.lower().replace("’", "'") for word in words]
+    found: list[Mention] = []
+    at = 0
+    while at < len(plain):
+        match = index.match(plain, at) if plain[at][0].isalnum() else None
+        little = plain[at] in lexicon.FUNCTION_WORDS
+        if match and not (match.end == at + 1 and little):
+            found.append(Mention(at, match.end, frozenset(n.name for n in match.names)))
+            at = match.end
+            continue
+        parts = () if little else index.partial(plain[at])
+        if parts or plain[at] in _SELF:
+            found.append(Mention(at, at + 1, frozenset(n.name for n in parts)))
+        at += 1
+    return found
+
+
+def act_looks(words: list[Said], chain: list[list[str]]) -> list[str]:
+    """The features of a sentence as a whole, out of those of its words."""
+    classes = [next(one[2:] for one in place if one.startswith("c=")) for place in chain]
+    plain = [
+        kind if kind.startswith("name:") else word.raw.lower().replace("’", "'")
+        for word, kind in zip(words, classes, strict=True)
+    ]
+    names = [kind for kind in classes if kind.startswith("name:")]
+    order = [kind for kind, _ in groupby(names)]
+    verbs = [plain[n] for n, kind in enumerate(classes) if kind == "verb"]
+    found = {f"w={word}" for word in plain}
+    found |= {f"w,w={one}|{two}" for one, two in pairwise(plain)}
+    for (one, two), (_, three) in pairwise(pairwise(plain)):
+        found |= {f"w,w,w={one}|{two}|{three}", f"w,.,w={one}|{three}"}
+    kinds = ",".join(sorted(set(names)))
+    found |= {
+        f"order={','.join(order)}", f"kinds={kinds}", f"names={len(order)}", f"first={plain[0]}",
+        f"length={min(len(plain) // 3, 6)}", f"verbs={min(len(verbs), 4)}",
+    }  # fmt: skip
+    if verbs:
+        found |= {f"verb={verbs[0]}", f"verb+kinds={verbs[0]}|{kinds}"}
+    return sorted(found)
+
+
+def meant(text: str, index: NameIndex, fields: tuple[Field, Field] | None = None) -> Meant | None:
+    """What a sentence most likely asks for; None if that is nothing of what can be said again.
+
+    Args:
+        text: A sentence, without what is known to be background.
+        index: The names of its world.
+        fields: What was learnt of acts and of roles; by default what comes with the package.
+    """
+    words = said(text)
+    if not words:
+        return None
+    acts, parts = fields or (learnt("acts"), learnt("roles"))
+    chain = looks(words, index)
+    likely = acts.marginals([act_looks(words, chain)])[0]
+    act, sure = acts.labels[int(likely.argmax())], float(likely.max())
+    if act not in _ACTS:
+        return None
+    by_word = parts.marginals(chain)
+    roles: dict[Role, Mention] = {}
+    idle: list[Mention] = []
+    for mention in mentions(words, index):
+        whole = by_word[mention.start : mention.end].min(axis=0)
+        label = parts.labels[int(whole.argmax())]
+        sure = min(sure, float(whole.max()))
+        if label == NOTHING:
+            idle.append(mention)
+            continue
+        role = cast("Role", label)
+        if role in roles:
+            return None  # two things at once: that is more than one sentence says again
+        roles[role] = mention
+    return Meant(cast("Act", act), words, roles, idle, sure)

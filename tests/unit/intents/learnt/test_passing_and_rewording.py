@@ -1,0 +1,103 @@
+"""Background is passed over and said so, unheard wordings are said again in plain words; what may
+change what is asked is asked about, and nothing is dropped in silence."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from intents.english.learnt.looks import looks, said
+from intents.english.learnt.passing import remainders
+from intents.english.learnt.rewording import reworded
+from intents.english.words.names import index_of
+from intents.goals import to_builtins
+from intents.outcomes import Goals, Question
+from intents.parser import parse
+from intents.vocabulary import Vocabulary
+
+LIGHTHOUSE = Vocabulary.of(
+    objects=["oil can", "logbook", "lantern", "rope", "tin mug"],
+    places=["map table", "spiral stairs", "locker", "stove"],
+    rooms=["lamp room", "cellar", "watch room"],
+    people=["Marit", "Old Sven"],
+)
+INDEX = index_of(LIGHTHOUSE)
+
+
+def goals_of(said: str) -> object:
+    outcome = parse(said, LIGHTHOUSE)
+    assert isinstance(outcome, Goals), outcome
+    return to_builtins(outcome.goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("close the locker, it has been rattling all night", "close the locker"),
+        ("bring me the rope would you my knees are killing me today", "bring me the rope"),
+        ("take the oil can to Marit because she is up to her elbows in grease",
+         "take the oil can to Marit"),
+        ("The storm is getting worse and I have not slept. Put the logbook on the map table",
+         "put the logbook on the map table"),
+        ("bring the lantern to the cellar before somebody breaks their neck down there",
+         "bring the lantern to the cellar"),
+    ],
+)  # fmt: skip
+def test_background_changes_nothing(said: str, plainly: str) -> None:
+    assert goals_of(said) == goals_of(plainly)
+
+
+def test_what_is_passed_over_is_told() -> None:
+    said = "bring me the rope would you my knees are killing me today"
+    outcome = parse(said, LIGHTHOUSE)
+    assert isinstance(outcome, Goals)
+    assert "“would you my knees are killing me today”" in (outcome.reason or "")
+
+
+def test_what_was_taken_in_other_words_is_told() -> None:
+    outcome = parse("lantern please over to the stove from the locker", LIGHTHOUSE)
+    assert isinstance(outcome, Goals)
+    assert "“bring lantern from the locker to the stove”" in (outcome.reason or "")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "bring me the rope if the wind drops",
+        "bring me the rope unless Marit needs it",
+        "put the logbook on the map table but not before noon",
+        "bring me the rope Marit is holding",
+        "bring me the lantern, gingerly",
+    ],
+)
+def test_what_may_change_what_is_asked_is_never_passed_over_in_silence(said: str) -> None:
+    outcome = parse(said, LIGHTHOUSE)
+    assert not isinstance(outcome, Goals) or "if" in to_builtins(outcome.goals)[0]["goal"], outcome
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "five lanterns if you can find them onto the map table",
+        "rid the stove of every tin mug but one",
+        "no rope for Marit",
+    ],
+)
+def test_plain_words_that_leave_something_out_are_no_more_than_a_question(said: str) -> None:
+    plain = reworded(said, INDEX)
+    assert plain is None or not plain.sure
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.text(max_size=120))
+def test_every_text_has_looks_and_none_raises(text: str) -> None:
+    words = said(text)
+    assert len(looks(words, INDEX)) == len(words)
+    remainders(text, INDEX)
+    reworded(text, INDEX)
+
+
+def test_what_was_not_understood_whole_is_asked_with_all_that_would_be_done() -> None:
+    outcome = parse("blah Marit wubble the rope quux cellar", LIGHTHOUSE)
+    assert not isinstance(outcome, Goals)
+    if isinstance(outcome, Question) and outcome.goals:
+        assert outcome.kind == "confirmation"
