@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test hostile check format bench eval bench-intents bench-speech lock clean env env-dev
+.PHONY: help demo test hostile check format bench eval bench-intents bench-speech train lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -43,6 +43,9 @@ bench-intents: env-dev ## measure what is understood, typed and spoken (ARGS="--
 
 bench-speech: env-dev ## measure what is heard; needs espeak-ng (ARGS="--share 1" for every take)
 	@$(BIN)/python -m benchmarks.speech $(ARGS)
+
+train: env-dev ## learn what people say from training/sentences (ARGS="--folds 4" judges)
+	@$(BIN)/python -m training $(ARGS)
 
 lock: ## resolve pyproject.toml into hashed lock files (ARGS=--upgrade for newer pins)
 	@scripts/lock $(or $(PYTHON),python3) $(ARGS)

@@ -6,13 +6,14 @@ grammar. What the grammar understands is checked against what is known to be the
 
 import time
 from collections.abc import Callable
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
-from intents.english.learnt.passing import Remainder, remainders
-from intents.english.learnt.rewording import Reworded, reworded
+from intents.english.learnt.passing import remainders
+from intents.english.learnt.rewording import reworded
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
@@ -22,6 +23,7 @@ from intents.english.trouble import (
     Unasked,
     Unclear,
     Unpromised,
+    Unread,
     listing,
 )
 from intents.english.words import lexicon
@@ -203,71 +205,74 @@ def _second_opinion(
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
+class _Reading(NamedTuple):
+    """What the grammar makes of a text, and the error if it makes no sense of it."""
+
+    outcome: Outcome
+    after: Context
+    error: ReadingError | None = None
+
+
 def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
-    """What the grammar makes of a text, if need be without what is only background."""
-    outcome, after = _as_it_stands(text, vocabulary, context)
-    unclear = isinstance(outcome, Question) and not outcome.goals
-    if isinstance(outcome, Goals) or not (outcome.puzzled or unclear):
-        return outcome, after
+    """What the grammar makes of a text, if need be without background or in plainer words."""
+    whole = _as_it_stands(text, vocabulary, context)
+    if whole.error is None or isinstance(whole.error, Unasked | Offered | Unpromised):
+        return whole.outcome, whole.after
     index = index_of(vocabulary)
-    doubtful: list[tuple[Outcome, Context]] = []
+    doubtful: list[_Reading] = []
     rests = remainders(text, index)
     for rest in rests:
-        told, then = _as_it_stands(rest.text, vocabulary, context)
-        if isinstance(told, Goals) and rest.sure:
-            return _passed_over(told, rest), then
-        if isinstance(told, Goals):
-            said = f"I pass over {rest.passed}"
-            doubtful.append((_partly(text, Partly(said, told.goals)), then))
-    plain = reworded(rests[-1].text if rests else text, index)
-    if plain is not None:
-        told, then = _as_it_stands(plain.text, vocabulary, context)
-        if isinstance(told, Goals) and plain.sure and all(rest.sure for rest in rests):
-            return _taken_for(told, plain), then
-        if isinstance(told, Goals):
-            doubtful.append((_partly(text, Partly("I did not get every word", told.goals)), then))
-    for question, then in doubtful:
-        if not (isinstance(outcome, Question) and outcome.goals):
-            return question, then
-    return outcome, after
+        read_ = _as_it_stands(rest.text, vocabulary, context)
+        if isinstance(read_.outcome, Goals):
+            if rest.sure:
+                return _remarked(read_.outcome, f"I pass over {rest.passed}"), read_.after
+            doubtful.append(_asked_about(text, read_, f"I pass over {rest.passed}"))
+    if isinstance(whole.error, Unread):
+        plain = reworded(rests[-1].text if rests else text, index)
+        read_ = _as_it_stands(plain.text, vocabulary, context) if plain else whole
+        if plain and isinstance(read_.outcome, Goals):
+            if plain.sure and all(rest.sure for rest in rests):
+                return _remarked(read_.outcome, f"I take that as “{plain.text}”"), read_.after
+            doubtful.append(_asked_about(text, read_, "I did not get every word"))
+    best = whole if isinstance(whole.outcome, Question) or not doubtful else doubtful[0]
+    return best.outcome, best.after
 
 
-def _passed_over(outcome: Goals, rest: Remainder) -> Outcome:
-    """Say what was passed over."""
-    return replace(outcome, reason=f"{outcome.reason or ''} I pass over {rest.passed}.".strip())
+def _asked_about(text: str, reading: _Reading, reason: str) -> _Reading:
+    """A reading in doubt, as a question whether to do just that."""
+    goals = reading.outcome.goals if isinstance(reading.outcome, Goals) else ()
+    return reading._replace(outcome=_partly(text, Partly(reason, goals)))
 
 
-def _taken_for(outcome: Goals, plain: Reworded) -> Outcome:
-    """Say in which plain words a sentence was taken."""
-    return replace(outcome, reason=f"I take that as “{plain.text}”. {outcome.reason or ''}".strip())
-
-
-def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
+def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> _Reading:
     """What the grammar makes of every word of a text."""
     words = Text(text, vocabulary)
     if not any(w[0].isalnum() for w in words.words):
-        return Refusal(reason="I heard nothing; say for example “bring me the cup”."), context
+        nothing = "I heard nothing; say for example “bring me the cup”."
+        return _Reading(Refusal(reason=nothing), context)
     scope = Scope(words.index, context.object, context.person, context.place)
     try:
         understood = read(words, scope, context.goals)
     except Partly as partly:
-        return _settled(_partly(text, partly), context, scope)
+        return _Reading(*_settled(_partly(text, partly), context, scope), partly)
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
         kind = "choice" if choices else "missing"
         question = Question(
             question=str(unclear), choices=choices, text=text, said=unclear.said, kind=kind
         )
-        return question, context
+        return _Reading(question, context, unclear)
     except ReadingError as error:
         puzzled = not isinstance(error, Unasked)
-        return Refusal(reason=f"{_sentence(str(error))}.", puzzled=puzzled), context
+        refusal = Refusal(reason=f"{_sentence(str(error))}.", puzzled=puzzled)
+        return _Reading(refusal, context, error)
     if not understood.goals:
-        return Refusal(reason="I see nothing to do in that."), context
+        return _Reading(Refusal(reason="I see nothing to do in that."), context)
     checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)
-    return _settled(_remarked(checked, words, understood.remarks), context, scope)
+        checked = _remarked(checked, *_corrected(words), *understood.remarks)
+    return _Reading(*_settled(checked, context, scope))
 
 
 def _partly(text: str, partly: Partly) -> Question:
@@ -299,13 +304,16 @@ def _settled(outcome: Outcome, context: Context, scope: Scope) -> tuple[Outcome,
     return outcome, after
 
 
-def _remarked(outcome: Outcome, words: Text, remarks: tuple[str, ...]) -> Outcome:
-    """Say which words were corrected, and which were heard and change nothing."""
-    if not isinstance(outcome, Goals):
-        return outcome
+def _corrected(words: Text) -> tuple[str, ...]:
+    """Which words were corrected."""
     taken = ", ".join(f"“{said}” for “{meant}”" for said, meant in words.corrections)
-    told = ((f"I took {taken}",) if taken else ()) + remarks
-    return replace(outcome, reason=". ".join(told) + ".") if told else outcome
+    return (f"I took {taken}",) if taken else ()
+
+
+def _remarked(goals: Goals, *remarks: str) -> Goals:
+    """Say as well what was heard and changes nothing."""
+    told = [*filter(None, [(goals.reason or "").removesuffix(".")]), *remarks]
+    return replace(goals, reason=". ".join(told) + ".") if told else goals
 
 
 def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:

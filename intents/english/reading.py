@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from intents.english.phrases.complements import Complement, ends_clause
 from intents.english.phrases.referents import Scope
-from intents.english.trouble import Misfit, NotUnderstood, ReadingError
+from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unread
 from intents.english.words.names import Name
 from intents.english.words.text import Text
 from intents.goals import Goal
@@ -144,9 +144,9 @@ def clause_by_itself(sentence: Sentence, at: int) -> Found:
     return clause(sentence.after([]), at)
 
 
-def not_understood(text: Text, at: int) -> NotUnderstood:
+def not_understood(text: Text, at: int) -> Unread:
     """The error that quotes what begins at a word."""
     end = at + 1
     while end < len(text) and not ends_clause(text, end):
         end += 1
-    return NotUnderstood(f"I do not understand “{text.raw(at, end)}”")
+    return Unread(f"I do not understand “{text.raw(at, end)}”")

@@ -3,6 +3,7 @@
 Trouble
 ├── Misfit         the words do not fit this verb; another reading may
 ├── NotUnderstood  understood well enough to know that it cannot be done
+│   ├── Unread         no reading knows what to make of some words
 │   └── Unasked        nothing is asked of the robot
 └── Unclear        could be done if one thing were known
     ├── Partly     some of it is understood and some is not
@@ -34,6 +35,10 @@ class NotUnderstood(ReadingError):
 
     weight = 1
     """The words fit, so this is nearer to what was meant than a misfit."""
+
+
+class Unread(NotUnderstood):
+    """No reading makes anything of some words: other words may say it better."""
 
 
 class Unasked(NotUnderstood):

@@ -24,6 +24,7 @@ _NEVER_SURE = lexicon.words(
 """What holds one of these is always asked about, however sure the tagger is."""
 _WHOSE = lexicon.words("i you he she we they that which who whose")
 """After a name these may begin what says which is meant: "the cap she is wearing"."""
+_ARTICLES = lexicon.words("the a an some")
 _EDGES = " ,.;:!?-–—…"
 
 
@@ -65,7 +66,8 @@ def _describes(text: str, span: Passed, words: list[str], index: NameIndex) -> b
     before = [word.raw.lower() for word in said(text[: span.start])]
     heard = [word for word in words if word[0].isalnum()]
     manner = len(heard) == 1 and heard[0].endswith("ly")
-    thing = len(heard) in (2, 3) and heard[0] in ("the", "a", "an", "some")
+    verbless = not lexicon.AUXILIARIES.intersection(heard) and "'" not in "".join(heard)
+    thing = len(heard) < 6 and verbless and bool(_ARTICLES.intersection(heard[:-1]))
     named = any(
         match is not None and match.end == len(before)
         for match in (index.match(before, at) for at in range(max(0, len(before) - 4), len(before)))

@@ -11,8 +11,10 @@ from intents.english.faithfulness import CARRYING
 from intents.english.learnt.looks import Said
 from intents.english.learnt.roles import Meant, Mention, Role, meant
 from intents.english.words import lexicon
+from intents.english.words.dictionary import is_english
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 from intents.english.words.names import NameIndex
+from intents.english.words.verbs import verbs_at
 
 SURE = 0.65
 """From here on the plain words are taken for what was said, below it they are asked about."""
@@ -37,6 +39,12 @@ _GRAVE = (
     )
 ) - lexicon.words("wee little small big old young new")  # fmt: skip
 """What has to come back in the plain words, or they are doubtful."""
+_LIGHT = lexicon.FUNCTION_WORDS | lexicon.words(
+    "please pls plz thanks thank cheers ta kindly now just right ok okay hey oi well good there "
+    "here back away over out up down off on go get got need needs want wants could would should "
+    "quick robot mate pal love dear sir madam buddy"
+)
+"""Words that say nothing of what is to be done with a thing."""
 _POINTING = lexicon.words("them thae her me us these those")
 """Right before a name these say no more than "the"."""
 _MANY = re.compile(r"x?\d.*")
@@ -65,10 +73,19 @@ def reworded(text: str, index: NameIndex) -> Reworded | None:
     if plain is None:
         return None
     left = _left(found)
-    if _CONDITIONAL.intersection(left):
+    if _CONDITIONAL.intersection(left) or any(map(_is_unheard_verb, left)):
         return None
+    known = all(word in _LIGHT or verbs_at([word], 0) for word in left)
     grave = any(word in _GRAVE or _MANY.fullmatch(word) for word in left)
-    return Reworded(plain, found.sure >= SURE and not grave and not _forgotten(found))
+    doubtful = grave or not known or _forgotten(found)
+    return Reworded(plain, found.sure >= SURE and not doubtful)
+
+
+def _is_unheard_verb(word: str) -> bool:
+    """Whether it may be an order to do what the robot has no word for: "paint", "wash"."""
+    if word in _LIGHT or verbs_at([word], 0):
+        return False
+    return any(is_english(stem + "ing") for stem in (word, word.removesuffix("e"), word + word[-1]))
 
 
 def _plain(text: str, found: Meant) -> str | None:
