@@ -28,6 +28,7 @@ from intents.english.readings import (
     ends,
     fronted,
     guiding,
+    jottings,
     light_verbs,
     movements,
     needs,
@@ -105,10 +106,12 @@ RULES = Rules(
         ellipsis.gapped_after_and,
         fronted.out_of,
         fronted.fronted,
+        fronted.in_pieces,
         # What only tells something, and commands of nouns alone. A gap without "and" before it is
         # as doubtful as a telegram, which is a whole sentence.
         remarks.statement,
         telegrams.telegram,
+        jottings.jotted,
         ellipsis.gapped,
         remarks.told_of,
         # A word that no reading knows as anything is taken for a verb last of all, and asked about.

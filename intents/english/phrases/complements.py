@@ -244,6 +244,8 @@ def _quantity(text: Text, at: int) -> tuple[Complement, int] | None:
 def _plain_number(text: Text, at: int) -> Measure | None:
     """A number that counts nothing: turn left 90."""
     amount = number(text.words, at)
+    if text.word(at) == "one":
+        return None  # two cups, bring one
     if amount is None or not (ends_clause(text, amount.end) or text.word(amount.end) == "to"):
         return None
     return Measure("plain", amount.value, amount.end)
@@ -255,6 +257,9 @@ def _direction(text: Text, at: int) -> tuple[Complement, int] | None:
     if found is None:
         return None
     direction, end = found
+    named = text.name_at(at)
+    if named and named.end > end:
+        return None  # the back door
     if end - at < _FIXED and text.lookup(LOCATIVES, at) and _prepositional(text, at):
         return None
     if text.word(end) == "of":
@@ -295,7 +300,7 @@ def _preposition(text: Text, at: int) -> tuple[Role, How | None, int]:
     place = text.lookup(LOCATIVES, at)
     if place and place[1] > best[2]:
         best = ("at", place[0], place[1])
-    source = text.phrase_end(lexicon.SOURCEWARDS, at)
+    source = text.phrase_end(lexicon.SOURCEWARDS, at) or _out_the(text, at)
     if source and source > best[2]:
         best = ("from", None, source)
     other = text.phrase_end(OTHER_PREPOSITIONS, at)
@@ -306,10 +311,18 @@ def _preposition(text: Text, at: int) -> tuple[Role, How | None, int]:
     return best
 
 
+def _out_the(text: Text, at: int) -> int | None:
+    """Get a cup *out the cupboard*: out of it; but one goes out the door."""
+    named = text.name_at(at + 2) if text.words[at : at + 1] == ["out"] else None
+    if named is None or text.word(at + 1) not in ("the", "that", "my", "your"):
+        return None
+    return None if text.word(named.end - 1) in ("door", "window", "gate") else at + 1
+
+
 def _bare(text: Text, at: int) -> tuple[Complement, int] | None:
     if text.word(at) == QUOTE:
         return None
-    particle = text.word(at) in _PARTICLES
+    particle = text.word(at) in _PARTICLES and not text.name_at(at)
     if not particle:
         items, end = read_list(text, at)
         return (Complement(phrases=items), end) if items else None

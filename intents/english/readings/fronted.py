@@ -3,17 +3,22 @@
 from msgspec.structs import replace
 
 from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.pieces import read_pieces
 from intents.english.clauses.questions import question
 from intents.english.clauses.statements import IS, mention_phrase, stated
 from intents.english.clauses.verb_clauses import read_verb
 from intents.english.phrases.complements import read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import Locative
 from intents.english.phrases.referents import to_object, to_place
 from intents.english.reading import Found, Sentence
-from intents.english.words.lexer import COMMA
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import Bring, Find, Goal, GoTo, ObjectQuery, Pick, Place
+
+_HANDLES = ("bring", "put", "take", "give", "pick", "drop", "collect")
+"""Senses of what is done to a thing that has to be said."""
 
 
 def fronted(sentence: Sentence, at: int) -> Found | None:
@@ -43,7 +48,34 @@ def fronted(sentence: Sentence, at: int) -> Found | None:
         if complement.role == "":
             for phrase in complement.phrases:
                 mention_phrase(phrase, scope)
-    return read_verb(sentence, after, [c for c in complements if c.role])
+    things = [first] if first.role == "" and _leaves_out(text, after) else []
+    return read_verb(sentence, after, [*things, *(c for c in complements if c.role)])
+
+
+def in_pieces(sentence: Sentence, at: int) -> Found | None:
+    """Scarf, luggage rack, bring it here; the saucers, blue, put them on the bar."""
+    text, pieces = sentence.text, read_pieces(sentence.text, at)
+    if pieces is None or pieces.things is None or len(pieces.things.phrases) > 1:
+        return None
+    after = skip_openings(text, pieces.end)
+    if text.word(pieces.end) not in (COMMA, FULL_STOP) or not verbs_at(text.words, after):
+        return None
+    if any(c.role not in ("", "at", "from") or not c.phrase.is_spot for c in pieces.said):
+        return None
+    thing = pieces.things.phrase
+    thing.places += [Locative(c.how, c.phrase) for c in pieces.said]
+    mention_phrase(thing, sentence.scope)
+    left_out = _leaves_out(text, after)
+    return read_verb(sentence, after, [pieces.things] if left_out else [])
+
+
+def _leaves_out(text: Text, at: int) -> bool:
+    """Whether a verb says nothing of what is handled: the scarf *take to Olga*."""
+    sense, first = verbs_at(text.words, at)[0]
+    if sense not in _HANDLES:
+        return False
+    bare = [c for c in read_complements(text, first)[0] if c.phrases and c.role == ""]
+    return all(c.phrase.is_person or c.phrase.noun in ("here", "there") for c in bare)
 
 
 def out_of(sentence: Sentence, at: int) -> Found | None:

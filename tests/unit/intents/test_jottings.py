@@ -1,0 +1,50 @@
+"""Orders without a verb, in pieces; things named first and handled by a verb that comes later."""
+
+import pytest
+from hotel_words import heard
+
+from intents.outcomes import Goals, Outcome
+from intents.wording import in_words
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("One cola, for Olga, from the minibar", "bring Olga a cola from the minibar"),
+        ("Scarf, wardrobe, now", "put the scarf on the wardrobe"),
+        ("Terrace: two saucers", "put two saucers on the terrace"),
+        ("Saucers, four pieces, from trolley to terrace", "put four saucers from the trolley on the terrace"),
+        ("Suitcases, red, onto the luggage rack", "put the red suitcase on the luggage rack"),
+        ("Scissors! From the counter!", "bring me the scissors from the counter"),
+        ("Back to the wardrobe with that scarf", "put the scarf on the wardrobe"),
+        ("tea, Ravi, suite", "bring a tea to Ravi in the suite"),
+        ("Cap: wardrobe. Torch: counter", "put the cap on the wardrobe and the torch on the counter"),
+        ("Scarf from the trolley, me", "bring me the scarf from the trolley"),
+        ("hammer, counter, bring it here", "bring me the hammer from the counter"),
+        ("the scarf take to Olga", "take the scarf to Olga"),
+        ("saucer bring", "bring the saucer"),
+        ("get me a saucer out the wardrobe", "get me a saucer out of the wardrobe"),
+    ],
+)  # fmt: skip
+def test_it_is_read_as_what_is_said_plainly(said: str, plainly: str) -> None:
+    assert _told(heard(said)) == _told(heard(plainly))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the menu for Ravi",  # which may be all that is spoken of
+        "Olga's scarf from the spa",  # hers, or for who speaks
+        "the scarf on the trolley, lobby",
+        "Olga, the scarf",
+        "scarf, wardrobe, juggle it",
+    ],
+)
+def test_what_may_be_no_order_is_not_done(said: str) -> None:
+    assert not isinstance(heard(said), Goals)
+
+
+def _told(outcome: Outcome) -> str:
+    assert isinstance(outcome, Goals), outcome
+    told = in_words(outcome.goals)
+    return told.replace(" a ", " the ").replace(" to the operator", "")
