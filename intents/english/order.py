@@ -64,6 +64,7 @@ RULES = Rules(
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
         needs.needed,
+        needs.required,
         needs.will_do,
         remarks.feeling,
         # Constructions, whose verb is not the act: all of them before the verb with its own

@@ -47,12 +47,17 @@ def counted(text: Text, at: int, scope: Scope) -> Found:
     Raises:
         Unclear: Nothing is named that could be counted.
     """
+    at += text.word(at) in lexicon.OPERATOR_WORDS  # count me the cups
     for skipped in ("how", "many", "the", "number", "amount", "of"):
         at += text.word(at) == skipped
     phrase = noun_phrase(text, at)
     if phrase is None:
         raise Unclear("What shall I count?")
-    return [_count(phrase, scope)], phrase.end
+    end = read_on(text, phrase) if text.word(phrase.end) in BE else phrase.end
+    return [_count(phrase, scope)], end + 2 * (text.words[end : end + 2] in _FOR_ME)
+
+
+_FOR_ME = (["for", "me"], ["for", "us"])
 
 
 def _count(phrase: NounPhrase, scope: Scope, to: Person | None = None) -> Count:

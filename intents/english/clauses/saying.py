@@ -238,6 +238,9 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
     found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)
+    heard_by = _listener(text, found + 1, scope) if found and text.word(found) == "to" else None
+    if heard_by is not None and to is None:
+        to, found = to_person(heard_by, scope), heard_by.end
     if found is not None and isinstance(scope.last, Count | Tell):
         return ([replace(scope.last, to=to)] if to not in (None, ME) else []), found
     if found is not None and scope.object and isinstance(scope.last, Find):
@@ -289,6 +292,9 @@ def describe(text: Text, at: int, scope: Scope) -> Found:
         first = _listener(text, at + 1, scope)
         if first:
             to, at = to_person(first, scope), first.end
+    asked_after = property_question(text, at, scope, to)
+    if asked_after:
+        return _to_listener(text, asked_after, scope)
     phrase = noun_phrase(text, at)
     if phrase is None or phrase.noun == "unknown":
         raise Misfit("describe what?")

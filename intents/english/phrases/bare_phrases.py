@@ -17,6 +17,17 @@ _KIN = lexicon.words(
     "uncle cousin grandma grandpa grandmother grandfather partner girlfriend boyfriend roommate "
     "flatmate kid child neighbour neighbor niece nephew buddy student teacher"
 )
+_OF_PEOPLE = (
+    _KIN
+    | lexicon.PERSON_NOUNS
+    | frozenset(lexicon.GENDERS)
+    | lexicon.words(
+        "young old little wee small big poor dear good nice sweet lovely darling bairn lass lassie "
+        "laddie fella fellow chap bloke gent ma'am maam missus mister sir madam nurse doctor "
+        "nipper youngster baby toddler granny gran nan nanny grandad"
+    )
+)
+"""What may stand before somebody's name and tells nothing else."""
 _SOURCES = lexicon.phrases(
     "you found it,you got it,you got it from,you took it from,you picked it up,it came from,"
     "you have it from,you had it from"
@@ -68,10 +79,7 @@ def _whereabouts(text: Text, start: int) -> NounPhrase | None:
 def _full(text: Text, start: int) -> NounPhrase | None:
     phrase = NounPhrase(start, start)
     at = read_quantity(text, phrase, start)
-    at = read_adjectives(text, phrase, at)
-    named = text.name_at(at + 1)
-    if text.word(at) in _KIN and named and named.of("person") and phrase.determiner:
-        at += 1  # my daughter Mia
+    at = _named_behind(text, at) or read_adjectives(text, phrase, at)
     end = read_noun(text, phrase, at)
     if end is None and at > start:
         end = _elliptic(text, phrase, at)
@@ -79,6 +87,15 @@ def _full(text: Text, start: int) -> NounPhrase | None:
         return None
     phrase.end = end
     return _owned(text, phrase)
+
+
+def _named_behind(text: Text, at: int) -> int | None:
+    """My daughter *Mia*; young *Leo*; the wee lad *Leo*; that guest *Ada*: where the name begins."""
+    end = at
+    while text.word(end) in _OF_PEOPLE and text.name_at(end) is None:
+        end += 1
+    named = text.name_at(end) if end > at else None
+    return end if named and named.of("person") else None
 
 
 def _elliptic(text: Text, phrase: NounPhrase, at: int) -> int | None:

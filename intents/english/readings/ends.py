@@ -9,14 +9,20 @@ from intents.english.clauses.verb_clauses import framed
 from intents.english.clauses.wishes import WISHES
 from intents.english.frames import FRAMES
 from intents.english.frames.devices import is_device
-from intents.english.phrases.complements import Clause, Complement, read_complements
+from intents.english.phrases.complements import (
+    Clause,
+    Complement,
+    read_complements,
+    read_list,
+)
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import is_person, to_object, to_person, to_place
 from intents.english.reading import Found, SaidVerb, Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
-from intents.english.words.verbs import SENSES, participle_base, verbs_at
+from intents.english.words.lexer import COMMA
+from intents.english.words.verbs import FIRST_WORDS, SENSES, base_form, participle_base, verbs_at
 from intents.goals import Bring, Guide, Switch
 
 _RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have leave keep want "
@@ -45,12 +51,15 @@ _GETS_TO = lexicon.phrases(
 _PASSIVE = lexicon.phrases(
     "to be,needs to be,need to be,has to be,have to be,should be,must be,ought to be,is to be,"
     "are to be,"
-    "can be,could be,needs,wants to be,shall be,will be,may be,would need to be"
+    "can be,could be,needs,wants to be,shall be,will be,may be,would need to be,need,wants,want,"
+    "is needing,are needing,is wanting,are wanting,requires,require,is in need of,could do with,"
+    "it is to be,wants to get,needs to get,need to get,must get,should get,is to get"
 )
 _BELONGS = lexicon.phrases(
     "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
     "should be,has to be,must be,needs to be,ought to go,is supposed to go"
 )
+_SEVERAL = 2
 
 
 def resultative(sentence: Sentence, at: int) -> Found | None:
@@ -146,7 +155,18 @@ def thing_first(sentence: Sentence, at: int) -> Found | None:
         return None
     if phrase.noun == "unknown":
         return _state(sentence, phrase)
-    return _belongs(sentence, at, phrase) or _passive(sentence, phrase) or _state(sentence, phrase)
+    found = _belongs(sentence, at, phrase) or _passive(sentence, phrase)
+    return found or _state(sentence, phrase) or _all_of_these(sentence, at)
+
+
+def _all_of_these(sentence: Sentence, at: int) -> Found | None:
+    """A cup and two saucers *are to be brought* to Olga."""
+    things, end = read_list(sentence.text, at)
+    if len(things) < _SEVERAL or not all(p.name("object", "category") for p in things):
+        return None
+    last = things[-1]
+    last.end = end
+    return _passive(sentence, last, [Complement(phrases=things)])
 
 
 def _belongs(sentence: Sentence, at: int, phrase: NounPhrase) -> Found | None:
@@ -167,15 +187,17 @@ def _belongs(sentence: Sentence, at: int, phrase: NounPhrase) -> Found | None:
     return _put(sentence, at, phrase, *where)
 
 
-def _passive(sentence: Sentence, phrase: NounPhrase) -> Found | None:
-    """The cup should be brought to me; the plates need to be put on the shelf."""
+def _passive(
+    sentence: Sentence, phrase: NounPhrase, things: list[Complement] | None = None
+) -> Found | None:
+    """The cup should be brought to me; the plates want taking to the bar."""
     text = sentence.text
-    first = text.phrase_end(_PASSIVE, phrase.end)
-    base = participle_base(text.word(first)) if first else None
+    first = text.phrase_end(_PASSIVE, phrase.end + (text.word(phrase.end) == COMMA))
+    base = _done_to(text.word(first)) if first else None
     if first is None or base is None:
         return None
     complements, end = read_complements(text, first + 1)
-    thing = Complement(phrases=[phrase])
+    thing = things[0] if things else Complement(phrases=[phrase])
     for sense in SENSES.get((base,), ()):
         if sense not in FRAMES:
             continue
@@ -185,6 +207,13 @@ def _passive(sentence: Sentence, phrase: NounPhrase) -> Found | None:
         except ReadingError:
             continue
     return None
+
+
+def _done_to(word: str) -> str | None:
+    """The bare form of "taken", and of "taking" where that is wanted."""
+    base = base_form(f"{word}g" if word.endswith("in") else word)
+    doing = word.endswith(("ing", "in")) and base in FIRST_WORDS
+    return base if doing and base != word else participle_base(word)
 
 
 def _state(sentence: Sentence, phrase: NounPhrase) -> Found | None:

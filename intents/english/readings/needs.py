@@ -4,8 +4,15 @@
 question"; "I need you in the cellar".
 """
 
+from intents.english.clauses.verb_clauses import framed
 from intents.english.clauses.wishes import WISHES, asks_end
-from intents.english.phrases.complements import ends_clause, first_with, read_complements
+from intents.english.phrases.complements import (
+    Complement,
+    ends_clause,
+    first_with,
+    read_complements,
+    read_list,
+)
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import SOMETHING
 from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person, to_place
@@ -22,7 +29,9 @@ _LOST = lexicon.phrases(
 _NEEDS = lexicon.phrases(
     "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
     "is asking for,asks for,ordered,has ordered,is waiting for,requested,has requested,requires,"
-    "is in need of,could use,fancies"
+    "is in need of,could use,fancies,is after,'s after,desires,craves,is wanting,is needing,"
+    "is dying for,is gasping for,keeps asking for,has been asking for,could do with,"
+    "would appreciate,would fancy,would not mind,'d like,wishes for,wishes to have"
 )
 _NEEDS_TO_GO = lexicon.phrases(
     "needs to get,needs to go,wants to go,wants to get,would like to go,would like to get,"
@@ -30,8 +39,11 @@ _NEEDS_TO_GO = lexicon.phrases(
     "would like to be brought,would like to be taken,wishes to go,is looking for the way,"
     "wants to be taken,wants to be brought,needs to come,wants to come"
 )
-
-
+_REQUIRED = lexicon.phrases(
+    "is wanted,are wanted,wanted,is required,are required,required,is needed,are needed,needed,"
+    "'s wanted,'s needed,'s required,is requested,are requested,requested,is called for,"
+    "are called for"
+)
 _WILL_DO = lexicon.phrases(
     "will do,would do,will have to do,will be fine,would be fine,would be nice,would be lovely,"
     "would be great,would be good,will be good,would be perfect,would be wonderful,"
@@ -80,6 +92,30 @@ def needed(sentence: Sentence, at: int) -> Found | None:
     sentence.notes.wanted = True
     person = to_person(phrase, scope)
     return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
+
+
+def required(sentence: Sentence, at: int) -> Found | None:
+    """The torch is wanted; two saucers required in the spa; the scarf is needed by Olga."""
+    text, scope = sentence.text, sentence.scope
+    if verbs_at(text.words, at) and not text.name_at(at):
+        return None
+    things, end = read_list(text, at)
+    start = text.phrase_end(_REQUIRED, end) if things else None
+    if start is None or not all(p.name("object", "category") for p in things):
+        return None
+    verb, thing = " ".join(text.words[end:start]), Complement(phrases=things)
+    by = noun_phrase(text, start + 1) if text.word(start) == "by" else None
+    if by is not None:
+        who = Complement(role="to", phrases=[by])
+        return framed(sentence, "bring", verb, [thing, who], first=start, end=by.end)
+    complements, end = read_complements(text, start)
+    if not ends_clause(text, end) or len(complements) > 1:
+        return None
+    for one in complements:
+        if not one.phrases or one.role not in ("at", "for", ""):
+            return None
+        one.role = "to"
+    return framed(sentence, "bring", verb, [thing, *complements], first=start, end=end)
 
 
 def will_do(sentence: Sentence, at: int) -> Found | None:

@@ -31,6 +31,11 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("in", "which", "place"): ("where",), ("at", "which", "place"): ("where",),
     ("in", "what", "place"): ("where",), ("on", "which", "place"): ("where",),
     ("say", "me"): ("tell", "me"), ("explain", "me"): ("tell", "me"),
+    ("about", "turn"): ("turn", "around"), ("about", "face"): ("turn", "around"),
+    ("roond",): ("round",), ("ower",): ("over",), ("howay",): ("come",), ("haway",): ("come",),
+    ("yem",): ("home",), ("wey", "dey", "on"): ("that", "is", "on"),
+    ("wey", "dey", "in"): ("that", "is", "in"), ("wey", "dey"): ("that", "is", "in"),
+    ("that", "there"): ("that",), ("this", "here"): ("this",), ("them", "there"): ("those",),
     ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip

@@ -41,13 +41,15 @@ _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along
 """What "with you" belongs to; else it is only taken along."""
 _PREDICATES = words(
     "about around ringing shut closed there here still not gone empty full open closed in on at "
-    "under behind near next missing away"
+    "under behind near next missing away wanted needed required needing wanting"
 )
 """What follows "the bottle's" where that is no owner."""
 _RECEIVERS = words("him her me them us want wants")
 _WISHES = phrases(
     "need,want,going to need,going to want,have to have,have got to have,could do with,could use,"
-    "could murder,would kill for,wanting,needing,will need,gonna need"
+    "could murder,would kill for,wanting,needing,will need,gonna need,any chance of,"
+    "any chance of getting,is there any chance of,would murder,would there be any chance of,"
+    "me wants,me needs,me want,me need,fancy"
 )
 """How a wish begins whose subject goes without saying: "need a screwdriver here"."""
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
@@ -252,7 +254,7 @@ def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
     tokens = _done_before(_said_first(tokens))
     words = [t.text for t in tokens]
-    wished = next((n for n in (4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
+    wished = next((n for n in (6, 5, 4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
     if wished and words[wished : wished + 1] not in (["to"], ["you"], []):
         tokens[:wished] = [Token("i", ""), Token("need", _said(tokens[:wished]))]
     for at in range(len(words) - 2, 0, -1):
@@ -290,6 +292,8 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         broken_off = token.raw in DASHES
         if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
+        if token.text == "left" and last == "got":
+            continue  # what have we got left
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
             kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")
         elif token.text == "1" and at + 1 == len(words) and last in _RECEIVERS:

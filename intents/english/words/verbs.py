@@ -17,6 +17,7 @@ SPELLINGS: dict[str, str] = {
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
+        "gan,gan over,get along to,take yourself off to,get yourself off to,trundle over,"
         "leg it,leg it over,peg it,skip over,pootle over,potter over,shoot over,nip across,sprint,"
         "dart,dart over,scoot over,race,race over,haul yourself,drag yourself,plant yourself,"
         "translate,sidestep,side step,strafe,shuffle,scoot"
@@ -38,7 +39,8 @@ SPELLINGS: dict[str, str] = {
     "pick": (
         "pick,pick up,nab,grab,grasp,collect,catch,lift,hold,obtain,get hold of,"
         "round up,grab hold of,take hold of,pick out,gather,seize,lift up,raise,acquire,grip,"
-        "snatch,clutch,scoop up,withdraw,extract,remove,pull,pull out,procure,choose,"
+        "snatch,clutch,scoop up,withdraw,yoink,hoist up,swipe,get out,retake,"
+        "extract,remove,pull,pull out,procure,choose,"
         "select,take away"
     ),
     "take": (
@@ -52,14 +54,15 @@ SPELLINGS: dict[str, str] = {
         "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
         "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
         "keep,lob,fling,hurl,heave,cram,squash,slap,perch,prop,nestle,lodge,ditch,dunk,drape,"
-        "pitch,hoist,prop up,stand up,heap,hoy,"
+        "pitch,hoist,prop up,yeet,whang,lump,evacuate,air,return,"
+        "stand up,heap,hoy,"
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
     "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
-        "throw away,dispose of,discard,throw out,get rid of,dump,trash,bin,recycle,"
+        "throw away,dispose of,dispose,discard,throw out,get rid of,dump,trash,bin,recycle,"
         "place down,leave,lower"
     ),
     "bring": (
@@ -68,19 +71,21 @@ SPELLINGS: dict[str, str] = {
         "bring along,"
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,hoof,trundle,"
-        "relay,smuggle,sneak,pass along,bring round,take round,drop round,fetch over,walk,jog"
+        "relay,smuggle,sneak,pass along,fire over,fire,distribute,shift,hand deliver,arrange,"
+        "nab,yoink,bring round,take round,drop round,fetch over,walk,jog"
     ),
     "inform": (
         "i need,i want,i would like,give me,give us,give,provide,provide me with,show me,share,"
         "get me"
     ),
     "give": (
-        "give,chuck,toss,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
+        "give,chuck,toss,gis,giz,gies,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
         "present,provide,"
         "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
     ),
     "want": (
-        "hook me up with,fix me up with,sort me out with,set me up with,i want,i need,i would like,"
+        "hook me up with,i would murder,i could fair go,i could go,i would not mind,i could eat,"
+        "i could drink,i would love,me wants,fix me up with,sort me out with,set me up with,i want,i need,i would like,"
         "i would love,can i have,could i have,may i have,"
         "might i have,might i get,"
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
@@ -125,7 +130,8 @@ SPELLINGS: dict[str, str] = {
     ),
     "tell": (
         "tell,inform,let,notify,advise,update,remind,report,explain,let me know,"
-        "relay to,share with,explain to,brief,identify,name,find out,check,determine,"
+        "relay to,share with,explain to,ascertain,establish,make out,convey,convey to,"
+        "brief,identify,name,find out,check,determine,"
         "figure out,do you know,can i know,i want to know,i would like to know,"
         "i need to know,work out,tell about,look and tell,specify,list,speak to,"
         "speak with,talk to,talk with,wish,bid,do you happen to know,would you know,any idea,"
@@ -285,7 +291,8 @@ _PARTICIPLES = {
     "brought": "bring", "taken": "take", "given": "give", "put": "put", "set": "set",
     "found": "find", "shown": "show", "led": "lead", "held": "hold", "thrown": "throw",
     "gotten": "get", "sent": "send", "got": "get", "shut": "shut", "left": "leave", "hung": "hang",
-    "laid": "lay", "told": "tell", "met": "meet",
+    "laid": "lay", "told": "tell", "met": "meet", "kept": "keep", "withdrawn": "withdraw",
+    "driven": "drive", "slid": "slide", "stuck": "stick", "flung": "fling", "slung": "sling",
 }  # fmt: skip
 
 
@@ -295,7 +302,8 @@ def participle_base(word: str) -> str | None:
         return _PARTICIPLES[word]
     stem = word.removesuffix("ed")
     undoubled = stem[:-1] if len(stem) > 2 and stem[-1] == stem[-2] else stem
-    for form in (word, stem, stem + "e", undoubled) if word.endswith("ed") else (word,):
+    forms = (word, stem, stem + "e", undoubled, word.removesuffix("ied") + "y")
+    for form in forms if word.endswith("ed") else (word,):
         if form in FIRST_WORDS:
             return form
     return None
