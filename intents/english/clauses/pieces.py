@@ -25,6 +25,7 @@ _URGES = lexicon.phrases(
 )
 """How one urges; the robot hurries for nobody."""
 _WITHOUT_SENSE = ("away", "back", "over", "up", "down", "out", "off")
+_STANDS = lexicon.words("is are lies lie stands stand sits sit stays stay hangs hang")
 _ALL_OF_THEM = lexicon.phrases(
     "all,all of them,all of it,both,both of them,the lot,the lot of them,every one,"
     "every one of them,every last one,every single one,all the lot,them all,them both,each one"
@@ -43,12 +44,14 @@ class Pieces:
         things: The things; None until they are named.
         said: What was said of them, in that order, apart from what tells which they are.
         apart: Those of what was said that a sign stands before.
+        told: It is told where they are: "the torch, it is on the bar".
         end: Where the pieces end.
     """
 
     things: Complement | None = None
     said: list[Complement] = field(default_factory=list[Complement])
     apart: list[Complement] = field(default_factory=list[Complement])
+    told: bool = False
     end: int = 0
 
     def with_role(self, *roles: str) -> list[Complement]:
@@ -73,6 +76,8 @@ def read_pieces(text: Text, at: int) -> Pieces | None:
 
 def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | None:
     """Read one piece up to a sign or a connector; None if it is none."""
+    if pieces.things and text.word(at) in ("it", "they") and text.word(at + 1) in _STANDS:
+        at, pieces.told = at + 2, True
     urged = text.phrase_end(_URGES, at)
     if urged and _closes(text, urged):
         return urged

@@ -315,7 +315,9 @@ _RESULT = lexicon.phrases(
 
 
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
-    """Tell Julia what day it is."""
+    """Tell Julia what day it is; tell her the following: ..."""
+    if text.words[at : at + 2] == ["the", "following"] and text.word(at + 2) in (COMMA, FULL_STOP):
+        at += 3
     end = _before_condition(text, at, content_end(text, at), scope)
     if end == at:
         raise Unclear("What shall I tell?")

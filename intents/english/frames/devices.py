@@ -2,6 +2,7 @@
 
 from intents.english.frames.slots import Slots
 from intents.english.phrases.complements import Clause, Complement
+from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import singular
@@ -40,7 +41,7 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         if phrase.said in ("door", "lid", "drawer") and isinstance(last, Place) and last.in_:
             names.append(last.in_)  # put the milk in the fridge and shut the door
             continue
-        if name and phrase.exact:
+        if name and (phrase.exact or _is_only(phrase, head)):
             names.append(name)
         elif head in generic:
             room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
@@ -52,6 +53,12 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         else:
             raise NotUnderstood(f"I cannot {act} “{phrase.said}”")
     return names
+
+
+def _is_only(phrase: NounPhrase, head: str) -> bool:
+    """Whether there is one device of that name: "the lamp" is the desk lamp."""
+    names = phrase.all_names("object", "place", "room")
+    return len(names) == 1 and names[0].split()[-1] == head and head in _SWITCHABLE
 
 
 _LOUD = words("tv television telly radio music stereo speaker heater heating thermostat")

@@ -165,7 +165,7 @@ def _receiver(slots: Slots) -> Person | str | None:
         bare = [c for c in slots.rest if c.phrases and c.role == "" and c.phrase.noun != "here"]
         person = slots.take_person("", "for") if len(bare) > 1 else slots.take_person("for")
         here = slots.take_here()
-        return person or (ME if here else _there(slots))
+        return person or (ME if here else _there(slots) or _bare_spot(slots))
     if is_person(goal.phrase, scope) or goal.phrase.noun in ("operator", "here"):
         slots.take_person("for")
         return to_person(goal.phrase, scope) if goal.phrase.noun != "here" else ME
@@ -190,6 +190,16 @@ def _there(slots: Slots) -> str | None:
         return None
     slots.rest.remove(there)
     return slots.scope.place
+
+
+def _bare_spot(slots: Slots) -> str | None:
+    """Bring it *kitchen*: the place to which it is to be, behind what is brought."""
+    bare = [c for c in slots.rest if c.phrases and c.role == ""]
+    spot = bare[-1] if len(bare) > 1 and bare[-1].phrase.name("place", "room") else None
+    if spot is None or not spot.phrase.is_spot or len(spot.phrases) > 1:
+        return None
+    slots.rest.remove(spot)
+    return to_place(spot.phrase, slots.scope)
 
 
 def _near_destination(slots: Slots) -> str | None:
@@ -262,6 +272,9 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     if bare and len(bare.phrases) > 1 and not any(p.places for p in bare.phrases[1:]):
         bare.phrases[-1].places += bare.phrases[0].places[-1:]
         del bare.phrases[0].places[-1:]
+    whither = slots.peek("for") if not slots.peek("to", "into", "at") else None
+    if whither and whither.phrase.is_spot and clause.sense == "put":
+        whither.role = "to"  # put it for the shelf
     to = slots.peek("to")
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)

@@ -57,6 +57,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     source = slots.take("from")
     if source and target and source.phrase.noun == "there":
         source = None  # to the hall, and from there to the lab: it is there by then
+    if target and target.phrase.noun in ("here", "operator") and clause.verb.startswith("come"):
+        slots.measure("time")  # come here a minute
     distance = slots.measure("length")
     direction = slots.direction(*_BY)
     slots.direction("around", "up", "down")
@@ -67,6 +69,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         return [Find(person=replace(person, at=to_place(target.phrase, scope)))]
     if target and second and target.phrase.noun in ("here", "there"):
         target = second
+    elif target and second and second.phrase.noun in ("here", "there"):
+        pass  # come to me over here
     elif second:
         raise Misfit(f"“{second.phrase.said}” is one place too many")
     _must_have_side(clause, direction)

@@ -58,6 +58,10 @@ def destination(slots: Slots) -> Target | None:
     if there and slots.scope.place:
         slots.rest.remove(there)
         return Target(on=slots.scope.place)
+    spot = bares[-1] if len(bares) > 1 and bares[-1].phrase.name("place", "room") else None
+    if spot and spot.phrase.is_spot and not slots.peek("from"):
+        slots.rest.remove(spot)
+        return _spot(Locative(None, spot.phrase), slots.scope)  # put it kitchen table
     bare = bares[0] if bares else None
     place = detach_place(bare.phrases[-1]) if bare else None
     source = slots.peek("from")

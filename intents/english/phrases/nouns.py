@@ -165,8 +165,9 @@ def _read_unknown(text: Text, phrase: NounPhrase, at: int) -> int | None:
     phrase.noun, phrase.said = "unknown", " ".join(text.words[at:end])
     _prefix_level(text, phrase)
     if not phrase.names:
-        phrase.names, phrase.exact = text.index.partial(text.words[end - 1]), False
-    if phrase.names and end == at + 1:
+        begun = text.index.partial(phrase.said) if end > at + 1 else ()
+        phrase.names, phrase.exact = begun or text.index.partial(text.words[end - 1]), False
+    if phrase.names and (end == at + 1 or text.index.partial(phrase.said)):
         phrase.noun = "name"
     else:
         phrase.names = ()

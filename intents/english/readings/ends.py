@@ -194,7 +194,7 @@ def _passive(
     text = sentence.text
     first = text.phrase_end(_PASSIVE, phrase.end + (text.word(phrase.end) == COMMA))
     base = _done_to(text.word(first)) if first else None
-    if first is None or base is None:
+    if first is None or base is None or base == "cover":
         return None
     complements, end = read_complements(text, first + 1)
     thing = things[0] if things else Complement(phrases=[phrase])

@@ -22,7 +22,7 @@ def jotted(sentence: Sentence, at: int) -> Found | None:
     if sentence.before and text.word(at - 1) not in (FULL_STOP, "and", "then"):
         return None
     pieces = read_pieces(text, at)
-    if pieces is None or pieces.things is None or not _closes(text, pieces.end):
+    if pieces is None or pieces.things is None or pieces.told or not _closes(text, pieces.end):
         return None
     bare = not any(c.role in ("to", "into", "for", "from") for c in pieces.said)
     who = _receiver(sentence, pieces)

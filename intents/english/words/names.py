@@ -104,7 +104,9 @@ class NameIndex:
         self.words |= {*words, singular(words[-1])}
 
     def _add_parts(self, name: Name, words: list[str]) -> None:
-        for part in {singular(words[0]), singular(words[-1])} if len(words) > 1 else ():
+        parts = {singular(words[0]), singular(words[-1])} if len(words) > 1 else set[str]()
+        parts |= {" ".join(words[:end]) for end in range(2, len(words))}
+        for part in parts:
             if name not in self._parts.get(part, ()):
                 self._parts[part] = (*self._parts.get(part, ()), name)
 
@@ -131,7 +133,7 @@ class NameIndex:
         return self._names.get(_key(words), ()) if words else ()
 
     def partial(self, word: str) -> tuple[Name, ...]:
-        """The longer names that a word begins or ends: "table" in "dining table"."""
+        """The longer names that words begin or a word ends: "table" in "dining table"."""
         return self._parts.get(singular(word), ())
 
     @property
