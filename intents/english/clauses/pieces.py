@@ -93,7 +93,8 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
     found: list[Complement] = []
     things = pieces.things
     for one in _one_by_one(complements):
-        if one.particle in _WITHOUT_SENSE and not one.phrases:
+        if (one.particle in _WITHOUT_SENSE or one.direction == "backward") and not one.phrases:
+            apart = True  # scarf away *on the shelf*: that is where it goes
             continue
         if not one.phrases:
             return None
@@ -110,7 +111,7 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
     if pieces.things is None:
         pieces.things = things
     pieces.said += found
-    pieces.apart += found if apart and text.word(at - 1) in _SIGNS else []
+    pieces.apart += found if apart else []
     return urged
 
 

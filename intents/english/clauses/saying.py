@@ -227,6 +227,7 @@ def tell(text: Text, at: int, scope: Scope) -> Found:
 def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
     to = listener
+    at += text.word(at) == "back" and text.word(at - 1) in ("report", "get")
     if text.word(at) in _TO and text.word(at) != "for":
         at += 1
     first = None if listener else _listener(text, at, scope)

@@ -46,6 +46,9 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     if together:
         together.count = together.count or "all"
         return put(clause, scope)
+    whither = slots.peek("to", "into")
+    if whither and whither.phrase.is_spot and clause.sense == "pick":
+        return take(dataclasses.replace(clause, sense="take"), scope)  # remove it to the cellar
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
     moved = not _then(clause).isdisjoint(("put", "drop", "bring", "give"))

@@ -156,6 +156,8 @@ def _towards(clause: Clause, scope: Scope, phrase: NounPhrase) -> Goal:
         return Find(person=to_person(phrase, scope))
     if phrase.where:
         return Find(object=to_object(phrase, scope))
+    if phrase.said == "home" and not phrase.names:
+        return GoTo(place="home")  # where the robot stays; the world says whether it has one
     if phrase.name("object") and not phrase.name("place", "room"):
         query = to_object(phrase, scope)
         if query != ObjectQuery(name=query.name, at=query.at):

@@ -72,7 +72,7 @@ def pronoun(text: Text, start: int) -> NounPhrase | None:
         return NounPhrase(start, start + 1, noun="operator", said=word)
     if word in ("the", "your") and text.word(start + 1) in ("operator", "user"):
         return NounPhrase(start, start + 2, noun="operator", said="operator")
-    if word in ("here", "there", "back"):
+    if word in ("here", "there", "back") and text.name_at(start) is None:  # the back door
         noun: Noun = "there" if word == "there" else "here"
         return NounPhrase(start, start + 1, noun=noun, said=word)
     if word in ("over", "right") and text.word(start + 1) in ("here", "there"):

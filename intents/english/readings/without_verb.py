@@ -7,7 +7,7 @@ from intents.english.phrases.complements import read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence
 from intents.english.trouble import Misfit, Unclear
-from intents.english.words.lexer import FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.verbs import verbs_at
 from intents.goals import Close, LookAt, Switch
 
@@ -65,7 +65,10 @@ def switched(sentence: Sentence, at: int) -> Found | None:
     thing = noun_phrase(text, at)
     if thing is None or text.word(thing.end) in ("is", "are"):
         return None  # the lamp is on: so it is
-    found = brought_about(text, at, sentence.scope)
+    apart = text.word(thing.end) == COMMA
+    scope = sentence.scope
+    found = made_so(text, thing, thing.end + 1, scope) if apart else None
+    found = found or brought_about(text, at, scope)
     return found if found and isinstance(found[0][0], Switch) else None
 
 

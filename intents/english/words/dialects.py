@@ -8,6 +8,7 @@ where the words around it leave no other sense.
 from intents.english.words import lexicon
 from intents.english.words.lexer import FULL_STOP, Token
 from intents.english.words.names import NameIndex
+from intents.english.words.verbs import FIRST_WORDS
 
 _GIVES_ME = lexicon.words(
     "give bring get fetch hand pass find show tell buy lend send offer serve make pour grab teach "
@@ -33,7 +34,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("say", "me"): ("tell", "me"), ("explain", "me"): ("tell", "me"),
     ("about", "turn"): ("turn", "around"), ("about", "face"): ("turn", "around"),
     ("roond",): ("round",), ("ower",): ("over",), ("howay",): ("come",), ("haway",): ("come",),
-    ("yem",): ("home",), ("wey", "dey", "on"): ("that", "is", "on"),
+    ("yem",): ("home",), ("gan",): ("go",), ("giz",): ("give", "us"), ("gis",): ("give", "us"), ("wey", "dey", "on"): ("that", "is", "on"),
     ("wey", "dey", "in"): ("that", "is", "in"), ("wey", "dey"): ("that", "is", "in"),
     ("that", "there"): ("that",), ("this", "here"): ("this",), ("them", "there"): ("those",),
     ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
@@ -49,7 +50,7 @@ _SEEING = lexicon.words("see have find hold carry")
 
 def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with the words of the grammar in place of those of a dialect."""
-    tokens = _prepositions(tokens)
+    tokens = _linked(_prepositions(tokens))
     words = [t.text for t in tokens]
     for at, token in enumerate(tokens):
         owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
@@ -58,6 +59,16 @@ def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
         if owned and _is_thing(words, at + 1, index):
             tokens[at] = Token(owner, token.raw)
     return _asked_the_other_way_round(tokens)
+
+
+def _linked(tokens: list[Token]) -> list[Token]:
+    """Take it *an* put it there: and."""
+    return [
+        Token("and", token.raw)
+        if token.text == "an" and after.text[:1] not in "aeiou8" and after.text in FIRST_WORDS
+        else token
+        for token, after in zip(tokens, [*tokens[1:], Token("a", "")], strict=False)
+    ]
 
 
 def _is_thing(words: list[str], at: int, index: NameIndex) -> bool:

@@ -221,6 +221,8 @@ FILLERS = phrases(
     "on your way out,on your way there,"
     "now that i think of it,now that i think about it,"
     "as fast as you can,as quick as you can,as quickly as you can,"
+    "forthwith,this second,this instant,at the double,on the double,stat,pronto,sharpish,urgently,"
+    "quick quick,quick smart,double quick,in a jiffy,without delay,"
     "as fast as possible,as quickly as possible,quick as you can"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""

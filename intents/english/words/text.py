@@ -55,6 +55,7 @@ _WISHES = phrases(
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come on off")
 _CASES = words("on onto in into to from off under behind at")
+_NOTHING_LEFT = ([], [","], ["."], ["in"], ["on"], ["at"], ["to"], ["over"], ["and"])
 _POLITE = words("please thanks")
 _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
@@ -292,7 +293,7 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         broken_off = token.raw in DASHES
         if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
-        if token.text == "left" and last == "got":
+        if token.text == "left" and _remains(words, at):
             continue  # what have we got left
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
             kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")
@@ -308,13 +309,19 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
                     and (words[at + 1] != "turn" or words[at + 2 : at + 3] == ["to"])
                 )
             )
-            or (token.text == "you" and at == 1 and words[0] in _MADE)
+            or (token.text == "you" and at == 1 and words[0] in _MADE and words[2:3] != ["go"])
             or (token.text == "at" and at + 1 == len(words) and "where" in words[:3])
         ):
             continue
         else:
             kept.append(token)
     return kept
+
+
+def _remains(words: list[str], at: int) -> bool:
+    """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
+    owned = words[at - 1] == "got" or words[at - 2 : at] in (["we", "have"], ["you", "have"])
+    return owned and words[at + 1 : at + 2] in _NOTHING_LEFT
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:
