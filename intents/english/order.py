@@ -111,8 +111,8 @@ RULES = Rules(
         # What only tells something, and commands of nouns alone. A gap without "and" before it is
         # as doubtful as a telegram, which is a whole sentence.
         remarks.statement,
-        telegrams.telegram,
         jottings.jotted,
+        telegrams.telegram,
         ellipsis.gapped,
         remarks.told_of,
         # A word that no reading knows as anything is taken for a verb last of all, and asked about.

@@ -278,6 +278,10 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     whither = slots.peek("for") if not slots.peek("to", "into", "at") else None
     if whither and whither.phrase.is_spot and clause.sense == "put":
         whither.role = "to"  # put it for the shelf
+    keeper = slots.peek("with") if clause.verb in ("leave", "drop", "drop off") else None
+    if keeper and is_person(keeper.phrase, scope):
+        keeper.role = "to"
+        return bring(dataclasses.replace(clause, sense="bring", verb="bring"), scope)
     to = slots.peek("to")
     if to and is_person(to.phrase, scope) and clause.sense == "put":
         return bring(clause, scope)

@@ -257,6 +257,8 @@ def _direction(text: Text, at: int) -> tuple[Complement, int] | None:
     if found is None:
         return None
     direction, end = found
+    if text.word(at) in ("over", "right") and text.word(at + 1) in ("here", "there"):
+        return None
     named = text.name_at(at)
     if named and named.end > end:
         return None  # the back door
@@ -313,7 +315,9 @@ def _preposition(text: Text, at: int) -> tuple[Role, How | None, int]:
 
 def _out_the(text: Text, at: int) -> int | None:
     """Get a cup *out the cupboard*: out of it; but one goes out the door."""
-    named = text.name_at(at + 2) if text.words[at : at + 1] == ["out"] else None
+    named = text.name_at(at + 2) if text.word(at) == "out" else None
+    if named is None and text.word(at) == "out" and text.index.partial(text.word(at + 2)):
+        return at + 1 if text.word(at + 1) in ("the", "that", "my", "your") else None
     if named is None or text.word(at + 1) not in ("the", "that", "my", "your"):
         return None
     return None if text.word(named.end - 1) in ("door", "window", "gate") else at + 1

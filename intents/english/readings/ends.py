@@ -29,7 +29,7 @@ _RESULT_VERBS = lexicon.words("pull push slide swing put set get turn make have 
                               "need switch shut")  # fmt: skip
 _KNOCKS = lexicon.words(
     "flick flip knock whack bang stick pop crack throw click snap prise pry ease yank tug wedge "
-    "bung fling nudge tap slide roll wind draw"
+    "mash cut bung fling nudge tap slide roll wind draw"
 )
 """What a thing is made to go on, off, open or shut with, by those who do not say "switch"."""
 _ENSURES = lexicon.phrases(

@@ -50,7 +50,7 @@ _SEEING = lexicon.words("see have find hold carry")
 
 def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with the words of the grammar in place of those of a dialect."""
-    tokens = _linked(_prepositions(tokens))
+    tokens = _linked(_prepositions(_handled(tokens)))
     words = [t.text for t in tokens]
     for at, token in enumerate(tokens):
         owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
@@ -59,6 +59,17 @@ def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
         if owned and _is_thing(words, at + 1, index):
             tokens[at] = Token(owner, token.raw)
     return _asked_the_other_way_round(tokens)
+
+
+def _handled(tokens: list[Token]) -> list[Token]:
+    """Bring *am*, put *am* there: it, in the Pidgin of Nigeria."""
+    before = [Token("i", ""), *tokens]
+    return [
+        Token("it", token.raw)
+        if token.text == "am" and last.text in FIRST_WORDS and last.text not in ("i", "who")
+        else token
+        for last, token in zip(before, tokens, strict=False)
+    ]
 
 
 def _linked(tokens: list[Token]) -> list[Token]:
@@ -75,7 +86,9 @@ def _is_thing(words: list[str], at: int, index: NameIndex) -> bool:
     """Whether a thing or a place is named at a word, or after one that describes it."""
     at += at < len(words) and (words[at] in _DESCRIBING or words[at] in index.colors)
     match = index.match(words, at) if at < len(words) else None
-    return match is not None and not match.of("person")
+    if match is None:
+        return at < len(words) and bool(index.partial(words[at]))
+    return not match.of("person")
 
 
 def _prepositions(tokens: list[Token]) -> list[Token]:

@@ -114,7 +114,7 @@ OBJECT_NOUNS = words(
 ONES = words("one ones")
 CONTAINERS = words(
     "can bottle box pack packet bag carton jar tin glass cup bowl plate piece slice bar tube "
-    "package container pile bunch stack pair bit roll pot set"
+    "package container drop sup splash dash mouthful pile bunch stack pair bit roll pot set"
 )
 """Nouns that measure out something else: "a bottle of water", "a coke can"."""
 PLACE_NOUNS = words("place spot location position area room")

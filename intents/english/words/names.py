@@ -8,6 +8,7 @@ from rapidfuzz import fuzz, process
 
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.lexicon import COLORS
+from intents.english.words.measures import number
 from intents.english.words.synonyms import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
@@ -96,6 +97,11 @@ class NameIndex:
         words = _split(spelling)
         if not words:
             return
+        counted = [number([word], 0) for word in words]
+        figures = [f"{n.value:.0f}" if n else word for n, word in zip(counted, words, strict=True)]
+        if figures != words and len(words) > 1:
+            self._names.setdefault(_key(figures), (name,))  # room 12 for room twelve
+            self.words |= set(figures)
         key = _key(words)
         known = self._names.get(key, ())
         if name not in known:

@@ -17,7 +17,7 @@ SPELLINGS: dict[str, str] = {
         "come straight back,go straight back,come right back,go right back,"
         "move yourself,start walking,start moving,start going,wander,stroll,cruise,"
         "retreat,swing by,stop by,back up,back off,back away,reverse,"
-        "gan,gan over,get along to,take yourself off to,get yourself off to,trundle over,"
+        "shift,get along to,take yourself off to,get yourself off to,trundle over,"
         "leg it,leg it over,peg it,skip over,pootle over,potter over,shoot over,nip across,sprint,"
         "dart,dart over,scoot over,race,race over,haul yourself,drag yourself,plant yourself,"
         "translate,sidestep,side step,strafe,shuffle,scoot"
@@ -25,7 +25,8 @@ SPELLINGS: dict[str, str] = {
     "leave": "leave,exit,go out of,get out of,get out,depart,depart from",
     "turn": (
         "turn,rotate,spin,turn around,turn yourself,face,pivot,turn round,spin around,yaw,"
-        "turn to face,turn and face,swivel"
+        "turn to face,turn and face,swivel,swing,swing round,swing around,swivel round,"
+        "swivel around,whirl round,whirl around,wheel round,wheel around"
     ),
     "find": (
         "find,locate,look for,search,search for,spot,pinpoint,seek,detect,discover,"
