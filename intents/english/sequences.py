@@ -1,14 +1,17 @@
 """Clauses one after the other, and what each does to those before it."""
 
 import re
+from contextlib import suppress
 
 from intents.english.clauses.openings import otherwise_end, skip_openings
+from intents.english.clauses.statements import mention_phrase
 from intents.english.corrections import correction, taken_back
 from intents.english.joining import as_wished, joined, or_else, same_object
 from intents.english.phrases.complements import connector_end
+from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence, clause, not_understood
 from intents.english.substitution import substitute
-from intents.english.trouble import Misfit, NotUnderstood, Partly
+from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
@@ -72,7 +75,22 @@ def sequence(sentence: Sentence, at: int) -> Found:
         else:  # what is only told stands between a clause and what corrects it
             notes.passed.append((begun, end))
             notes.wanted = bool(wish)
+            if here.scope.object is None:
+                _mention_first(here, begun, end)
         at = max(end, at + 1)
+
+
+def _mention_first(sentence: Sentence, at: int, end: int) -> None:
+    """My torch was clipped to the rack, bring *it*: the first thing that was told of."""
+    text = sentence.text
+    for start in range(at, end):
+        if not (text.name_at(start) or text.index.partial(text.word(start))):
+            continue
+        phrase = noun_phrase(text, start)
+        if phrase is not None and phrase.name("object"):
+            with suppress(ReadingError):
+                mention_phrase(phrase, sentence.scope)
+            return
 
 
 def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: list[str]) -> int:

@@ -12,7 +12,7 @@ from intents.english.phrases.complements import Clause, Complement, connector_en
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
-from intents.english.words.lexer import singular
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import EVERYONE, words
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
@@ -98,7 +98,19 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
     )
     if there or "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
         return [_put_down(goal) for goal in bring(clause, scope)]
+    if "fetch" in clause.verb.split() and not _is_moved_on(clause):
+        return bring(clause, scope)
     return pick(clause, scope)
+
+
+def _is_moved_on(clause: Clause) -> bool:
+    """Fetch the cup *and put it there*; fetch the cup, *take it to Ada*: it is not for me."""
+    text, at = clause.text, clause.end
+    while at < len(text) and text.word(at) in (COMMA, FULL_STOP):
+        at += 1
+    after = connector_end(text, at) or at
+    acts = {sense for sense, _ in verbs_at(text.words, after)}
+    return not acts.isdisjoint(("put", "drop", "bring", "give", "take", "swap"))
 
 
 def _put_down(goal: Goal) -> Goal:
