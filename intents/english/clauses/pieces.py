@@ -5,6 +5,7 @@ them, or says where from, where to or for whom. A comma, a colon or a full stop 
 """
 
 from collections.abc import Iterator
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -81,7 +82,7 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
     urged = text.phrase_end(_URGES, at)
     if urged and _closes(text, urged):
         return urged
-    described = _description(text, at, pieces.things) if pieces.things else None
+    described = description(text, at, pieces.things) if pieces.things else None
     if described:
         return described
     if verbs_at(text.words, at) and not text.name_at(at):
@@ -137,7 +138,7 @@ def _are_things(complement: Complement) -> bool:
     return all(p.name("object", "category") and not p.is_spot for p in complement.phrases)
 
 
-def _description(text: Text, at: int, things: Complement | None) -> int | None:
+def description(text: Text, at: int, things: Complement | None) -> int | None:
     """Which of the things, or how many: *blue*; *the big one*; *all of them*; *four*."""
     if things is None or text.name_at(at) or len(things.phrases) != 1:
         return None
@@ -153,6 +154,41 @@ def _description(text: Text, at: int, things: Complement | None) -> int | None:
     if said is None or not _closes(text, said.end) or said.places or said.names:
         return None
     return said.end if _tells_which(said, thing) else None
+
+
+def behind_commas(
+    text: Text, complements: list[Complement], end: int, *, put: bool
+) -> tuple[list[Complement], int]:
+    """Put the saucers, *all of them, into the box*; bring a scarf, *red, from the rack*.
+
+    Args:
+        text: What was said.
+        complements: Those before the comma.
+        end: Where the comma stands, if there is one.
+        put: On or in a place says where the thing is to be put.
+    """
+    thing = next((c for c in complements if c.phrases and _are_things(c)), None)
+    if thing is None or thing.role or text.word(end) != COMMA:
+        return complements, end
+    described, more, at = deepcopy(thing), list[Complement](), end
+    roles = {c.role for c in complements if c.phrases}
+    free = put and not (roles & {"to", "into", "at"}) and not thing.phrases[-1].places
+    while text.word(at) == COMMA:
+        told = description(text, at + 1, described)
+        if told:
+            at = told
+            continue
+        found, stop = read_complements(text, at + 1)
+        if not found or not _closes(text, stop) or not all(c.phrases for c in found):
+            break
+        new = [c.role for c in found]
+        known = roles | {c.role for c in more}
+        if known.intersection(new) or not {*new} <= {"to", "into", "from", *(["at"] * free)}:
+            break
+        more, at = more + found, stop
+    if not more:
+        return complements, end
+    return [*(described if c is thing else c for c in complements), *more], at
 
 
 def _count(text: Text, at: int) -> tuple[int | Literal["all"], int] | None:

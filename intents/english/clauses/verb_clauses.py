@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from intents.english.clauses.pieces import behind_commas
 from intents.english.clauses.questions import counted
 from intents.english.clauses.saying import answer, describe, inform, say, tell
 from intents.english.frames import FRAMES
@@ -27,6 +28,7 @@ _FOLLOWERS = lexicon.PRONOUNS | lexicon.words("to if unless you how what after b
 """Words that may begin what comes after a clause."""
 _DONE_FOR = ("open", "close", "switch", "find", "count", "look")
 """What is done for somebody, and not to them."""
+_HANDLES = ("bring", "put", "drop", "take", "give", "pick")
 _HANDED = ("bring", "take", "give", "pick", "collect", "want")
 
 
@@ -100,6 +102,9 @@ def _in_sense(
     complements, end = read_complements(text, start)
     if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
         raise Misfit("that is not to move something")
+    if sense in _HANDLES:
+        putting = sense in ("put", "drop")
+        complements, end = behind_commas(text, complements, end, put=putting)
     complements = without_favours(sense, complements)
     _mention_owners(text, complements, scope)
     given_up = sense == "cancel" and text.word(first).endswith("ing")

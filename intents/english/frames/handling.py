@@ -10,7 +10,7 @@ from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
 from intents.english.phrases.complements import Clause, Complement, connector_end
 from intents.english.phrases.phrase import Locative, NounPhrase
-from intents.english.phrases.referents import ME, Scope, is_person, to_person, to_place
+from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.lexicon import EVERYONE, words
@@ -347,6 +347,8 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
     bare = slots.peek("")
     if bare is None or len(bare.phrases) > 1:
         raise Misfit("clear what?")
+    if bare.phrase.is_spot and (of := slots.take("of")):
+        return _cleared_of(slots, bare, of)
     spot = destination(slots)
     if bare.phrase.is_spot:
         slots.rest.remove(bare)
@@ -361,6 +363,19 @@ def clear(clause: Clause, scope: Scope) -> list[Goal]:
             raise Unclear("Where shall I put what is there?")
         return [Pick(object=replace(query, count="all")) for query in objects]
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
+
+
+def _cleared_of(slots: Slots, bare: Complement, of: Complement) -> list[Goal]:
+    """Rid the counter *of that bottle*; clear the table *of cups*, and put them in the sink."""
+    slots.rest.remove(bare)
+    at = to_place(bare.phrase, slots.scope)
+    queries = [to_object(phrase, slots.scope) for phrase in of.phrases]
+    several = [singular(p.said.split()[-1]) != p.said.split()[-1] for p in of.phrases]
+    slots.done()
+    return [
+        Pick(object=replace(q, at=at, count=q.count or ("all" if many else None)))
+        for q, many in zip(queries, several, strict=True)
+    ]
 
 
 def _alone(clause: Clause, bare: Complement, phrase: NounPhrase) -> Clause:

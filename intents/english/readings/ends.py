@@ -150,9 +150,12 @@ def thing_first(sentence: Sentence, at: int) -> Found | None:
     text = sentence.text
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
-    phrase = noun_phrase(text, at)
+    there_is = text.words[at : at + 2] in (["there", "is"], ["there", "are"])
+    phrase = noun_phrase(text, at + 2 * there_is)
     if phrase is None or phrase.noun in ("operator", "here", "there"):
         return None
+    if there_is:  # there's a hat in the hall wants taking to Ada
+        return _passive(sentence, phrase)
     if phrase.noun == "unknown":
         return _state(sentence, phrase)
     found = _belongs(sentence, at, phrase) or _passive(sentence, phrase)

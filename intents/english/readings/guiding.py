@@ -47,15 +47,15 @@ def shown_where(sentence: Sentence, at: int) -> Found | None:
     """Show Ada where the lab is."""
     text, scope = sentence.text, sentence.scope
     phrase = noun_phrase(text, at + 1) if text.word(at) == "show" else None
-    if phrase is None or not is_person(phrase, scope) or phrase.noun == "operator":
+    if phrase is None or not is_person(phrase, scope):
         return None
     person = to_person(phrase, scope)
     if text.word(phrase.end) != "where":
         return None
     start = phrase.end + 1 + (text.word(phrase.end + 1) in ("is", "are"))
     place = noun_phrase(text, start)
-    if place is None:
-        return None
+    if place is None or (phrase.noun == "operator" and not place.is_spot):
+        return None  # show me where the cup is: find it
     end = place.end + (text.word(place.end) in ("is", "are"))
     return [Guide(person=person, to=to_place(place, scope, objects=True))], end
 

@@ -39,6 +39,10 @@ _NEEDS_TO_GO = lexicon.phrases(
     "would like to be brought,would like to be taken,wishes to go,is looking for the way,"
     "wants to be taken,wants to be brought,needs to come,wants to come"
 )
+_HANDED_OVER = lexicon.words(
+    "delivering delivered bringing brought fetching fetched handing handed taking"
+)
+"""What follows a thing that somebody needs: "Ada needs a torch *fetching*"."""
 _REQUIRED = lexicon.phrases(
     "is wanted,are wanted,wanted,is required,are required,required,is needed,are needed,needed,"
     "'s wanted,'s needed,'s required,is requested,are requested,requested,is called for,"
@@ -91,6 +95,7 @@ def needed(sentence: Sentence, at: int) -> Found | None:
         return None
     sentence.notes.wanted = True
     person = to_person(phrase, scope)
+    end += text.word(end) in _HANDED_OVER
     return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
 
 

@@ -60,7 +60,7 @@ SPELLINGS: dict[str, str] = {
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
     "swap": "swap,exchange,swap round,swap around,swap over,interchange,trade",
-    "clear": "clear,clear off,clear up,clear out,clear away,empty,empty out",
+    "clear": "clear,rid,relieve,strip,clear off,clear up,clear out,clear away,empty,empty out",
     "drop": (
         "drop,put down,set down,release,let go of,let go,drop off,leave behind,"
         "throw away,dispose of,dispose,discard,throw out,get rid of,dump,trash,bin,recycle,"
