@@ -112,6 +112,7 @@ RULES = Rules(
         # as doubtful as a telegram, which is a whole sentence.
         remarks.statement,
         jottings.jotted,
+        jottings.juxtaposed,
         telegrams.telegram,
         ellipsis.gapped,
         remarks.told_of,

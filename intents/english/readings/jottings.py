@@ -4,6 +4,8 @@
 blue, onto the counter". What comes from somewhere and is for nobody is for who speaks.
 """
 
+from dataclasses import replace
+
 from intents.english.clauses.pieces import Pieces, read_pieces
 from intents.english.clauses.verb_clauses import framed
 from intents.english.phrases.complements import Complement, connector_end
@@ -12,6 +14,7 @@ from intents.english.phrases.referents import is_person
 from intents.english.reading import Found, SaidVerb, Sentence
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 
 _GOALS = ("to", "into")
 
@@ -45,6 +48,32 @@ def jotted(sentence: Sentence, at: int) -> Found | None:
     target = [one for one in (who, where) if one]
     sentence.notes.verb = SaidVerb(at, at, (verb,))
     return framed(sentence, verb, verb, [things, *sources, *target], first=at, end=pieces.end)
+
+
+def juxtaposed(sentence: Sentence, at: int) -> Found | None:
+    """Two colas minibar: names side by side, as they are typed in haste."""
+    text = sentence.text
+    if sentence.before or sentence.depth or (verbs_at(text.words, at) and not text.name_at(at)):
+        return None
+    seams = [n for n in range(at + 1, len(text)) if _is_seam(text, at, n)]
+    if not seams:
+        return None
+    apart = replace(sentence, text=text.set_apart(seams))
+    found = jotted(apart, at)
+    return (found[0], len(text)) if found and found[1] == len(apart.text) else None
+
+
+def _is_seam(text: Text, first: int, at: int) -> bool:
+    """Whether a thing ends before a word, and a place, a person or "me" begins there."""
+    named = text.name_at(at)
+    spot = named and named.of("place", "room", "person") and not named.of("object", "category")
+    if not (spot or text.word(at) in ("me", "us")):
+        return False
+    for begin in range(first, at):
+        thing = text.name_at(begin)
+        if thing and thing.end == at and thing.of("object", "category"):
+            return text.word(begin - 1) != "the"
+    return False
 
 
 def _closes(text: Text, at: int) -> bool:

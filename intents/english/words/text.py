@@ -172,6 +172,15 @@ class Text:
         left.tokens, left.words, left._matches = kept, [t.text for t in kept], {}
         return left
 
+    def set_apart(self, places: Collection[int]) -> "Text":
+        """The text with a comma before each of some words."""
+        apart = copy(self)
+        apart.tokens = []
+        for at, token in enumerate(self.tokens):
+            apart.tokens += [Token(COMMA, "")] * (at in places) + [token]
+        apart.words, apart._matches = [t.text for t in apart.tokens], {}
+        return apart
+
     def raw(self, start: int, end: int) -> str:
         """What was written from one word to another."""
         said = ""
