@@ -191,6 +191,10 @@ def _word_carried(text: Text, at: int, told: _Told) -> bool:
         )
         if weighs or text.word(at - 1) in ("how", "a"):
             return True
+    if word in lexicon.SIZES and told.words.intersection(text.words[at + 1 : at + 3]):
+        named = next((m for n in (at + 1, at + 2) if (m := text.name_at(n))), None)
+        if named and named.of("person"):
+            return True  # little Ada
     if word in lexicon.SIZES or word in lexicon.EMPTY_ADJECTIVES:
         return not _before_noun(text, at + 1)
     if word in _WAYS:

@@ -79,18 +79,33 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
     """Read one piece up to a sign or a connector; None if it is none."""
     if pieces.things and text.word(at) in ("it", "they") and text.word(at + 1) in _STANDS:
         at, pieces.told = at + 2, True
-    urged = text.phrase_end(_URGES, at)
-    if urged and _closes(text, urged):
-        return urged
-    described = description(text, at, pieces.things) if pieces.things else None
-    if described:
-        return described
+    aside = _aside(text, at, pieces)
+    if aside:
+        return aside
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
     complements, end = read_complements(text, at)
     urged = text.phrase_end(_URGES, end) or end
     if not complements or not (_closes(text, urged) or text.word(urged) == "and"):
         return None
+    return urged if _sorted_out(complements, pieces, apart=apart) else None
+
+
+def _aside(text: Text, at: int, pieces: Pieces) -> int | None:
+    """Where what urges, or tells more of the things, ends."""
+    urged = text.phrase_end(_URGES, at)
+    if urged and _closes(text, urged):
+        return urged
+    if pieces.things is None:
+        return None
+    first = pieces.things.phrase.start
+    placed = any(c.phrase.start > first for c in pieces.said)
+    another = placed and text.word(_plain(text, at)) in lexicon.ONES  # cup, sink, clean one, rack
+    return None if another else description(text, at, pieces.things)
+
+
+def _sorted_out(complements: list[Complement], pieces: Pieces, *, apart: bool) -> bool:
+    """Whether each complement is one of things or says where, or for whom; keep them so."""
     found: list[Complement] = []
     things = pieces.things
     for one in _one_by_one(complements):
@@ -98,7 +113,7 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
             apart = True  # scarf away *on the shelf*: that is where it goes
             continue
         if not one.phrases:
-            return None
+            return False
         if things and one.role == "" and (one.phrase.said,) in _OF_THEM and one.phrase.count:
             things.phrases[-1].count = one.phrase.count
         elif (
@@ -106,14 +121,14 @@ def _read_piece(text: Text, at: int, pieces: Pieces, *, apart: bool) -> int | No
         ):
             one.role, things = "", one
         elif one.role in ("of", "about", "through", "with") or _are_things(one):
-            return None
+            return False
         else:
             found.append(one)
     if pieces.things is None:
         pieces.things = things
     pieces.said += found
     pieces.apart += found if apart else []
-    return urged
+    return True
 
 
 def _one_by_one(complements: list[Complement]) -> Iterator[Complement]:
@@ -146,6 +161,9 @@ def description(text: Text, at: int, things: Complement | None) -> int | None:
     if _closes(text, at + 1) and (color or text.word(at) in lexicon.EMPTY_ADJECTIVES):
         thing.color = color or thing.color
         return at + 1
+    plain = _plain(text, at)
+    if plain > at and text.word(plain) in lexicon.ONES and _closes(text, plain + 1):
+        return plain + 1  # a clean one
     counted = _count(text, at)
     if counted:
         thing.count = counted[0]
@@ -154,6 +172,13 @@ def description(text: Text, at: int, things: Complement | None) -> int | None:
     if said is None or not _closes(text, said.end) or said.places or said.names:
         return None
     return said.end if _tells_which(said, thing) else None
+
+
+def _plain(text: Text, at: int) -> int:
+    """Past what tells nothing: *a clean* one."""
+    while text.word(at) in lexicon.EMPTY_ADJECTIVES | lexicon.DETERMINERS:
+        at += 1
+    return at
 
 
 def behind_commas(

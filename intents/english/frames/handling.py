@@ -287,16 +287,10 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     if bare and len(bare.phrases) > 1 and not any(p.places for p in bare.phrases[1:]):
         bare.phrases[-1].places += bare.phrases[0].places[-1:]
         del bare.phrases[0].places[-1:]
-    whither = slots.peek("for") if not slots.peek("to", "into", "at") else None
-    if whither and whither.phrase.is_spot and clause.sense == "put":
-        whither.role = "to"  # put it for the shelf
-    keeper = slots.peek("with") if clause.verb in ("leave", "drop", "drop off") else None
-    if keeper and is_person(keeper.phrase, scope):
-        keeper.role = "to"
-        return bring(dataclasses.replace(clause, sense="bring", verb="bring"), scope)
-    to = slots.peek("to")
-    if to and is_person(to.phrase, scope) and clause.sense == "put":
-        return bring(clause, scope)
+    kept, to = _is_kept_by_somebody(clause, slots), slots.peek("to")
+    if kept or (to and is_person(to.phrase, scope) and clause.sense == "put"):
+        verb = "bring" if kept else clause.verb
+        return bring(dataclasses.replace(clause, verb=verb), scope)
     if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
     spot = None if _disposes(clause) and not clause.with_role("to", "into") else destination(slots)
@@ -320,6 +314,18 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
+
+
+def _is_kept_by_somebody(clause: Clause, slots: Slots) -> bool:
+    """Leave it *with Ada*: to bring it to her; put it *for the shelf* is to put it there."""
+    whither = None if slots.peek("to", "into", "at") else slots.peek("for")
+    if whither and whither.phrase.is_spot and clause.sense == "put":
+        whither.role = "to"
+    keeper = slots.peek("with") if clause.verb in ("leave", "drop", "drop off") else None
+    if keeper is None or not is_person(keeper.phrase, slots.scope):
+        return False
+    keeper.role = "to"
+    return True
 
 
 def _each_there(clause: Clause, bare: Complement, scope: Scope) -> list[Goal]:

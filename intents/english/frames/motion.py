@@ -52,13 +52,20 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         return taken
     bare = target is not None and target.role == "" and not target.phrase.is_spot
     bare = bare and not (target and target.phrase.where)
-    if bare and clause.verb.split()[0] not in ("reach", "approach", "visit", "enter", "come", "go"):
+    if bare and clause.verb.split()[0] not in (
+        "reach",
+        "approach",
+        "visit",
+        "enter",
+        "come",
+        "go",
+        "off",
+    ):
         raise Misfit("that is to move something")
     source = slots.take("from")
     if source and target and source.phrase.noun == "there":
         source = None  # to the hall, and from there to the lab: it is there by then
-    if target and target.phrase.noun in ("here", "operator") and clause.verb.startswith("come"):
-        slots.measure("time")  # come here a minute
+    _pass_over_moment(slots, target)
     distance = slots.measure("length")
     direction = slots.direction(*_BY)
     slots.direction("around", "up", "down")
@@ -69,9 +76,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         return [Find(person=replace(person, at=to_place(target.phrase, scope)))]
     if target and second and target.phrase.noun in ("here", "there"):
         target = second
-    elif target and second and second.phrase.noun in ("here", "there"):
-        pass  # come to me over here
-    elif second:
+    elif second and not (target and second.phrase.noun in ("here", "there")):  # to me over here
         raise Misfit(f"“{second.phrase.said}” is one place too many")
     _must_have_side(clause, direction)
     if target is None and (distance is not None or direction or clause.vague()):
@@ -95,6 +100,13 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     for phrase in target.phrases:
         must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
+
+
+def _pass_over_moment(slots: Slots, target: Complement | None) -> None:
+    """Come here *a minute*: it says how long that is wanted, and no goal does."""
+    here = target is not None and target.phrase.noun in ("here", "operator")
+    if here and slots.clause.verb.startswith("come"):
+        slots.measure("time")
 
 
 def _must_have_side(clause: Clause, direction: str | None) -> None:

@@ -90,7 +90,7 @@ def _full(text: Text, start: int) -> NounPhrase | None:
 
 
 def _named_behind(text: Text, at: int) -> int | None:
-    """My daughter *Mia*; young *Leo*; the wee lad *Leo*; that guest *Ada*: where the name begins."""
+    """My daughter *Mia*; young *Leo*; the wee lad *Leo*: where the name begins."""
     end = at
     while text.word(end) in _OF_PEOPLE and text.name_at(end) is None:
         end += 1

@@ -368,6 +368,8 @@ def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
         return None
     if item.noun == "unknown" and not item.determiner:
         return None
+    if text.word(item.end) in lexicon.ONES:
+        return None  # a saucer, a clean one
     alike = bool(item.name("object", "category")) == bool(last.name("object", "category"))
     goes_on = text.word(item.end) in ("is", "are")
     starts_clause = bool(verbs_at(text.words, item.end)) and text.word(at) == COMMA

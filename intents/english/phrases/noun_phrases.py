@@ -221,7 +221,9 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
             phrase.noun, phrase.names, phrase.said = "name", inner.names, inner.said
             return inner.end
     if word == "with" and phrase.name("object", "category") and not phrase.is_person:
-        return _equipped(text, phrase, at + 1)
+        with_somebody = text.name_at(at + 1)
+        somebody = with_somebody is not None and with_somebody.of("person")
+        return None if somebody else _equipped(text, phrase, at + 1)
     most = _most(text, phrase, at)
     if most:
         phrase.superlative, end = most

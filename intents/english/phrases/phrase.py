@@ -125,7 +125,8 @@ _NO_NOUN = (
                     "lands winds hiding hidden tucked sat stood lurking perched parked dumped lain "
                     "stuck propped stashed stowed sprawled scattered strewn "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
-                    "moved brought lie required needed wanted wanting needing know too went using instead rather except excluding apart")
+                    "moved brought lie required needed wanted wanting needing "
+                    "know too went using instead rather except excluding apart")
 )  # fmt: skip
 
 

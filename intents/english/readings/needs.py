@@ -101,7 +101,7 @@ def needed(sentence: Sentence, at: int) -> Found | None:
 
 def required(sentence: Sentence, at: int) -> Found | None:
     """The torch is wanted; two saucers required in the spa; the scarf is needed by Olga."""
-    text, scope = sentence.text, sentence.scope
+    text = sentence.text
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
     things, end = read_list(text, at)

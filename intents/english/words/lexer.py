@@ -54,8 +54,10 @@ _SLIPS = tuple(
             r"(?!g)",
             r"\1ing",
         ),
-        (r"\b(sitt|stand|hold|hav|need|want|stay|leav|mov|shift|hoy|wear|point|carry)in\b'?(?!g)",
-         r"\1ing"),
+        (
+            r"\b(sitt|stand|hold|hav|need|want|stay|leav|mov|shift|hoy|wear|point|carry)in\b'?(?!g)",
+            r"\1ing",
+        ),
         (r"\byour self\b", "yourself"),
         (r"&", " and "),
         (r"\s*(?:-+>|=+>|→|⇒|(?<=\s)>+(?=\s))\s*", " to "),

@@ -38,6 +38,12 @@ _LIKE = 78.0
 of the name (85) and, as the likeness of letters, one letter of five."""
 
 
+_TITLES = {
+    "doctor": "dr", "mister": "mr", "missus": "mrs", "professor": "prof", "saint": "st",
+    "dr": "doctor", "mr": "mister", "mrs": "missus", "prof": "professor", "st": "saint",
+}  # fmt: skip
+
+
 def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> float:
     """How much a name is like what was said: misspelt, a part of it, or a word in common [%]."""
     del score_cutoff
@@ -99,9 +105,11 @@ class NameIndex:
             return
         counted = [number([word], 0) for word in words]
         figures = [f"{n.value:.0f}" if n else word for n, word in zip(counted, words, strict=True)]
-        if figures != words and len(words) > 1:
-            self._names.setdefault(_key(figures), (name,))  # room 12 for room twelve
-            self.words |= set(figures)
+        titled = [_TITLES.get(word, word) for word in words]
+        for short in (figures, titled):
+            if short != words and len(words) > 1:
+                self._names.setdefault(_key(short), (name,))  # room 12 for room twelve
+                self.words |= set(short)
         key = _key(words)
         known = self._names.get(key, ())
         if name not in known:

@@ -55,7 +55,7 @@ _WISHES = phrases(
 _WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
 _MADE = words("close open turn go walk bring take put switch come on off")
 _CASES = words("on onto in into to from off under behind at")
-_NOTHING_LEFT = ([], [","], ["."], ["in"], ["on"], ["at"], ["to"], ["over"], ["and"])
+_AFTER_LEFT = words("in on at to over and") | {COMMA, FULL_STOP}
 _POLITE = words("please thanks")
 _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
@@ -196,7 +196,12 @@ def _without_name(tokens: list[Token], index: NameIndex) -> list[Token]:
     at = 1 if words and words[0] in _CALLS else 0
     if len(tokens) < at + 3 or words[at + 1 : at + 2] != [COMMA]:
         return tokens
-    known = index.match([words[at]], 0) or words[at] in KNOWN_WORDS or not words[at].isalpha()
+    known = (
+        index.match([words[at]], 0)
+        or index.partial(words[at])
+        or words[at] in KNOWN_WORDS
+        or not words[at].isalpha()
+    )
     return tokens if known else tokens[at + 2 :]
 
 
@@ -330,7 +335,7 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
 def _remains(words: list[str], at: int) -> bool:
     """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
     owned = words[at - 1] == "got" or words[at - 2 : at] in (["we", "have"], ["you", "have"])
-    return owned and words[at + 1 : at + 2] in _NOTHING_LEFT
+    return owned and _AFTER_LEFT.issuperset(words[at + 1 : at + 2])
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:

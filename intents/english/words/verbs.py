@@ -55,7 +55,7 @@ SPELLINGS: dict[str, str] = {
         "rest,plop,throw,toss,plant,restock,relocate,shift,return,sit,leave,move,drop,collect,"
         "gather,round up,pop,load,stick,tuck,slide,dump,stash,tidy,tidy away,chuck,shove,"
         "keep,lob,fling,hurl,heave,cram,squash,slap,perch,prop,nestle,lodge,ditch,dunk,drape,"
-        "pitch,hoist,prop up,yeet,whang,lump,evacuate,air,return,"
+        "pitch,hoist,prop up,whang,lump,evacuate,air,return,"
         "stand up,heap,hoy,"
         "clear away,lock away,pack,file,file away,put aside,sling,toss away,bung,drop off"
     ),
@@ -80,13 +80,14 @@ SPELLINGS: dict[str, str] = {
         "get me"
     ),
     "give": (
-        "give,chuck,toss,gis,giz,gies,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
+        "give,chuck,toss,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
         "present,provide,"
         "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
     ),
     "want": (
         "hook me up with,i would murder,i could fair go,i could go,i would not mind,i could eat,"
-        "i could drink,i would love,me wants,fix me up with,sort me out with,set me up with,i want,i need,i would like,"
+        "i could drink,me wants,"
+        "fix me up with,sort me out with,set me up with,i want,i need,i would like,"
         "i would love,can i have,could i have,may i have,"
         "might i have,might i get,"
         "can i get,could i get,may i get,i will have,i will take,i would like to have,"
