@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
 from intents.english.words.text import Text
 from intents.goals import Goal, Report, ReportTopic, Say
 
@@ -137,6 +138,8 @@ _SMALL_TALK_HEADS = lexicon.words("time day date joke yourself name affiliation 
 
 def about_robot(text: Text, at: int) -> tuple[list[Goal], int] | None:
     """What are you holding? How are you? What can you do?"""
+    if text.words[at - 1 : at + 2] == [COMMA, "you", "see"] and at + 2 >= len(text):
+        return None  # I am thinking of jam, you see
     end = at
     while end < len(text) and text.word(end)[0].isalnum() and end <= at + _LONGEST:
         end += 1

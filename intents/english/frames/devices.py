@@ -41,7 +41,7 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         if phrase.said in ("door", "lid", "drawer") and isinstance(last, Place) and last.in_:
             names.append(last.in_)  # put the milk in the fridge and shut the door
             continue
-        if name and (phrase.exact or _is_only(phrase, head)):
+        if name and (phrase.exact or _is_only(phrase, head, generic)):
             names.append(name)
         elif head in generic:
             room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
@@ -55,10 +55,10 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
     return names
 
 
-def _is_only(phrase: NounPhrase, head: str) -> bool:
+def _is_only(phrase: NounPhrase, head: str, generic: frozenset[str]) -> bool:
     """Whether there is one device of that name: "the lamp" is the desk lamp."""
     names = phrase.all_names("object", "place", "room")
-    return len(names) == 1 and names[0].split()[-1] == head and head in _SWITCHABLE
+    return len(names) == 1 and names[0].split()[-1] == head and head in generic
 
 
 _LOUD = words("tv television telly radio music stereo speaker heater heating thermostat")

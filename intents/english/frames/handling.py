@@ -109,7 +109,8 @@ def _is_moved_on(clause: Clause) -> bool:
     while at < len(text) and text.word(at) in (COMMA, FULL_STOP):
         at += 1
     after = connector_end(text, at) or at
-    acts = {sense for sense, _ in verbs_at(text.words, after)}
+    starts = [n for n in range(after + 1, len(text)) if text.word(n + 1) in ("it", "them")]
+    acts = {sense for n in (after, *starts) for sense, _ in verbs_at(text.words, n)}
     return not acts.isdisjoint(("put", "drop", "bring", "give", "take", "swap"))
 
 

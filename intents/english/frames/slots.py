@@ -8,6 +8,8 @@ from intents.english.phrases.referents import Scope, is_person, to_object, to_pe
 from intents.english.trouble import Misfit, Unclear
 from intents.goals import ObjectQuery, Person
 
+_GROUND = ("floor", "ground", "carpet", "deck")
+
 
 class Slots:
     """The complements of a clause that are still to be understood."""
@@ -86,6 +88,8 @@ class Slots:
     def source(self) -> str | None:
         """The place after "from"."""
         source = self.take("from")
+        if source and source.phrase.said in _GROUND and not source.phrase.exact:
+            return None  # pick it up off the floor
         return to_place(source.phrase, self.scope, objects=True) if source else None
 
     def loose_place(self) -> str | None:

@@ -29,7 +29,7 @@ def fronted(sentence: Sentence, at: int) -> Found | None:
     usable = bool(complements) and all(
         c.phrases and c.role in ("", "at", "from", "into", "to") for c in complements
     )
-    if not usable:
+    if not usable or complements[0].phrase.noun == "pronoun":
         return None
     first = complements[0]
     if first.role == "at" and _is_where(text, after):

@@ -44,6 +44,9 @@ from intents.wording import in_words
         ("I had me torch over by the bar. Go get it", "pick up the torch at the bar"),
         ("two colas trolley", "put two colas on the trolley"),
         ("swing round", "turn around"),
+        ("Pick the cap up off the floor", "pick up the cap"),
+        ("how many caps are there? I'm baking, you see", "how many caps are there"),
+        ("it works on my rack, but can you bring a cola to the bar", "bring a cola to the bar"),
     ],
 )  # fmt: skip
 def test_it_is_read_as_what_is_said_plainly(said: str, plainly: str) -> None:
