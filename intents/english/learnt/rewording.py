@@ -73,9 +73,10 @@ def reworded(text: str, index: NameIndex) -> Reworded | None:
     if plain is None:
         return None
     left = _left(found)
-    if _CONDITIONAL.intersection(left) or any(map(_is_unheard_verb, left)):
+    strange = [word for word in left if word not in found.speaking]
+    if _CONDITIONAL.intersection(left) or any(map(_is_unheard_verb, strange)):
         return None
-    known = all(word in _LIGHT or verbs_at([word], 0) for word in left)
+    known = all(word in _LIGHT or verbs_at([word], 0) for word in strange)
     grave = any(word in _GRAVE or _MANY.fullmatch(word) for word in left)
     doubtful = grave or not known or _forgotten(found)
     return Reworded(plain, found.sure >= SURE and not doubtful)

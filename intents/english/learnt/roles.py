@@ -23,6 +23,8 @@ Role = Literal["what", "who", "from", "to"]
 OTHER, NOTHING = "other", "-"
 """Anything else, as what is asked for and as what a name is to it."""
 _ACTS: tuple[str, ...] = get_args(Act)
+_SPEAKS = 0.1
+"""A word of at least so much weight speaks for an act [log odds]."""
 _SELF = lexicon.words("me us here")
 
 
@@ -45,6 +47,7 @@ class Meant(NamedTuple):
         words: The sentence.
         roles: The mention of each role.
         idle: Mentions that have nothing to do with it.
+        speaking: Words that were learnt to speak for this act.
         sure: How likely the least likely of all that is [0..1].
     """
 
@@ -52,6 +55,7 @@ class Meant(NamedTuple):
     words: list[Said]
     roles: dict[Role, Mention]
     idle: list[Mention]
+    speaking: frozenset[str]
     sure: float
 
 
@@ -129,4 +133,8 @@ def meant(text: str, index: NameIndex, fields: tuple[Field, Field] | None = None
         if role in roles:
             return None  # two things at once: that is more than one sentence says again
         roles[role] = mention
-    return Meant(cast("Act", act), words, roles, idle, sure)
+    at = acts.labels.index(act)
+    plain = {word.raw.lower().replace("’", "'") for word in words}
+    rows = {word: acts.rows[f"w={word}"] for word in plain if f"w={word}" in acts.rows}
+    speaking = frozenset(word for word, row in rows.items() if acts.weights[row, at] > _SPEAKS)
+    return Meant(cast("Act", act), words, roles, idle, speaking, sure)
