@@ -1,7 +1,7 @@
 """Rooms made from a seed, with people and clutter, as a planar laser at knee height sees them.
 
-People are two ellipses in stride, or one (a skirt, a coat, a leg behind the other); clutter is what
-looks like them: legs of chairs and tables, poles, bins, boxes, corners and broken stretches of wall.
+People are two ellipses in stride, or one (a skirt, a coat, a leg behind the other); clutter is
+what looks like them: legs of chairs and tables, poles, bins, boxes, corners, broken walls.
 Nothing in here comes from a recording.
 """
 
@@ -95,9 +95,7 @@ def a_room(random: Generator) -> Room:
     return room
 
 
-def add_person(
-    room: Room, random: Generator, place_m: tuple[float, float], *, person: int
-) -> None:
+def add_person(room: Room, random: Generator, place_m: tuple[float, float], *, person: int) -> None:
     """Two legs in some phase of a stride, or one wide thing."""
     heading = random.uniform(0.0, 2.0 * np.pi)
     ahead, left = np.array([np.cos(heading), np.sin(heading)]), None
@@ -197,9 +195,7 @@ def seen(
     ranges_m[mixed] = share * ranges_m[mixed] + (1.0 - share) * ranges_m[mixed + 1]
     gone = (ranges_m > laser.reach_m) | (random.random(beams) < laser.lost)
     ranges_m = np.round(np.where(gone | ~np.isfinite(ranges_m), 0.0, ranges_m), 3)
-    scan = PlanarScan(
-        t_s=t_s, ranges_m=ranges_m, angle_min_rad=begin_rad, angle_step_rad=step_rad
-    )
+    scan = PlanarScan(t_s=t_s, ranges_m=ranges_m, angle_min_rad=begin_rad, angle_step_rad=step_rad)
     return scan, whose[scan.returned]
 
 

@@ -69,10 +69,16 @@ def main(
         feature=np.concatenate([np.maximum(tree.feature, -1) for tree in arrays]).astype(np.int16),
         threshold=np.concatenate([tree.threshold for tree in arrays]).astype(np.float32),
         left=np.concatenate(
-            [np.maximum(tree.children_left, 0) + at for tree, at in zip(arrays, starts)]
+            [
+                np.maximum(tree.children_left, 0) + at
+                for tree, at in zip(arrays, starts, strict=True)
+            ]
         ).astype(np.int32),
         right=np.concatenate(
-            [np.maximum(tree.children_right, 0) + at for tree, at in zip(arrays, starts)]
+            [
+                np.maximum(tree.children_right, 0) + at
+                for tree, at in zip(arrays, starts, strict=True)
+            ]
         ).astype(np.int32),
         value=np.concatenate([tree.value[:, 0, 1] for tree in arrays]).astype(np.float32),
     )

@@ -12,7 +12,7 @@ from robot.perception.people.scan import PlanarScan
 from robot.perception.people.standing import StandingThings
 from robot.perception.people.tracks import Track, Tracks
 
-LEAST_SCORE = 0.15
+LEAST_SCORE = 0.1
 """Clusters less likely than this to be legs are not even followed."""
 
 
@@ -70,9 +70,7 @@ class _Seen:
             vx_m_s = cos * float(state[2]) + sin * float(state[3])
             vy_m_s = cos * float(state[3]) - sin * float(state[2])
             score = max(self.legs[leg].score for leg, owner in own.items() if owner is track)
-            people.append(
-                FoundPerson(id=track.id, x=x_m, y=y_m, vx=vx_m_s, vy=vy_m_s, score=score)
-            )
+            people.append(FoundPerson(id=track.id, x=x_m, y=y_m, vx=vx_m_s, vy=vy_m_s, score=score))
         found = [
             FoundLeg(x=leg.x_m, y=leg.y_m, score=leg.score, id=own[number].id)
             for number, leg in enumerate(self.legs)

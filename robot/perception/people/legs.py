@@ -1,4 +1,4 @@
-"""Which clusters of a scan are legs: by their shape, and by whether something always stands there."""
+"""Which clusters of a scan are legs: by their shape, and by what always stands there."""
 
 from __future__ import annotations
 

@@ -31,7 +31,9 @@ class PlanarScan:
     @cached_property
     def bearings_rad(self) -> Array:
         """Of each beam, shape (n,)."""
-        return self.angle_min_rad + self.angle_step_rad * np.arange(len(self.ranges_m))
+        return self.angle_min_rad + self.angle_step_rad * np.arange(
+            len(self.ranges_m), dtype=np.float64
+        )
 
     @cached_property
     def returned(self) -> NDArray[np.intp]:

@@ -60,7 +60,7 @@ def _circle(points_m: Array) -> tuple[float, float]:
     """Residual and radius of the circle through points, by linear least squares [Arras2007]."""
     centred_m = points_m - points_m.mean(axis=0)
     matrix = np.column_stack((2.0 * centred_m, np.ones(len(centred_m))))
-    solution = np.linalg.lstsq(matrix, (centred_m**2).sum(axis=1), rcond=None)[0]
+    solution = np.linalg.pinv(matrix) @ (centred_m**2).sum(axis=1)
     radius_m = float(np.sqrt(max(solution[2] + solution[:2] @ solution[:2], 0.0)))
     distances_m = np.linalg.norm(centred_m - solution[:2], axis=1)
     return float(np.sqrt(((distances_m - radius_m) ** 2).mean())), min(radius_m, FAR_M)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.perception.people.scan import Array, PlanarScan
 
 REACH_M = 8.0
 CELL_M = 0.08
 ON_M, PAST_M = 0.06, 0.15
-"""A beam that ends so near to a cell's distance hits it, one that goes on so far past it is through.
+"""A beam that ends so near to a cell's distance hits it; one that goes on so far past it went
+through.
 
 Three sigmas of a laser of 20 mm; less than the depth of a leg."""
 NO_RETURN = 0.3
@@ -20,7 +22,7 @@ UNKNOWN, WORTH_LOOKS = 0.55, 4.0
 
 
 class StandingThings:
-    """A grid around where the laser was first, with how often each cell was hit and seen through."""
+    """A grid around where the laser was first: how often each cell was hit and seen through."""
 
     def __init__(self) -> None:
         """Nothing is known yet."""
@@ -62,7 +64,7 @@ class StandingThings:
             return np.full(len(points_m), UNKNOWN)
         places_m = scan.in_place(points_m) - self._origin_m
         columns = np.floor((places_m + REACH_M) / CELL_M).astype(np.intp)
-        inside = ((columns >= 0) & (columns < self._side)).all(axis=1)
+        inside: NDArray[np.bool_] = np.all((columns >= 0) & (columns < self._side), axis=1)
         columns = np.where(inside[:, None], columns, 0)
         cells = columns[:, 0] * self._side + columns[:, 1]
         hits, looks = inside * self._hits[cells], inside * self._looks[cells]

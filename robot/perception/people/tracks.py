@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from itertools import count
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
+from robot.perception.people.assignment import least_costs
 from robot.perception.people.legs import Leg
 from robot.perception.people.scan import Array
 
@@ -19,16 +19,17 @@ NEAR_M, NEAREST_PERSON_M = 0.6, 0.55
 """A leg further than this from where a person must be by now is not theirs; nor are two legs that
 are further from each other: a stride of an adult, 1.1 m, has its feet so far from the middle."""
 START_M_S = 1.0
-LEAST_START = 0.4
+LEAST_START = 0.5
 """A leg less likely than this goes on with a person, and begins none."""
 FORGET_S = 1.0
 FORGET_KNOWN_S = 2.5
-SURE = 5
+SURE = 4
 """Scans in which a person was seen, to be no blink."""
-WALKED_M = 0.35
-"""Further than the middle of the legs of somebody who stands and shifts weight."""
-CERTAIN = 0.8
-"""Somebody whose legs were this likely on average is believed to stand there without a step."""
+WALKED_M = 0.5
+"""Further than somebody who stands sways, or a chair is pushed by a knee."""
+LIKELY = 0.6
+"""Of the legs of a person on average: what seems to walk where beams flicker between two things
+that stand is less likely than that."""
 
 
 @dataclass
@@ -48,9 +49,9 @@ class Track:
     @property
     def believed(self) -> bool:
         """Whether this is a person, and not a chair or a blink."""
-        if len(self.scores) < SURE:
+        if len(self.scores) < SURE or self.walked_m < WALKED_M:
             return False
-        return self.walked_m >= WALKED_M or float(np.mean(self.scores)) >= CERTAIN
+        return float(np.mean(self.scores)) >= LIKELY
 
     @property
     def score(self) -> float:
@@ -124,11 +125,9 @@ class Tracks:
         later_m = np.array([0.0 if track.believed else 0.3 for track in self.people])
         costs = np.where(far_m <= NEAR_M, far_m + later_m, 1e3)
         costs = np.concatenate((costs, costs + 0.1), axis=1)  # a second leg, after others' first
-        rows, columns = linear_sum_assignment(costs)
-        people = self.people
         return {
-            int(leg): people[int(column) % len(people)]
-            for leg, column in zip(rows, columns, strict=True)
+            leg: self.people[column % len(self.people)]
+            for leg, column in least_costs(costs)
             if costs[leg, column] < 1e2
         }
 
