@@ -189,7 +189,7 @@ def seen(
     ranges_m = ranges_m + random.normal(0.0, laser.noise_m, beams)
     ranges_m += np.where(whose != NOBODY, random.uniform(-SKIN_M, SKIN_M, beams), 0.0)
     # A beam that hits an edge comes back from in between, now and then.
-    edges = np.flatnonzero(np.abs(np.diff(ranges_m)) > 0.1)
+    edges = np.flatnonzero(np.abs(np.diff(np.minimum(ranges_m, 1e3))) > 0.1)
     mixed = edges[random.random(len(edges)) < 0.15]
     share = random.random(len(mixed))
     ranges_m[mixed] = share * ranges_m[mixed] + (1.0 - share) * ranges_m[mixed + 1]

@@ -1,4 +1,4 @@
-"""The command line of what looks at recordings: `humanoid people`."""
+"""The command line of what looks at recordings: `humanoid people`, `detect`, `calibrate`."""
 
 from __future__ import annotations
 
@@ -7,10 +7,16 @@ from typing import Annotated
 
 import typer
 
+from executive.frontends.options import AsJson
+
 
 def register(parent: typer.Typer) -> None:
     """Add the commands to the command line."""
     parent.command(no_args_is_help=True)(people)
+    parent.command(no_args_is_help=True)(detect)
+    calibrate = typer.Typer(no_args_is_help=True, help="Calibrate sensors from what they recorded.")
+    calibrate.command(no_args_is_help=True)(camera)
+    parent.add_typer(calibrate, name="calibrate")
 
 
 def people(
@@ -42,3 +48,101 @@ def people(
     from executive.frontends.sensing.people import find
 
     raise typer.Exit(find(log, causal=causal, as_json=as_json))
+
+
+def camera(
+    *,
+    images: Annotated[
+        Path,
+        typer.Option("--images", help="Folder of the pictures, or a pattern: 'FOLDER/left*.png'."),
+    ],
+    board: Annotated[
+        str,
+        typer.Option(
+            "--board",
+            help="chessboard:COLUMNSxROWS:SQUARE (inner corners, metres) or "
+            "charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY (squares), with :legacy where OpenCV "
+            "before 4.6 printed it.",
+        ),
+    ],
+    window: Annotated[
+        int,
+        typer.Option(
+            "--corner-window",
+            min=2,
+            max=50,
+            help="Half the window around a chessboard's corner [px]; less than half a square.",
+        ),
+    ] = 11,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Write this camera_info file (YAML of ROS).")
+    ] = None,
+    name: Annotated[str, typer.Option("--name", help="Of the camera, in that file.")] = "camera",
+    as_json: AsJson = False,
+) -> None:
+    """Find a camera's focal lengths, centre and distortion from pictures of a board.
+
+    Tells the residual of every picture, which of them are outlying, and how much of the view is
+    covered. Needs OpenCV: pip install 'humanoid-executive[vision]'
+
+    [bold]Examples[/bold]
+
+      humanoid calibrate camera --images pictures/ --board chessboard:9x6:0.025 --out camera.yaml
+
+      humanoid calibrate camera --images 'pictures/left*.png'
+      --board charuco:11x8:0.030:0.022:DICT_5X5_100:legacy --json
+    """
+    from executive.frontends.sensing.camera import calibrate_camera
+
+    status = calibrate_camera(
+        images, board=board, window_px=window, out=out, name=name, as_json=as_json
+    )
+    raise typer.Exit(status)
+
+
+def detect(
+    images: Annotated[list[Path], typer.Argument(help="Pictures.")],
+    *,
+    model: Annotated[
+        Path | None, typer.Option("--model", help="A network of YOLO's kind (.onnx).")
+    ] = None,
+    labels: Annotated[
+        Path | None,
+        typer.Option("--labels", help="Its names: one a line, or YAML with names."),
+    ] = None,
+    least_score: Annotated[
+        float, typer.Option("--score", min=0.0, max=1.0, help="Leave out what is less likely.")
+    ] = 0.25,
+    overlap: Annotated[
+        float,
+        typer.Option(
+            "--overlap", min=0.0, max=1.0, help="Boxes of one name that share more are one thing."
+        ),
+    ] = 0.45,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="A JSON line a picture, and nothing else.")
+    ] = False,
+) -> None:
+    """Say what is in pictures: names, scores and boxes, by a network that you bring along.
+
+    No model comes along with this software yet. With --json a line a picture: image, width,
+    height, detections (name, score, box: x1, y1, x2, y2 in pixels), or error where it cannot be
+    read. Needs onnxruntime: pip install 'humanoid-executive[vision]'
+
+    [bold]Examples[/bold]
+
+      humanoid detect kitchen.jpg --model yolo11n.onnx --labels coco.yaml
+
+      humanoid detect pictures/*.png --model mine.onnx --labels names.txt --score 0.5 --json
+    """
+    from executive.frontends.sensing.detect import detect as detect_in
+
+    status = detect_in(
+        images,
+        model=model,
+        labels=labels,
+        least_score=least_score,
+        overlap=overlap,
+        as_json=as_json,
+    )
+    raise typer.Exit(status)
