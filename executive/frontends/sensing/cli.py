@@ -9,6 +9,29 @@ import typer
 
 from executive.frontends.options import AsJson
 
+Images = Annotated[
+    Path,
+    typer.Option("--images", help="Folder of the pictures, or a pattern: 'FOLDER/left*.png'."),
+]
+Board = Annotated[
+    str,
+    typer.Option(
+        "--board",
+        help="chessboard:COLUMNSxROWS:SQUARE (inner corners, metres) or "
+        "charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY (squares), with :legacy where OpenCV "
+        "before 4.6 printed it.",
+    ),
+]
+Window = Annotated[
+    int,
+    typer.Option(
+        "--corner-window",
+        min=2,
+        max=50,
+        help="Half the window around a chessboard's corner [px]; less than half a square.",
+    ),
+]
+
 
 def register(parent: typer.Typer) -> None:
     """Add the commands to the command line."""
@@ -16,6 +39,7 @@ def register(parent: typer.Typer) -> None:
     parent.command(no_args_is_help=True)(detect)
     calibrate = typer.Typer(no_args_is_help=True, help="Calibrate sensors from what they recorded.")
     calibrate.command(no_args_is_help=True)(camera)
+    calibrate.command(no_args_is_help=True)(hand_eye)
     parent.add_typer(calibrate, name="calibrate")
 
 
@@ -52,28 +76,9 @@ def people(
 
 def camera(
     *,
-    images: Annotated[
-        Path,
-        typer.Option("--images", help="Folder of the pictures, or a pattern: 'FOLDER/left*.png'."),
-    ],
-    board: Annotated[
-        str,
-        typer.Option(
-            "--board",
-            help="chessboard:COLUMNSxROWS:SQUARE (inner corners, metres) or "
-            "charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY (squares), with :legacy where OpenCV "
-            "before 4.6 printed it.",
-        ),
-    ],
-    window: Annotated[
-        int,
-        typer.Option(
-            "--corner-window",
-            min=2,
-            max=50,
-            help="Half the window around a chessboard's corner [px]; less than half a square.",
-        ),
-    ] = 11,
+    images: Images,
+    board: Board,
+    window: Window = 11,
     out: Annotated[
         Path | None, typer.Option("--out", "-o", help="Write this camera_info file (YAML of ROS).")
     ] = None,
@@ -96,6 +101,54 @@ def camera(
 
     status = calibrate_camera(
         images, board=board, window_px=window, out=out, name=name, as_json=as_json
+    )
+    raise typer.Exit(status)
+
+
+def hand_eye(
+    *,
+    images: Images,
+    board: Board,
+    poses: Annotated[
+        Path,
+        typer.Option(
+            "--poses", help="Where the hand (or the head) was at each picture (docs/perception.md)."
+        ),
+    ],
+    camera: Annotated[
+        Path | None,
+        typer.Option("--camera", help="camera_info of the camera; without it from these pictures."),
+    ] = None,
+    window: Window = 11,
+    eye_to_hand: Annotated[
+        bool,
+        typer.Option(
+            "--eye-to-hand", help="The camera stands still, and the board is in the hand."
+        ),
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Find where a camera sits on the hand, or the head, that carries it.
+
+    From pictures of a board that stands still, and the pose of the hand in the base's frame at each
+    of them. Turn the hand about two axes at least. Needs OpenCV:
+    pip install 'humanoid-executive[vision]'
+
+    [bold]Example[/bold]
+
+      humanoid calibrate hand-eye --images pictures/ --poses poses.csv
+      --board charuco:11x8:0.030:0.022:DICT_5X5_100 --camera camera.yaml
+    """
+    from executive.frontends.sensing.hand_eye import calibrate_hand_eye
+
+    status = calibrate_hand_eye(
+        images,
+        poses=poses,
+        board=board,
+        camera=camera,
+        window_px=window,
+        eye_to_hand=eye_to_hand,
+        as_json=as_json,
     )
     raise typer.Exit(status)
 

@@ -1,1 +1,1 @@
-"""Calibration from pictures of boards: board, intrinsics, camera_info; OpenCV in one file."""
+"""Calibration from pictures of boards: boards, views, a camera, its place on a hand."""

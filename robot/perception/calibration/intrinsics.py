@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from robot.errors import ConfigError, Problem
 from robot.perception.calibration import opencv
 from robot.perception.calibration.board import Board, Charuco
-from robot.perception.pictures import read_grey
+from robot.perception.calibration.views import WINDOW_PX, Rejected, View, Views, find_views
 
-WINDOW_PX = 11
-"""Half the window around a chessboard's corner, as in OpenCV's own calibration program."""
-FEWEST_VIEWS = 3
 COVERED = (8, 6)
 """Columns and rows of the parts of the picture of which coverage tells."""
 OUTLYING, LEAST_OUTLYING, LEAST_OUTLYING_PX = 3.0, 1.5, 0.3
@@ -24,24 +21,6 @@ OUTLYING, LEAST_OUTLYING, LEAST_OUTLYING_PX = 3.0, 1.5, 0.3
 times the median, and more than this."""
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class View:
-    """The corners of a board in one picture."""
-
-    name: str
-    points_m: NDArray[np.float32]
-    """On the board, shape (n, 3)."""
-    pixels: NDArray[np.float32]
-    """In the picture, shape (n, 2)."""
-
-    @property
-    def apart_px(self) -> float:
-        """The least distance between corners in the picture."""
-        far = self.pixels[:, None] - self.pixels[None]
-        distances_px = np.linalg.norm(far, axis=-1)
-        return float(distances_px[~np.eye(len(far), dtype=bool)].min())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,14 +33,6 @@ class Explained:
     """Root of the mean square of what is left between a corner and where it should be [px]."""
     tilt_deg: float
     """Between the board's normal and the line of sight's direction."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Rejected:
-    """A picture that could not be used, and why."""
-
-    name: str
-    reason: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,42 +75,13 @@ def calibrate(
     Raises:
         ConfigError: OpenCV is missing, pictures are of several sizes, too few show the board.
     """
-    opencv.opencv()
-    views: list[View] = []
-    rejected: list[Rejected] = []
-    size: tuple[int, int] | None = None
-    for done, path in enumerate(paths, 1):
-        try:
-            grey = read_grey(path)
-        except ConfigError as error:
-            rejected.append(Rejected(name=path.name, reason=error.problems[0].message))
-            continue
-        if size is None:
-            size = (grey.shape[1], grey.shape[0])
-        elif size != (grey.shape[1], grey.shape[0]):
-            sizes = f"{size[0]}x{size[1]} and {grey.shape[1]}x{grey.shape[0]}"
-            cure = "calibrate each camera with its own pictures: --images 'FOLDER/left*.png'"
-            text = f"the pictures are of several sizes, {sizes}"
-            raise ConfigError([Problem(text, str(path), suggestion=cure)])
-        corners = opencv.find_corners(board, grey, window_px=window_px)
-        if corners is None:
-            rejected.append(Rejected(name=path.name, reason="the board is not seen in it"))
-        else:
-            views.append(View(name=path.name, points_m=corners[0], pixels=corners[1]))
-        progress(done)
-    if size is None or len(views) < FEWEST_VIEWS:
-        raise _too_few(len(views), paths, board, window_px)
-    return _explained(views, rejected, size, window_px=window_px, board=board)
+    found = find_views(paths, board, window_px=window_px, progress=progress)
+    return explain(found, board, window_px=window_px)
 
 
-def _explained(
-    views: list[View],
-    rejected: list[Rejected],
-    size: tuple[int, int],
-    *,
-    window_px: int,
-    board: Board,
-) -> Camera:
+def explain(looked: Views, board: Board, *, window_px: int = WINDOW_PX) -> Camera:
+    """The camera that explains views of a board; raises ConfigError if they determine none."""
+    views, size = looked.views, looked.size
     found = opencv.solve([(view.points_m, view.pixels) for view in views], size)
     numbers = np.concatenate((found.matrix.ravel(), found.distortion, [found.rms_px]))
     if not np.isfinite(numbers).all():
@@ -166,7 +108,7 @@ def _explained(
         coverage=_coverage(views, size),
         images=images,
         outliers=outliers,
-        rejected=tuple(rejected),
+        rejected=looked.rejected,
         hints=tuple(hints),
     )
 
@@ -212,28 +154,3 @@ def _hints(
     if len(views) < 8:
         hints.append(f"{len(views)} pictures are few: take 10 to 20")
     return hints
-
-
-def _too_few(found: int, paths: Sequence[Path], board: Board, window_px: int) -> ConfigError:
-    cure = "take 10 to 20 pictures with all of it in view, tilted, near and far"
-    if isinstance(board, Charuco) and (other := _other_pattern(paths, board, window_px)):
-        cure = other
-    text = f"the board is seen in {found} of {len(paths)} pictures, and {FEWEST_VIEWS} are needed"
-    return ConfigError([Problem(text, suggestion=cure)])
-
-
-def _other_pattern(paths: Sequence[Path], board: Charuco, window_px: int) -> str:
-    """What to say where the board is seen once it is taken for the other pattern."""
-    other = Charuco(
-        columns=board.columns, rows=board.rows, square_m=board.square_m, marker_m=board.marker_m,
-        dictionary=board.dictionary, legacy=not board.legacy,
-    )  # fmt: skip
-    for path in paths[:5]:
-        try:
-            grey = read_grey(path)
-        except ConfigError:
-            continue
-        if opencv.find_corners(other, grey, window_px=window_px) is not None:
-            with_it = "add :legacy to" if other.legacy else "leave :legacy out of"
-            return f"{with_it} --board: in {path.name} the pattern is the other one"
-    return ""

@@ -133,6 +133,29 @@ def solve(views: Sequence[Corners], size: tuple[int, int]) -> Solution:
     )
 
 
+def board_pose(view: Corners, matrix: Floats, distortion: Floats) -> Floats:
+    """Where the board is in the camera's frame by one picture: X_CT, shape (4, 4) [m]."""
+    cv2 = opencv()
+    try:
+        _, turn, place = cv2.solvePnP(view[0], view[1], matrix, distortion)
+    except cv2.error:
+        raise _cannot("a picture shows too little of the board", "leave it out") from None
+    result = np.eye(4)
+    result[:3, :3], result[:3, 3] = cv2.Rodrigues(turn)[0], place.ravel()
+    return result
+
+
+def projected(
+    points_m: NDArray[np.float32], X_CT: Floats, matrix: Floats, distortion: Floats
+) -> Floats:
+    """Where points of a board are in the picture [px], shape (n, 2)."""
+    cv2 = opencv()
+    turn = cv2.Rodrigues(np.ascontiguousarray(X_CT[:3, :3]))[0]
+    points = points_m.astype(np.float64)  # OpenCV answers in the same precision
+    pixels, _ = cv2.projectPoints(points, turn, X_CT[:3, 3], matrix, distortion)
+    return np.asarray(pixels, dtype=np.float64).reshape(-1, 2)
+
+
 def rectified(matrix: Floats, distortion: Floats, size: tuple[int, int]) -> Floats:
     """The pinhole camera of the undistorted picture without empty borders, shape (3, 3)."""
     new, _ = opencv().getOptimalNewCameraMatrix(matrix, distortion, size, 0.0)

@@ -123,6 +123,13 @@ BOARDS = {
     "unknown": "charuco:5x5:0.04:0.03:DICT_9X9_9", "few": "charuco:40x40:0.04:0.03:DICT_4X4_50",
     "bidi": f"charuco:5x5:0.04:0.03:{NAMES['bidi']}", "colons": ":" * 10_000,
 }  # fmt: skip
+HAND_EYE = ("calibrate", "hand-eye", "--json", "--board", "chessboard:9x6:0.025", "--images", "p")
+POSES: dict[str, str | bytes | Make] = {
+    "empty": "", "fifo": fifo, "zeros": link("/dev/zero"), "binary": bytes(range(256)) * 64,
+    "words": f"a {ESCAPE} b\n", "nan": "nan " * 7, "huge": "1e999 " * 7, "many": "0 " * 100_000,
+    "names": f"image,x,y,z,qw,qx,qy,qz\n{ESCAPE},0,0,0,1,0,0,0\n", "digits": "9" * 5000,
+    "zero-quaternion": "0 0 0 0 0 0 0\n", "short-row": "image,x,y,z,qw,qx,qy,qz\n,\n,\n",
+}  # fmt: skip
 DETECT = ("detect", "--json", "--labels", "n.txt", "--model", "m.onnx")
 NETWORKS: dict[str, str | bytes | Make] = {
     "empty": b"", "text": "no network", "fifo": fifo, "zeros": link("/dev/zero"),
@@ -157,6 +164,15 @@ CASES = [
             files={"p/a.png": _picture()},
         )
         for name, board in BOARDS.items()
+    ),
+    *(
+        Case(
+            name=f"poses-{name}",
+            argv=(*HAND_EYE, "--poses", "h.csv"),
+            files={"p/a.png": _picture(), "h.csv": content},
+            says=("h.csv",),
+        )
+        for name, content in POSES.items()
     ),
     Case(
         name="out-taken",
