@@ -23,9 +23,9 @@ LEAST_START = 0.5
 """A leg less likely than this goes on with a person, and begins none."""
 FORGET_S = 1.0
 FORGET_KNOWN_S = 2.5
-SURE = 4
+SURE = 3
 """Scans in which a person was seen, to be no blink."""
-WALKED_M = 0.5
+WALKED_M = 0.4
 """Further than somebody who stands sways, or a chair is pushed by a knee."""
 LIKELY = 0.6
 """Of the legs of a person on average: what seems to walk where beams flicker between two things

@@ -47,7 +47,7 @@ def test_a_robot_finds_them_while_they_walk():
     scans, places = recorded(TWO, seconds=15.0)
     finder = PeopleFinder()
     found = [finder.step(scan) for scan in scans]
-    assert recall(found[20:], places[20:]) > 0.9  # somebody has to walk half a metre first
+    assert recall(found[20:], places[20:]) > 0.9  # somebody has to walk a little first
     assert mistakes(found, places) <= 2
 
 
