@@ -44,6 +44,8 @@ def read_ordinary(path: Path | str, *, limit: int, follow_links: bool = True) ->
         OSError: as `open_ordinary`, or it is larger.
     """
     with open_ordinary(path, follow_links=follow_links) as file:
+        if os.fstat(file.fileno()).st_size > limit:
+            raise _too_large(limit, path)  # before there is room for it
         data = file.read(limit + 1)
     return _bounded(data, limit, path)
 
@@ -130,8 +132,12 @@ def _check_place(path: Path, *, anew: bool) -> None:
 
 def _bounded(data: bytes, limit: int, path: Path | str) -> bytes:
     if len(data) > limit:
-        raise OSError(errno.EFBIG, f"the file is larger than {_size(limit)}", str(path))
+        raise _too_large(limit, path)
     return data
+
+
+def _too_large(limit: int, path: Path | str) -> OSError:
+    return OSError(errno.EFBIG, f"the file is larger than {_size(limit)}", str(path))
 
 
 def _size(limit: int) -> str:

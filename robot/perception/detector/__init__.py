@@ -1,0 +1,1 @@
+"""Things in pictures by a network in a file: labels, letterbox, yolo, overlaps, detector."""
