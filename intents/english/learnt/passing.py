@@ -18,10 +18,12 @@ _CHANGING = (
     CARRYING | UNIT_WORDS
     | lexicon.words("not never no without when whenever once times clock with using to into onto")
 )  # fmt: skip
-_NEVER_SURE = lexicon.words(
+_LIMITS = lexicon.words(
     "until till unless if provided providing assuming except besides only twice thrice"
 )
-"""What holds one of these is always asked about, however sure the tagger is."""
+"""What holds one of these is never passed over, however sure the tagger is."""
+_POLITE = lexicon.words("mind please possible convenient kind moment dare you'd")
+"""With one of these "if" is only courtesy."""
 _WHOSE = lexicon.words("i you he she we they that which who whose")
 """After a name these may begin what says which is meant: "the cap she is wearing"."""
 _ARTICLES = lexicon.words("the a an some")
@@ -44,7 +46,7 @@ class Remainder(NamedTuple):
 
 def remainders(text: str, index: NameIndex) -> list[Remainder]:
     """What may be left of a sentence, the surest first; empty if nothing can be passed over."""
-    spans = background(text, index)
+    spans = [span for span in background(text, index) if not _limits(text, span)]
     sure = [span for span in spans if _is_sure(text, span, index)]
     kept = [_left(text, some, sure=some is sure) for some in (sure, spans) if some]
     if len(sure) == len(spans):
@@ -52,9 +54,14 @@ def remainders(text: str, index: NameIndex) -> list[Remainder]:
     return [one for one in kept if any(c.isalnum() for c in one.text)]
 
 
+def _limits(text: str, span: Passed) -> bool:
+    words = [word.raw.lower() for word in said(text[span.start : span.end])]
+    return bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words)
+
+
 def _is_sure(text: str, span: Passed, index: NameIndex) -> bool:
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
-    if _NEVER_SURE.intersection(words) or _describes(text, span, words, index):
+    if _describes(text, span, words, index):
         return False
     named = any(index.match(words, at) for at in range(len(words)))
     much = named or bool(_CHANGING.intersection(words))
