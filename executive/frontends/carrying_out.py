@@ -12,9 +12,10 @@ import msgspec
 from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts
 from executive.frontends import speaking
+from executive.frontends.console.beside import shown as viewed
 from executive.frontends.dump.writer import along
 from executive.frontends.launching import under_way
-from executive.frontends.options import Seeded, Shown, Voiced
+from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.frontends.reality import REALITY
@@ -30,7 +31,7 @@ from executive.runs.task_run import Assignment, Progress, Show
 from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
-MUTE = Voiced()
+MUTE, UNSEEN = Voiced(), Viewed()
 
 
 class Prepared(msgspec.Struct, frozen=True, kw_only=True):
@@ -46,7 +47,12 @@ Prepare = Callable[[], Prepared | int]
 
 
 def carry_out(
-    prepare: Prepare, options: Shown, handle: Handle | None = None, *, voiced: Voiced = MUTE
+    prepare: Prepare,
+    options: Shown,
+    handle: Handle | None = None,
+    *,
+    voiced: Voiced = MUTE,
+    page: Viewed = UNSEEN,
 ) -> int:
     """Do what was asked for, or go on with it, and say how it ended; returns the exit status.
 
@@ -55,6 +61,7 @@ def carry_out(
         options: how it is shown.
         handle: of a live robot.
         voiced: whether the robot speaks; what cannot be heard has been told.
+        page: whether it is shown on a page.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
@@ -69,7 +76,8 @@ def carry_out(
             executive.journal.listen(speech.note)
             return show(executive)
 
-        summary = _work_off(prepared, shown, handle)
+        with viewed(prepared.setup.folder, wanted=page.view, err=options.as_json):
+            summary = _work_off(prepared, shown, handle)
         say_how_it_ended(summary, as_json=options.as_json)
         speech.finish()
     return summary.exit_status

@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from executive.frontends import streams
+from executive.frontends.console import cli as consoles
 from executive.frontends.dump import cli as dumps
 from executive.frontends.exit import ended_by
 from executive.frontends.launching import FrontEnd, here, launch
@@ -247,6 +248,7 @@ worlds.register(app)
 missions.register(app)
 history.register(app)
 dumps.register(app)
+consoles.register(app)
 
 
 @app.command(name="eval")

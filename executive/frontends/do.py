@@ -41,7 +41,7 @@ def do(options: Do, handle: Handle | None = None) -> int:
         setup = carrying_out.setup(where, options, folder)
         return Prepared(assignment=Assignment(understood=understood), setup=setup)
 
-    return carrying_out.carry_out(prepare, options, handle, voiced=options)
+    return carrying_out.carry_out(prepare, options, handle, voiced=options, page=options)
 
 
 in_executive = from_plain_options(Do, do)

@@ -23,6 +23,7 @@ from typing import Annotated, TypeVar, get_type_hints
 
 import typer
 
+from executive.frontends.console.cli import View
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
 
 T = TypeVar("T")
@@ -125,6 +126,13 @@ class Shown:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Viewed:
+    """Whether it is shown on a page."""
+
+    view: View = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Voiced:
     """Whether the robot speaks."""
 
@@ -144,7 +152,7 @@ class Voiced:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Do(Place, Shuffled, Shown, Kept, Agreeing, Voiced):
+class Do(Place, Shuffled, Shown, Viewed, Kept, Agreeing, Voiced):
     """The options of `humanoid do`."""
 
     sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")]
@@ -156,7 +164,7 @@ class Do(Place, Shuffled, Shown, Kept, Agreeing, Voiced):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Prompt(Place, Shuffled, Kept, Agreeing, Voiced):
+class Prompt(Place, Shuffled, Viewed, Kept, Agreeing, Voiced):
     """The options of `humanoid repl`, and of `humanoid` without a command."""
 
 

@@ -36,7 +36,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
             setup=carrying_out.setup(checked.where, options, folder),
         )
 
-    return carrying_out.carry_out(prepare, options, handle)
+    return carrying_out.carry_out(prepare, options, handle, page=options)
 
 
 in_executive = from_plain_options(Run, run)
