@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 
 import msgspec
@@ -42,6 +42,17 @@ class Prepared(msgspec.Struct, frozen=True, kw_only=True):
     left: Left | None = None
 
 
+Attend = Callable[[Session, Handle | None, Callable[[str], None]], AbstractContextManager[None]]
+"""Takes orders from pages while a session works, and says a line to people."""
+
+
+def _nobody(
+    _session: Session, _handle: Handle | None, _out: Callable[[str], None]
+) -> AbstractContextManager[None]:
+    """Take no orders."""
+    return nullcontext()
+
+
 Prepare = Callable[[], Prepared | int]
 """Understands what was asked for; an exit status where that is refused, which has been said."""
 
@@ -53,6 +64,7 @@ def carry_out(
     *,
     voiced: Voiced = MUTE,
     page: Viewed = UNSEEN,
+    attend: Attend = _nobody,
 ) -> int:
     """Do what was asked for, or go on with it, and say how it ended; returns the exit status.
 
@@ -62,6 +74,7 @@ def carry_out(
         handle: of a live robot.
         voiced: whether the robot speaks; what cannot be heard has been told.
         page: whether it is shown on a page.
+        attend: takes orders from pages: of a live robot from any, of a fast one from its own.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
@@ -77,7 +90,14 @@ def carry_out(
             return show(executive)
 
         with viewed(prepared.setup.folder, wanted=page.view, err=options.as_json):
-            summary = _work_off(prepared, shown, handle)
+            steered = attend if handle is not None or page.view else _nobody
+
+            def out(text: str) -> None:
+                say(text, err=options.as_json)
+
+            summary = _work_off(
+                prepared, shown, handle, attend=lambda session: steered(session, handle, out)
+            )
         say_how_it_ended(summary, as_json=options.as_json)
         speech.finish()
     return summary.exit_status
@@ -103,7 +123,13 @@ def _begun(handle: Handle | None) -> Prepared | None:
     return Prepared(assignment=assignment, setup=again, left=left)
 
 
-def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
+def _work_off(
+    prepared: Prepared,
+    show: Show,
+    handle: Handle | None,
+    *,
+    attend: Callable[[Session], AbstractContextManager[None]],
+) -> Summary:
     """Open the robot, and do what was prepared."""
     assignment, left = prepared.assignment, prepared.left
     interrupts = Interrupts()
@@ -120,6 +146,7 @@ def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
                 faults=assignment.faults,
             )
         )
+        stack.enter_context(attend(session))
         wall = WallClock()
         if left is None:
             return task_run.do(assignment, session, show=show, wall=wall)

@@ -23,7 +23,6 @@ from typing import Annotated, TypeVar, get_type_hints
 
 import typer
 
-from executive.frontends.console.cli import View
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
 
 T = TypeVar("T")
@@ -47,6 +46,9 @@ Model = Annotated[
         help="Language model (an endpoint's TOML file) to ask what the grammar cannot read; "
         "its key is named in ~/.config/humanoid/keys.toml (docs/intents.md).",
     ),
+]
+View = Annotated[
+    bool, typer.Option("--view", help="Show it at work on a page of this machine, in 3-D.")
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -91,7 +92,8 @@ class Devtools:
     """One end of the protocol."""
 
     def __init__(self, url: str) -> None:
-        self._socket = connect(url, max_size=None, compression=None)
+        self._ends = ExitStack()
+        self._socket = self._ends.enter_context(connect(url, max_size=None, compression=None))
         self._numbers = itertools.count(1)
         self.events: list[dict[str, Any]] = []
 
@@ -111,7 +113,7 @@ class Devtools:
 
     def close(self) -> None:
         """Say no more."""
-        self._socket.close()
+        self._ends.close()
 
 
 class Page(Devtools):
@@ -148,6 +150,7 @@ class Page(Devtools):
 
     def click(self, selector: str) -> None:
         """Press the middle of an element with the mouse."""
+        self.call("Page.bringToFront")
         at = self.eval(
             f"(() => {{ const b = document.querySelector({json.dumps(selector)})"
             ".getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
@@ -163,6 +166,7 @@ class Page(Devtools):
 
     def key(self, name: str) -> None:
         """Press a key."""
+        self.call("Page.bringToFront")
         code = {"Escape": 27, "Enter": 13}.get(name, 0)
         text = "\r" if name == "Enter" else name if len(name) == 1 else ""
         self.call("Input.dispatchKeyEvent", type="keyDown", key=name, text=text,

@@ -1,4 +1,4 @@
-"""The command line of `humanoid console`, and the option `--view` of other commands."""
+"""The command line of `humanoid console`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,6 @@ import typer
 Port = Annotated[
     int,
     typer.Option("--port", min=0, max=65535, help="Of the page's address (0: any that is free)."),
-]
-View = Annotated[
-    bool, typer.Option("--view", help="Show it at work on a page of this machine, in 3-D.")
 ]
 
 

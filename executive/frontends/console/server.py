@@ -23,8 +23,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from executive.frontends.console.address import HOST, Address, url
+from executive.frontends.console.desk import Order
 from executive.frontends.console.following import Following
 from executive.frontends.console.page import page
+from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from robot.reality.scene import Scene
 
@@ -36,6 +38,7 @@ BATCH = 1000
 """Moments of a message, of the many of a run that has gone on for a while."""
 MOST_PAGES = 16
 MAX_MESSAGE = 1 << 16
+NOBODY = "Nobody takes orders from this page: no robot is at work here."
 TOKEN_S = 5.0
 """How long a page may take to show its token."""
 
@@ -44,15 +47,12 @@ MakeScene = Callable[[Mapping[str, Any]], Scene | str]
 
 
 class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a page sends: first its token, then where in time it looks (`at`, null: now)."""
+    """What a page sends: first its token, then where in time it looks (`at`), or an `Order`."""
 
     token: str = ""
     at: float | None = None
-    line: str | None = None
-    do: str | None = None
-
-
-Steer = Callable[[Wish], Any]
+    line: str = ""
+    do: str = ""
 
 
 class Show:
@@ -60,18 +60,21 @@ class Show:
 
     Attributes:
         following: reads it.
+        steering: hands on what pages want, while somebody takes it.
         scene: as JSON; empty until it is known.
     """
 
     def __init__(self, folder: Path, make_scene: MakeScene) -> None:
         """Begin to make the scene in another thread."""
         self.following = Following(folder)
+        self.steering = Steering(folder, now_s=lambda: self.following.run.end_s)
         self.scene = b""
         self.parts: dict[str, bytes] = {}
         self.live = self.following.live
         self._make_scene = make_scene
         self._told_s = 0.0
         self._making: asyncio.Task[None] | None = None
+        self._steering = asyncio.create_task(self.steering.work())
 
     async def look(self, now_s: float) -> None:
         """Read on, and work out what is new."""
@@ -94,7 +97,8 @@ class Show:
         self.scene = _json({"problem": made} if isinstance(made, str) else made)
 
     def close(self) -> None:
-        """Read no more."""
+        """Read no more, and steer no more."""
+        self._steering.cancel()
         self.following.close()
 
 
@@ -111,7 +115,6 @@ class Console:
         make_scene: MakeScene,
         *,
         token: str = "",
-        steer: Steer | None = None,
     ) -> None:
         """Serve nothing yet.
 
@@ -119,22 +122,15 @@ class Console:
             find: gives the folder of the run to be shown, None while there is none.
             make_scene: what a run's world looks like.
             token: that pages have to know; a new one by default.
-            steer: does what a page asks for; without it pages only look on.
         """
         self.token = token or secrets.token_urlsafe(18)
         self.url = ""
         self.show: Show | None = None
         self._find = find
         self._make_scene = make_scene
-        self._steer = steer
         self._page, self._policy = page()
         self._hosts: frozenset[str] = frozenset()
         self._pages = 0
-
-    @property
-    def steers(self) -> bool:
-        """Whether pages can do more than look on."""
-        return self._steer is not None
 
     async def open(self, listening: socket.socket) -> Server:
         """Serve on a socket that listens, on this machine alone."""
@@ -210,9 +206,12 @@ class Console:
             wish = _wish(message)
             if wish is None:
                 continue
-            if wish.do is not None or wish.line is not None:
-                if self._steer is not None:
-                    self._steer(wish)
+            if wish.do or wish.line:
+                order = Order(do=wish.do, line=wish.line)
+                if self.show is None or not self.show.steering.open:
+                    await connection.send(_json({"word": {"out": NOBODY}}), text=True)
+                else:
+                    self.show.steering.send(order)
             elif self.show is not None:
                 at = None if wish.at is None else self.show.following.run
                 if at is not None and wish.at is not None:
@@ -233,6 +232,9 @@ class Viewer:
         self._moments = 0
         self._parts: dict[str, bytes] = {}
         self._live: bool | None = None
+        self._steers: bool | None = None
+        self._asks = b""
+        self._words = 0
 
     async def tell(self) -> None:
         """Tell what is new, for ever; each message waits until the page has taken the last."""
@@ -243,15 +245,18 @@ class Viewer:
             if show is not self._show or not self._greeted:
                 self._greeted = True
                 self._show, self._scene, self._moments = show, False, 0
-                self._parts, self._live = {}, None
+                self._parts, self._live, self._steers, self._asks = {}, None, None, b""
+                self._words = show.steering.first if show else 0
                 name = show.following.folder.name if show else ""
-                begun = _json({"show": name, "steers": self._console.steers})
+                begun = _json({"show": name})
                 await self._connection.send(begun, text=True)
             more = False
             if show is not None:
                 message = self._news(show)
                 if message:
                     await self._connection.send(message, text=True)
+                for word in self._said(show.steering):
+                    await self._connection.send(word, text=True)
                 more = self._scene and self._moments < len(show.following.moments)
             if not more:
                 await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))
@@ -276,7 +281,20 @@ class Viewer:
         if show.live is not self._live:
             self._live = show.live
             news.append(b'"live":' + _json(show.live))
+        steering = show.steering
+        if steering.open is not self._steers:
+            self._steers = steering.open
+            news.append(b'"steers":' + _json(steering.open))
+        if steering.asks != self._asks:
+            self._asks = steering.asks
+            news.append(b'"asks":' + steering.asks)
         return b"{" + b",".join(news) + b"}" if news else b""
+
+    def _said(self, steering: Steering) -> list[bytes]:
+        """What was said since this page was told; of much, the newest."""
+        behind = min(steering.count - self._words, len(steering.words))
+        self._words = steering.count
+        return list(steering.words)[len(steering.words) - behind :]
 
 
 def _json(value: object) -> bytes:

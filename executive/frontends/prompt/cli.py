@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import carrying_out, speaking
+from executive.frontends.console.attending import attended
 from executive.frontends.console.beside import shown as viewed
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
@@ -142,6 +143,7 @@ def conversation(
         tell_what_goes_on(robot.session.journal)
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)
+        stack.enter_context(attended(shell, folder, handle))
         yield shell
 
 

@@ -57,10 +57,12 @@ class Drawing {
     this.lit = this.program(VERTEX, FRAGMENT);
     this.deep = this.program(DEPTH, NOTHING);
     this.things = [];
-    this.sharp = 1;
+    const info = gl.getExtension("WEBGL_debug_renderer_info"), name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+    this.slow = /swiftshader|llvmpipe|software|basic render/i.test(name); // no graphics card
+    this.sharp = this.slow ? 0.75 : 1;
     this.shadowed = true;
     this.sun = unit([0.35, -0.45, 1.0]);
-    this.shadowMap(1536);
+    this.shadowMap(this.slow ? 768 : 1536);
   }
 
   program(vertex, fragment) {

@@ -40,15 +40,15 @@ function showTree(rows) {
   showTree.last = running;
 }
 
-function showTalk(lines, answers) {
+function showTalk(lines) {
   const list = $("talk"), down = list.scrollHeight - list.scrollTop - list.clientHeight < 40;
-  const items = lines.map(([t, kind, text, who]) => {
+  const inOrder = lines.map((line, k) => [line, k]).sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([line]) => line);
+  const items = inOrder.map(([t, kind, text, who]) => {
     const said = who && kind !== "help" ? text.replace(/^says: /, "") : text;
     const item = element("li", `${kind.replace(/[^a-z]/g, "")} ${who === "robot" ? "robot" : ""} ${kind === "outcome" ? "ended" : ""}`, said);
     item.prepend(element("time", "", seconds(t)));
     return item;
   });
-  for (const [who, text] of answers) items.push(element("li", who, text));
   list.replaceChildren(...items);
   if (down) list.scrollTop = list.scrollHeight;
 }

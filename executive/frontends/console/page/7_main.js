@@ -23,14 +23,13 @@ function taken(news) {
   if (news.live !== undefined) { page.over = page.live === true && !news.live; page.live = news.live; page.dirty = true; panels.all(); }
   for (const key of Object.keys(parts)) if (key in news) { parts[key] = news[key]; panels.soon(key); }
   if (news.then && !page.now) { page.then = news.then; panels.all(); }
-  if (news.out !== undefined) panels.answer("answer", news.out);
-  if (news.you !== undefined) panels.answer("you", news.you);
+  if (news.word) panels.answer(news.word);
   if (news.asks !== undefined) { page.asks = news.asks; panels.asking(); }
 }
 
 function begin(news) {
   motion.clear();
-  Object.assign(page, { scene: null, live: null, now: true, then: null, shown: news.show, asks: null, over: false, playing: false });
+  Object.assign(page, { scene: null, live: null, now: true, then: null, shown: news.show, asks: null, over: false, playing: false, answers: [] });
   Object.assign(parts, { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [] });
   trail = 0;
   if (drawing) { drawing.things = []; drawing.way([]); }
@@ -84,6 +83,7 @@ function play(on) {
   panels.time();
 }
 
+const ESTOP = "emergency stop"; // as health calls it
 // --- panels, at most a few times a second ---
 
 const panels = {
@@ -97,14 +97,16 @@ const panels = {
     const told = page.now || !page.then ? parts : { ...parts, ...page.then }, keys = this.waiting;
     this.waiting = new Set();
     if (keys.has("tree")) showTree(told.tree);
-    if (keys.has("said")) showTalk(told.said, page.now || !page.then ? page.answers : []);
+    if (keys.has("said")) showTalk([...told.said, ...page.answers.filter(([t]) => page.now || t <= when())]);
     if (keys.has("health") || keys.has("troubles") || keys.has("head")) showHealth(told.health, told.troubles, told.head, motion, motion.at(when()));
     if (keys.has("jobs")) showJobs(told.jobs);
     this.head(told);
     this.time();
   },
   head(told) {
-    const { head } = told, [kind, word] = standing(head, page.live, page.linked, told.jobs, told !== parts);
+    const { head } = told;
+    let [kind, word] = standing(head, page.live, page.linked, told.jobs, told !== parts);
+    if (told.health.some(([, name]) => name === ESTOP)) [kind, word] = ["failed", "emergency stop"];
     $("badge").className = `badge ${kind}`;
     $("badge").textContent = word;
     const goal = head.goal || (told.jobs.length ? told.jobs[told.jobs.length - 1][1] : head.text) || "Humanoid console";
@@ -137,6 +139,8 @@ const panels = {
     document.body.classList.toggle("steers", Boolean(page.steers && page.live));
     $("stop").hidden = !(page.steers && page.live);
     for (const id of ["order", "steer"]) $(id).hidden = !on;
+    const latched = parts.health.some(([, name]) => name === ESTOP);
+    for (const button of document.querySelectorAll("[data-do=release], [data-do=reset]")) button.hidden = !latched;
   },
   asking() {
     const box = $("ask");
@@ -151,9 +155,9 @@ const panels = {
     }
     box.replaceChildren(element("p", "", page.asks.question), choices);
   },
-  answer(who, text) {
-    page.answers.push([who, text]);
-    page.answers = page.answers.slice(-12);
+  answer({ out, you, t_s = motion.end }) {
+    page.answers.push([t_s, you === undefined ? "answer" : "you", you === undefined ? out : you, ""]);
+    page.answers = page.answers.slice(-200);
     this.soon("said");
   },
   time() {
@@ -248,6 +252,7 @@ function drawTrail(t) {
   drawing.way(points.slice(-3000));
 }
 
+const SLOW_MS = 120; // where the processor draws, which the robot may need on the same machine
 let last = performance.now();
 function frame(ms) {
   const dt = Math.min(0.25, (ms - last) / 1000);
@@ -264,7 +269,8 @@ function frame(ms) {
     if (motion.end - page.head < 0.002) page.head = motion.end;
     page.dirty = true;
   }
-  if (page.scene && drawing && (page.dirty || drawing.resize()) && !document.hidden) picture(ms);
+  const due = ms - (page.pictured || 0) >= (drawing && drawing.slow && !fingers.size ? SLOW_MS : 0);
+  if (page.scene && drawing && due && (page.dirty || drawing.resize()) && !document.hidden) { page.pictured = ms; picture(ms); }
   requestAnimationFrame(frame);
 }
 
@@ -291,27 +297,27 @@ function picture(ms) {
 }
 
 // Where drawing takes long (no graphics card), the picture is coarser rather than late.
-const COARSER = [{ sharp: 0.75 }, { shadowed: false }, { sharp: 0.5 }];
+const COARSER = [{ sharp: 0.75, slow: true }, { shadowed: false }, { sharp: 0.5 }];
 function pace(ms) {
   page.framesMs = page.framesMs.filter((one) => ms - one < 3000);
   page.framesMs.push(ms);
   if (page.framesMs.length < 5 || ms - page.framesMs[0] < 1200) return;
   const span = (ms - page.framesMs[0]) / (page.framesMs.length - 1);
   page.framesMs = [];
-  if (span > 70 && page.dirty && COARSER.length) Object.assign(drawing, COARSER.shift());
+  if (span > (drawing.slow ? 2 * SLOW_MS : 70) && page.dirty && COARSER.length) Object.assign(drawing, COARSER.shift());
 }
 
 // --- what a person does ---
 
 function order(text) {
-  if (!link.send({ line: text })) panels.answer("answer", "Not sent: there is no connection.");
+  if (!link.send({ line: text })) panels.answer({ out: "Not sent: there is no connection." });
 }
 
 function stop() {
   const sent = link.send({ do: "stop" });
   $("stop").classList.add("sent");
   setTimeout(() => $("stop").classList.remove("sent"), 600);
-  if (!sent) panels.answer("answer", "STOP was not sent: there is no connection. Use Ctrl-C in the robot's terminal.");
+  if (!sent) panels.answer({ out: "STOP was not sent: there is no connection. Use Ctrl-C in the robot's terminal." });
 }
 
 $("stop").addEventListener("pointerdown", (event) => { event.preventDefault(); stop(); });

@@ -10,8 +10,8 @@ from executive.journal import motion
 from executive.journal.files import LineFile
 from robot.messages import Track, WorldState
 from robot.se3 import SE3
-from tests.fakes.scripted_skills import SilentLink
 from tests.fakes.messages_for_tests import body_state
+from tests.fakes.scripted_skills import SilentLink
 
 CUP = SE3((1.0, 2.0, 0.8))
 
@@ -37,7 +37,7 @@ class Watched:
             stamp_s=now_s, X_WN=SE3((10.0, 0.0, 0.0)), X_WB=SE3(), fix_age_s=0.0, tracks=(track,)
         )
         self.sense.set(WORLD, world)
-        self.sense.set(HELD, {"left": one for one in held})
+        self.sense.set(HELD, dict(zip(("left", "right"), held, strict=False)))
         self.watch.update(now_s)
         return self.lines
 

@@ -128,9 +128,8 @@ def test_a_page_that_does_not_read_holds_nobody_up(tmp_path):
     folder = a_run(tmp_path / "run", moments=20 * BATCH)
 
     async def play():
-        async with served(lambda: folder) as console, Visitor(console):  # who never reads
-            async with Visitor(console) as other:
-                await other.until("head", count=20 * BATCH)
+        async with served(lambda: folder) as console, Visitor(console), Visitor(console) as other:
+            await other.until("head", count=20 * BATCH)  # the first one never reads
 
     asyncio.run(play())
 
@@ -139,17 +138,17 @@ def test_a_robot_that_comes_later_is_shown_in_the_same_page(tmp_path):
     there: list[Path] = []
 
     async def play():
-        async with served(lambda: there[-1] if there else None) as console:
-            async with Visitor(console) as visitor:
-                assert (await visitor.until("show"))["show"] == ""
-                there.append(a_run(tmp_path / "first"))
-                assert (await visitor.until("head", count=3))["show"] == "first"
-                there.append(a_run(tmp_path / "second", moments=1, text="again"))
-                while visitor.known.get("show") != "second":
-                    visitor.known.pop("head", None)
-                    await visitor.until("head")
-                await visitor.until("head", count=1)
-                assert visitor.known["head"]["text"] == "again" and len(visitor.moments) == 1
+        find = lambda: there[-1] if there else None  # noqa: E731
+        async with served(find) as console, Visitor(console) as visitor:
+            assert (await visitor.until("show"))["show"] == ""
+            there.append(a_run(tmp_path / "first"))
+            assert (await visitor.until("head", count=3))["show"] == "first"
+            there.append(a_run(tmp_path / "second", moments=1, text="again"))
+            while visitor.known.get("show") != "second":
+                visitor.known.pop("head", None)
+                await visitor.until("head")
+            await visitor.until("head", count=1)
+            assert visitor.known["head"]["text"] == "again" and len(visitor.moments) == 1
 
     asyncio.run(play())
 
