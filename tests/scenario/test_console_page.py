@@ -16,7 +16,7 @@ import pytest
 from executive.frontends.console.address import HOST
 from executive.frontends.console.desk import Desk
 from executive.frontends.console.scenery import scene_of
-from executive.frontends.console.server import Console
+from executive.frontends.console.server import PageServer
 from executive.frontends.reality import REALITY
 from executive.runs import run_folder
 from robot.bringup import private_folder
@@ -38,7 +38,7 @@ pytestmark = [
 def served(folder: Path):
     """A console of a run's folder in a thread of its own."""
     ready, over = threading.Event(), threading.Event()
-    console = Console(lambda: folder, scene_of)
+    console = PageServer(lambda: folder, scene_of)
 
     async def serve():
         async with await console.open(socket.create_server((HOST, 0))):

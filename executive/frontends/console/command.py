@@ -12,7 +12,7 @@ from pathlib import Path
 
 from executive.frontends.console.address import HOST
 from executive.frontends.console.scenery import scene_of
-from executive.frontends.console.server import Console
+from executive.frontends.console.server import PageServer
 from executive.frontends.output import say
 from executive.journal import journal, past_runs
 from robot.errors import ConfigError, Problem
@@ -47,7 +47,7 @@ RECENT = 20
 
 
 async def _serve(find: Callable[[], Path | None], *, port: int, opened: bool) -> None:
-    server = Console(find, scene_of)
+    server = PageServer(find, scene_of)
     try:
         listening = await server.open(socket.create_server((HOST, port)))
     except OSError as error:

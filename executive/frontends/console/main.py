@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from executive.frontends.console.scenery import scene_of
-from executive.frontends.console.server import Console
+from executive.frontends.console.server import PageServer
 from robot.bus.lifeline import tie_to_parent
 
 LAST_WORDS_S = 0.4
@@ -21,11 +21,11 @@ def main(folder: str, parent_pid: str, descriptor: str) -> None:
     """Load, build, run, close; the token comes from standard input, where nobody else reads it."""
     tie_to_parent(int(parent_pid))
     token = sys.stdin.readline().strip()
-    console = Console(lambda: Path(folder), scene_of, token=token)
+    console = PageServer(lambda: Path(folder), scene_of, token=token)
     asyncio.run(_serve(console, socket.socket(fileno=int(descriptor))))
 
 
-async def _serve(console: Console, listening: socket.socket) -> None:
+async def _serve(console: PageServer, listening: socket.socket) -> None:
     over = asyncio.Event()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, over.set)
     async with await console.open(listening):

@@ -102,7 +102,7 @@ class Show:
         self.following.close()
 
 
-class Console:
+class PageServer:
     """The server, inside an event loop.
 
     Attributes:
@@ -222,7 +222,7 @@ class Console:
 class Viewer:
     """What one page has been told."""
 
-    def __init__(self, console: Console, connection: ServerConnection) -> None:
+    def __init__(self, console: PageServer, connection: ServerConnection) -> None:
         """Nothing yet."""
         self._console = console
         self._connection = connection

@@ -16,7 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from executive.frontends.console.address import HOST
 from executive.frontends.console.page import page
-from executive.frontends.console.server import BATCH, Console
+from executive.frontends.console.server import BATCH, PageServer
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from tests.fakes.waiting import HANG_S
@@ -36,7 +36,7 @@ def a_run(folder: Path, *, moments: int = 3, text: str = "wave") -> Path:
 @asynccontextmanager
 async def served(find, **how):
     """A console that is served, and followed."""
-    console = Console(find, lambda about: f"no picture of {about.get('world')}", **how)
+    console = PageServer(find, lambda about: f"no picture of {about.get('world')}", **how)
     server = await console.open(socket.create_server((HOST, 0)))
     following = asyncio.create_task(console.follow())
     try:
@@ -49,7 +49,7 @@ async def served(find, **how):
 class Visitor:
     """A page that is open: what it was told, put together."""
 
-    def __init__(self, console: Console, *, token: str | None = None, origin: str | None = None):
+    def __init__(self, console: PageServer, *, token: str | None = None, origin: str | None = None):
         self.host = re.findall("//([^/]+)/", console.url)[0]
         self.token = console.token if token is None else token
         self.origin = f"http://{self.host}" if origin is None else origin
@@ -80,7 +80,7 @@ class Visitor:
         return self.known
 
 
-async def asked(console: Console, *lines: str) -> str:
+async def asked(console: PageServer, *lines: str) -> str:
     """What the server answers to a request."""
     port = int(re.findall(r":(\d+)/", console.url)[0])
     reader, writer = await asyncio.open_connection(HOST, port)
