@@ -7,6 +7,9 @@ from typing import Annotated
 
 import typer
 
+LAST_S = 1e9
+"""Beyond, a time is none (`executive.journal.journal.MOST_S`)."""
+
 
 def register(app: typer.Typer) -> None:
     """Add the command to the command line."""
@@ -29,9 +32,14 @@ def film(
         float, typer.Option("--speed", min=0.1, max=100.0, help="So many times as fast as it was.")
     ] = 2.0,
     begin: Annotated[
-        float | None, typer.Option("--from", help="Begin at this time of the run, in seconds.")
+        float | None,
+        typer.Option(
+            "--from", min=0.0, max=LAST_S, help="Begin at this time of the run, in seconds."
+        ),
     ] = None,
-    end: Annotated[float | None, typer.Option("--to", help="End at this time.")] = None,
+    end: Annotated[
+        float | None, typer.Option("--to", min=0.0, max=LAST_S, help="End at this time.")
+    ] = None,
     width: Annotated[
         int, typer.Option("--width", min=160, max=1920, help="Of the film, in pixels.")
     ] = 800,
