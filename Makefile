@@ -13,8 +13,8 @@ MISSION := pick up the red cup and put it on the shelf
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-7s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-demo: env ## set up, then watch a humanoid put the red cup on the shelf
-	@$(BIN)/humanoid do "$(MISSION)" $(ARGS)
+demo: env ## set up, then watch a humanoid put the red cup on the shelf, also on a page
+	@$(BIN)/humanoid do "$(MISSION)" --view $(ARGS)
 
 test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)

@@ -126,7 +126,7 @@ class Plant:
         base_q = model.jnt_qposadr[model.body_jntadr[self._base]]
         data.qpos[base_q : base_q + 7] = (0, 0, 0, 1, 0, 0, 0)
         data.qpos[self.motors.q_index] = self.robot.posture(posture)
-        _close_couplings(model, data.qpos)
+        close_couplings(model, data.qpos)
         data.qvel[:] = 0.0
         mujoco.mj_kinematics(model, data)
         X_WB = X_WS.flat() @ _stance(self.robot, data).inverse()
@@ -309,7 +309,7 @@ class Plant:
         self.people.press()
 
 
-def _close_couplings(model: mujoco.MjModel, qpos: Array) -> None:
+def close_couplings(model: mujoco.MjModel, qpos: Array) -> None:
     """Set every mimic joint to the polynomial of the joint that it follows."""
     for index in range(model.neq):
         if model.eq_type[index] != mujoco.mjtEq.mjEQ_JOINT or model.eq_obj2id[index] < 0:

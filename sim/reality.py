@@ -11,6 +11,8 @@ import msgspec
 from robot.model.description import RobotDescription
 from robot.reality.contract import Begin, Cast, Home
 from robot.reality.faults import Fault
+from robot.reality.scene import Scene
+from robot.reality.studio import Studio
 from sim import atlas, faults, placing, world
 from sim.homes import catalogue
 from sim.world_schema import World
@@ -109,6 +111,18 @@ class SimulatedWorld:
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         faults.verify(fault, self.entries, robot)
+
+    def scene(self, robot: RobotDescription) -> Scene:
+        """What it looks like. Raises RobotError as `sim.plant.Plant`."""
+        from sim.scenery import scene
+
+        return scene(self.plant(robot, seed=0))
+
+    def studio(self, robot: RobotDescription, *, width: int, height: int) -> Studio:
+        """Where pictures of it are taken. Raises RobotError as `sim.plant.Plant`."""
+        from sim.filming import FilmStudio
+
+        return FilmStudio(self.plant(robot, seed=0), width=width, height=height)
 
     def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> JudgedPlant:
         """Build the scene and stand the robot in it. Raises RobotError as `sim.plant.Plant`."""

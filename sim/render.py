@@ -82,6 +82,10 @@ class Renderer(Closing):
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._context)
         return self
 
+    def leave_out(self, group: int) -> None:
+        """Draw no geoms of a group."""
+        self._option.geomgroup[group] = 0
+
     def close(self) -> None:
         """Free the context."""
         if self._gl is not None:

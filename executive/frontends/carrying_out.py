@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 
 import msgspec
@@ -12,9 +12,10 @@ import msgspec
 from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts
 from executive.frontends import speaking
+from executive.frontends.console.beside import shown as viewed
 from executive.frontends.dump.writer import along
 from executive.frontends.launching import under_way
-from executive.frontends.options import Seeded, Shown, Voiced
+from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.frontends.reality import REALITY
@@ -30,7 +31,7 @@ from executive.runs.task_run import Assignment, Progress, Show
 from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
-MUTE = Voiced()
+MUTE, UNSEEN = Voiced(), Viewed()
 
 
 class Prepared(msgspec.Struct, frozen=True, kw_only=True):
@@ -41,12 +42,29 @@ class Prepared(msgspec.Struct, frozen=True, kw_only=True):
     left: Left | None = None
 
 
+Attend = Callable[[Session, Handle | None, Callable[[str], None]], AbstractContextManager[None]]
+"""Takes orders from pages while a session works, and says a line to people."""
+
+
+def _nobody(
+    _session: Session, _handle: Handle | None, _out: Callable[[str], None]
+) -> AbstractContextManager[None]:
+    """Take no orders."""
+    return nullcontext()
+
+
 Prepare = Callable[[], Prepared | int]
 """Understands what was asked for; an exit status where that is refused, which has been said."""
 
 
 def carry_out(
-    prepare: Prepare, options: Shown, handle: Handle | None = None, *, voiced: Voiced = MUTE
+    prepare: Prepare,
+    options: Shown,
+    handle: Handle | None = None,
+    *,
+    voiced: Voiced = MUTE,
+    page: Viewed = UNSEEN,
+    attend: Attend = _nobody,
 ) -> int:
     """Do what was asked for, or go on with it, and say how it ended; returns the exit status.
 
@@ -55,6 +73,8 @@ def carry_out(
         options: how it is shown.
         handle: of a live robot.
         voiced: whether the robot speaks; what cannot be heard has been told.
+        page: whether it is shown on a page.
+        attend: takes orders from pages: of a live robot from any, of a fast one from its own.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
@@ -69,7 +89,15 @@ def carry_out(
             executive.journal.listen(speech.note)
             return show(executive)
 
-        summary = _work_off(prepared, shown, handle)
+        with viewed(prepared.setup.folder, wanted=page.view, err=options.as_json):
+            steered = attend if handle is not None or page.view else _nobody
+
+            def out(text: str) -> None:
+                say(text, err=options.as_json)
+
+            summary = _work_off(
+                prepared, shown, handle, attend=lambda session: steered(session, handle, out)
+            )
         say_how_it_ended(summary, as_json=options.as_json)
         speech.finish()
     return summary.exit_status
@@ -95,7 +123,13 @@ def _begun(handle: Handle | None) -> Prepared | None:
     return Prepared(assignment=assignment, setup=again, left=left)
 
 
-def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
+def _work_off(
+    prepared: Prepared,
+    show: Show,
+    handle: Handle | None,
+    *,
+    attend: Callable[[Session], AbstractContextManager[None]],
+) -> Summary:
     """Open the robot, and do what was prepared."""
     assignment, left = prepared.assignment, prepared.left
     interrupts = Interrupts()
@@ -112,6 +146,7 @@ def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
                 faults=assignment.faults,
             )
         )
+        stack.enter_context(attend(session))
         wall = WallClock()
         if left is None:
             return task_run.do(assignment, session, show=show, wall=wall)

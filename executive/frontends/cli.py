@@ -11,8 +11,10 @@ from typing import Annotated
 import typer
 
 from executive.frontends import streams
+from executive.frontends.console import cli as consoles
 from executive.frontends.dump import cli as dumps
 from executive.frontends.exit import ended_by
+from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
 from executive.frontends.missions import cli as missions
@@ -249,6 +251,8 @@ missions.register(app)
 history.register(app)
 dumps.register(app)
 sensing.register(app)
+consoles.register(app)
+films.register(app)
 
 
 @app.command(name="eval")

@@ -12,6 +12,7 @@ from executive.frontends.language_model import language_model
 from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.options import Do
 from executive.frontends.output import say
+from executive.frontends.prompt.attached import attached
 from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs.task_run import Assignment
@@ -41,7 +42,9 @@ def do(options: Do, handle: Handle | None = None) -> int:
         setup = carrying_out.setup(where, options, folder)
         return Prepared(assignment=Assignment(understood=understood), setup=setup)
 
-    return carrying_out.carry_out(prepare, options, handle, voiced=options)
+    return carrying_out.carry_out(
+        prepare, options, handle, voiced=options, page=options, attend=attached
+    )
 
 
 in_executive = from_plain_options(Do, do)

@@ -47,6 +47,9 @@ Model = Annotated[
         "its key is named in ~/.config/humanoid/keys.toml (docs/intents.md).",
     ),
 ]
+View = Annotated[
+    bool, typer.Option("--view", help="Show it at work on a page of this machine, in 3-D.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 
@@ -125,6 +128,13 @@ class Shown:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Viewed:
+    """Whether it is shown on a page."""
+
+    view: View = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Voiced:
     """Whether the robot speaks."""
 
@@ -144,7 +154,7 @@ class Voiced:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Do(Place, Shuffled, Shown, Kept, Agreeing, Voiced):
+class Do(Place, Shuffled, Shown, Viewed, Kept, Agreeing, Voiced):
     """The options of `humanoid do`."""
 
     sentence: Annotated[list[str], typer.Argument(help="What to do, in plain English.")]
@@ -156,7 +166,7 @@ class Do(Place, Shuffled, Shown, Kept, Agreeing, Voiced):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Prompt(Place, Shuffled, Kept, Agreeing, Voiced):
+class Prompt(Place, Shuffled, Viewed, Kept, Agreeing, Voiced):
     """The options of `humanoid repl`, and of `humanoid` without a command."""
 
 

@@ -14,6 +14,7 @@ thread; jobs, pauses and stops come through `session.executive` from any thread
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -22,7 +23,10 @@ import msgspec
 from executive.engine import loop
 from executive.engine.executive import Executive
 from executive.engine.jobs import UNLIMITED, Limits
+from executive.engine.motion import MotionWatch
 from executive.engine.recorder import Recorder
+from executive.journal import motion
+from executive.journal.files import BackgroundFile, LineFile, Lines, Nowhere
 from executive.journal.journal import Journal
 from executive.meaning.request import Understood
 from executive.missions.fault_plans import FaultPlan
@@ -36,6 +40,9 @@ from executive.trees.parts import errands
 from intents.goals import to_builtins
 from robot.bus.topics import TOPICS
 from robot.closing import Closing
+
+MOST_MOMENTS_WAITING = 1200
+"""Of lines of `motion.jsonl` for a disk that takes none: a minute."""
 
 RATES_HZ = {topic.name: topic.rate_hz for topic in TOPICS if topic.rate_hz}
 
@@ -91,6 +98,7 @@ class Session(Closing):
         self.journal = journal or Journal(
             setup.folder, wall_s=time_of_day, background=live, first=first
         )
+        self._motion = _motion_file(setup, background=live)
         self._planner = SlowPlanner(robot.planner)
         self.faults = Injector(
             faults, robot.runtime, self.journal, begin_s=self.now_s, seed=setup.seed,
@@ -122,6 +130,8 @@ class Session(Closing):
         )
         self.executive.attended = self._attended
         self._recorder = Recorder(self.executive)
+        after_s = motion.last_s(self.setup.folder) if self.setup.folder else -math.inf
+        self._mover = MotionWatch(self.executive.board, context.link, self._motion, after_s=after_s)
 
     def begin(self, text: str) -> None:
         """Write what the run is started with into its folder, and as the journal's first event."""
@@ -182,6 +192,7 @@ class Session(Closing):
 
     def _tell(self) -> None:
         self._recorder.update()
+        self._mover.update(self.now_s)
         self.faults.tick(self.now_s)
         for listener in self._listeners:
             listener()
@@ -189,4 +200,13 @@ class Session(Closing):
     def close(self) -> None:
         """Undo the faults that last, and close the journal."""
         self.faults.close()
+        self._motion.close()
         self.journal.close()
+
+
+def _motion_file(setup: Setup, *, background: bool) -> Lines:
+    """Where it is written how everything moves: beside the journal, if there is one."""
+    if setup.folder is None:
+        return Nowhere()
+    kind = BackgroundFile if background else LineFile
+    return kind(setup.folder / motion.FILE, capacity=MOST_MOMENTS_WAITING)

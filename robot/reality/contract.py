@@ -15,6 +15,8 @@ from robot.drivers.wiring import SimulatedPlant
 from robot.messages import Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
+from robot.reality.scene import Scene
+from robot.reality.studio import Studio
 from robot.reality.truth import Check, Verdict
 from robot.se3 import SE3
 
@@ -135,6 +137,18 @@ class World(Protocol):
 
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
+        ...
+
+    def scene(self, robot: RobotDescription) -> Scene:
+        """What it looks like with a robot in it. Raises RobotError if they do not fit together."""
+        ...
+
+    def studio(self, robot: RobotDescription, *, width: int, height: int) -> Studio:
+        """Where pictures of it are taken, of so many pixels.
+
+        Raises:
+            RobotError: if they do not fit together; on entering, if nothing can be rendered here.
+        """
         ...
 
     def plant(self, robot: RobotDescription, *, seed: int, physics_ms: int = 1) -> Plant:

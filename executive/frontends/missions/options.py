@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from executive.frontends.options import AsJson, Kept, Shown, Shuffled
+from executive.frontends.options import AsJson, Kept, Shown, Shuffled, Viewed
 
 File = Annotated[str, typer.Argument(help="A mission file, or the name of a shipped mission.")]
 
@@ -47,7 +47,7 @@ class Plan(Beside):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Run(Beside, Shuffled, Kept, Shown):
+class Run(Beside, Shuffled, Viewed, Kept, Shown):
     """The options of `humanoid mission run`."""
 
     file: File

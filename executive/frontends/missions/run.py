@@ -7,6 +7,7 @@ from executive.frontends.carrying_out import Prepared
 from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.missions.commands import said, say_notes
 from executive.frontends.missions.options import Run
+from executive.frontends.prompt.attached import attached
 from executive.frontends.reality import REALITY
 from executive.missions import load
 from executive.missions.check import check
@@ -36,7 +37,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
             setup=carrying_out.setup(checked.where, options, folder),
         )
 
-    return carrying_out.carry_out(prepare, options, handle)
+    return carrying_out.carry_out(prepare, options, handle, page=options, attend=attached)
 
 
 in_executive = from_plain_options(Run, run)

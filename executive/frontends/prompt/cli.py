@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import carrying_out, speaking
+from executive.frontends.console.attending import attended
+from executive.frontends.console.beside import shown as viewed
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
     FrontEnd,
@@ -132,6 +134,7 @@ def conversation(
         left=left_in(left) if left is not None else None,
     )
     with ExitStack() as stack:
+        stack.enter_context(viewed(folder, wanted=options.view))
         with Screen(err=True).status("starting the robot"):
             stack.enter_context(robot)
         stack.enter_context(robot.interrupts.listen())
@@ -140,6 +143,7 @@ def conversation(
         tell_what_goes_on(robot.session.journal)
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)
+        stack.enter_context(attended(shell, folder, handle))
         yield shell
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Protocol
 
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNLIMITED, Limits
 from executive.engine.loop import Interrupts
 from executive.frontends.prompt.view import Observer, View, view_of_lost
-from executive.meaning.request import Understood
+from executive.meaning.request import Setting, Understood
 from executive.runs import runtimes
 from executive.runs.again.continuation import Left, return_to
 from executive.runs.runtimes import Opened, Setup
@@ -25,6 +25,63 @@ from robot.model.description import RobotDescription
 
 LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
+
+
+class AtWork(Protocol):
+    """A robot that is up and can be spoken to, whoever lets its time pass; from any thread.
+
+    Attributes:
+        session: with its executive.
+        where: robot and world.
+        view: the newest view.
+        observer: set `observer.tree_wanted` to have the tree in the views.
+        interrupts: counts signals.
+    """
+
+    session: Session
+    where: Setting
+    view: View
+    observer: Observer
+    interrupts: Interrupts
+
+    @property
+    def executive(self) -> Executive:
+        """The executive of the session."""
+        ...
+
+    @property
+    def ended_before(self) -> tuple[tuple[int, str, str], ...]:
+        """The jobs of this run that were over before this executive took its place."""
+        ...
+
+    @property
+    def lost(self) -> Failure | None:
+        """Why the robot is gone, None while it is there."""
+        ...
+
+    @property
+    def busy(self) -> bool:
+        """Whether a job is under way or waits."""
+        ...
+
+    def submit(
+        self,
+        understood: Understood,
+        *,
+        urgent: bool = False,
+        limits: Limits = UNLIMITED,
+        origin: Mapping[str, Any] | None = None,
+    ) -> int:
+        """Queue a task, as `Session.submit` does; returns its number."""
+        ...
+
+    def inject(self, fault: dict[str, Any]) -> None:
+        """Let a fault happen with the next tick; `executive.runs.faults.verify` it first."""
+        ...
+
+    def wait(self, *, poll_s: float = 0.02) -> None:
+        """Return when nothing is left to do, or the robot is gone."""
+        ...
 
 
 class Robot(Closing):
@@ -63,7 +120,7 @@ class Robot(Closing):
         """
         self.where = setup.where
         self.view = View()
-        self.observer = Observer(low_base_m=_low_base_m(setup.where.description))
+        self.observer = Observer(low_base_m=low_base_m(setup.where.description))
         self.interrupts = Interrupts()
         self._setup = setup
         self._wall = wall
@@ -196,6 +253,6 @@ class Robot(Closing):
             raise self._error
 
 
-def _low_base_m(robot: RobotDescription) -> float:
+def low_base_m(robot: RobotDescription) -> float:
     """A base below this is that of a squat: half way down to it."""
     return 0.5 * (robot.balance.squat_base_m + robot.walking.base_height_m)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from executive.behaviours.ask import Answer, answer_of
+from executive.behaviours.ask import ANSWERS, Answer, answer_of
 from executive.blackboard import HELD, WORLD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
@@ -24,7 +24,7 @@ from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
-from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.robot import AtWork
 from executive.frontends.prompt.stance import standing
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
@@ -68,7 +68,7 @@ class Shell:
 
     def __init__(
         self,
-        robot: Robot,
+        robot: AtWork,
         out: Out,
         *,
         table: Callable[[Shell], Iterable[Command]],
@@ -96,6 +96,7 @@ class Shell:
         self.stops = 0
         self._stops_before: int | None = None
         self._submitting = threading.Lock()
+        self._one_line = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
         self._model = model
         if model is not None:
@@ -135,6 +136,19 @@ class Shell:
     def asks(self) -> bool:
         """Whether the person is asked something, by the conversation or by a job."""
         return self.dialogue.question is not None or bool(self.robot.executive.question)
+
+    @property
+    def asked(self) -> tuple[str, tuple[str, ...]] | None:
+        """What the person is asked, and what can be answered where that is limited."""
+        question = self.dialogue.question
+        if question is not None:
+            return question.question, tuple(choice.label for choice in question.choices)
+        wanted = self.robot.executive.question
+        return (wanted, ANSWERS) if wanted else None
+
+    def command(self, name: str) -> None:
+        """Do what a command does that takes no words."""
+        self.commands[name].run("")
 
     def is_cry(self, text: str) -> bool:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
@@ -236,10 +250,19 @@ class Shell:
             text: what was typed.
             stops: what `stops` was by then; a stop since then is about this line too.
         """
-        self._stops_before = stops
         try:
             if self.stop_at_once(text):
                 return
+        except RobotError as error:
+            self._refuse(f"Not done: {error}")
+            self._ask_to_go_on()
+            return
+        with self._one_line:  # people at the terminal and at pages take turns
+            self._line(text, stops=stops)
+
+    def _line(self, text: str, *, stops: int | None) -> None:
+        self._stops_before = stops
+        try:
             halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
             if self._stopped_since:
@@ -256,6 +279,10 @@ class Shell:
 
     def hear(self, text: str, *, stops: int) -> None:
         """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
+        with self._one_line:
+            self._hear(text, stops=stops)
+
+    def _hear(self, text: str, *, stops: int) -> None:
         self._stops_before = stops
         try:
             if self.halt_at_once(text):

@@ -1,0 +1,254 @@
+"""Where the executive takes orders from pages: a socket that only this user reaches.
+
+What comes is a line of JSON, an `Order`; what goes back, to all who are connected, is what the
+robot answers. It is the prompt's shell that does it, so a stop is a stop and words mean what they
+mean at the prompt. A stop acts in the thread that reads it; who does not read is let go.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Protocol
+
+import msgspec
+
+from executive.frontends.output import as_mistake
+from robot.closing import Closing
+from robot.errors import RobotError
+from robot.printable import printable_line
+
+FILE = "desk.json"
+"""In the folder of a run: where its desk is."""
+SOCKET = "desk.sock"
+MOST_CLIENTS = 8
+MOST_LINES = 50
+"""Lines that may wait; who types faster is told."""
+MAX_LINE = 1 << 14
+MAX_ORDER = 1 << 16
+LOOK_S = 0.2
+"""How often it is looked whether the robot asks something."""
+LEAVING = ("quit", "exit")
+
+
+class Place(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a desk is: the path of its socket."""
+
+    socket: str
+
+
+class Order(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a page wants: a button that was pressed (`do`), or a `line` as at the prompt."""
+
+    do: str = ""
+    line: str = ""
+
+
+class Steered(Protocol):
+    """What does as it is told: the prompt's shell.
+
+    Attributes:
+        out: says a line to people.
+        stops: how often it was told to stop.
+    """
+
+    out: Callable[[str], None]
+    stops: int
+
+    @property
+    def asked(self) -> tuple[str, tuple[str, ...]] | None:
+        """What a person is asked, and what can be answered."""
+        ...
+
+    def stop(self, why: str) -> None:
+        """Bring the robot to a stand and end all jobs; from any thread."""
+        ...
+
+    def stop_at_once(self, text: str) -> bool:
+        """Stop if a line is a cry to stop; never waits."""
+        ...
+
+    def halt_at_once(self, text: str) -> bool:
+        """Halt if a line is a cry that ends nothing; never waits."""
+        ...
+
+    def line(self, text: str, *, stops: int | None = None) -> None:
+        """Do what a line says that was typed when `stops` was so much."""
+        ...
+
+    def command(self, name: str) -> None:
+        """Do what a command of the prompt does that takes no words."""
+        ...
+
+
+class Desk(Closing):
+    """A context manager: takes orders inside."""
+
+    def __init__(self, shell: Steered, *, folder: Path, private: Path) -> None:
+        """Listen in a private folder, and say in the run's folder where.
+
+        Raises:
+            OSError: if there is no room for a socket.
+        """
+        self._shell = shell
+        self._folder = folder
+        self._path = private / SOCKET
+        self._path.unlink(missing_ok=True)  # what an executive before this one left
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self._socket.bind(str(self._path))
+        self._socket.listen(MOST_CLIENTS)
+        self._clients: list[socket.socket] = []
+        self._lock = threading.Lock()
+        self._closing = threading.Event()
+        self._asks: bytes = _news(asks=None)
+        self._waiting = 0
+        self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="page lines")
+        self._out, shell.out = shell.out, self._tee(shell.out)
+        _write(folder / FILE, Place(socket=str(self._path)))
+        for target in (self._accept, self._look):
+            threading.Thread(target=target, name="desk", daemon=True).start()
+
+    def close(self) -> None:
+        """Take no more orders."""
+        if self._closing.is_set():
+            return
+        self._closing.set()
+        self._shell.out = self._out
+        with suppress(OSError):
+            (self._folder / FILE).unlink(missing_ok=True)
+        for one in (self._socket, *self._clients):
+            with suppress(OSError):
+                one.shutdown(socket.SHUT_RDWR)
+            one.close()
+        self._path.unlink(missing_ok=True)
+        self._worker.shutdown(wait=False, cancel_futures=True)
+
+    # --- what goes back ---
+
+    def _tee(self, out: Callable[[str], None]) -> Callable[[str], None]:
+        def tell(text: str) -> None:
+            out(text)
+            self._tell(_news(out=text))
+
+        return tell
+
+    def _tell(self, line: bytes) -> None:
+        """To everyone; one whose buffer is full does not read, and is let go."""
+        with self._lock:
+            for client in tuple(self._clients):
+                try:
+                    if client.send(line, socket.MSG_DONTWAIT) == len(line):
+                        continue
+                except OSError:
+                    pass
+                self._clients.remove(client)
+                with suppress(OSError):
+                    client.shutdown(socket.SHUT_RDWR)
+
+    def _look(self) -> None:
+        """Tell what is asked of a person whenever that is something else."""
+        while not self._closing.wait(LOOK_S):
+            asks = _news(asks=self._question())
+            if asks != self._asks:
+                self._asks = asks
+                self._tell(asks)
+
+    def _question(self) -> dict[str, Any] | None:
+        asked = self._shell.asked
+        return {"question": asked[0], "choices": asked[1]} if asked else None
+
+    # --- what comes ---
+
+    def _accept(self) -> None:
+        while not self._closing.is_set():
+            try:
+                client, _ = self._socket.accept()
+            except OSError:
+                return
+            with self._lock:
+                full = len(self._clients) >= MOST_CLIENTS
+                if not full:
+                    self._clients.append(client)
+            if full:
+                client.close()
+                continue
+            with suppress(OSError):
+                client.send(self._asks, socket.MSG_DONTWAIT)
+            threading.Thread(
+                target=self._serve, args=(client,), name="desk client", daemon=True
+            ).start()
+
+    def _serve(self, client: socket.socket) -> None:
+        with suppress(OSError, ValueError), client, client.makefile("rb") as orders:
+            while line := orders.readline(MAX_ORDER):
+                with suppress(msgspec.DecodeError):
+                    self._heed(msgspec.json.decode(line, type=Order))
+        with self._lock:
+            if client in self._clients:
+                self._clients.remove(client)
+
+    def _heed(self, order: Order) -> None:
+        """Do what can be done at once, here; a mistake in it ends nothing."""
+        try:
+            if order.do:
+                self._press(order.do)
+            elif order.line.strip():
+                self._take(order.line[:MAX_LINE])
+        except RobotError as error:
+            self._shell.out(f"Not done: {error}")
+        except Exception as error:
+            self._shell.out(as_mistake(error))
+
+    def _press(self, button: str) -> None:
+        shell = self._shell
+        if button == "stop":
+            shell.stop("STOP was pressed on the page")
+        elif button == "estop":
+            shell.stop_at_once("estop")
+        elif button in ("release", "reset"):
+            shell.stop_at_once(f"estop {button}")
+        elif button in ("pause", "resume", "cancel"):
+            shell.command(button)
+
+    def _take(self, text: str) -> None:
+        """A line: a stop and a halt act here, whatever else is being worked off."""
+        shell, stops = self._shell, self._shell.stops
+        self._tell(_news(you=text))
+        self._out(f"(page) > {printable_line(text)}")
+        if shell.stop_at_once(text):
+            return
+        if text.strip().casefold() in LEAVING:
+            shell.out("That is for the terminal; the page is just closed.")
+            return
+        shell.halt_at_once(text)
+        if self._waiting >= MOST_LINES:
+            shell.out("Too many lines at once: that one is left out.")
+            return
+        self._waiting += 1
+        self._worker.submit(self._line, text, stops)
+
+    def _line(self, text: str, stops: int) -> None:
+        try:
+            self._shell.line(text, stops=stops)
+        except Exception as error:  # in this software: the robot goes on
+            self._shell.out(as_mistake(error))
+        finally:
+            self._waiting -= 1
+
+
+def _news(**news: Any) -> bytes:
+    return msgspec.json.encode(news) + b"\n"
+
+
+def _write(path: Path, place: Place) -> None:
+    """Say where it is; without, pages only look on."""
+    with suppress(OSError):
+        path.unlink(missing_ok=True)
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+        with os.fdopen(os.open(path, flags, 0o600), "wb") as file:
+            file.write(msgspec.json.encode(place))

@@ -1,0 +1,332 @@
+"""Serves the page on this machine alone, and tells every page that is open what is new.
+
+Nothing is kept for a page but how far it has been told: one that is slow is told less often, and
+one that is gone is forgotten. What others could send a browser here for is refused: a request under
+another host's name, or from another site's page, and whoever does not know the token.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import secrets
+import socket
+from collections.abc import Callable, Mapping
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+from executive.frontends.console.address import HOST, Address, url
+from executive.frontends.console.desk import Order
+from executive.frontends.console.following import Following
+from executive.frontends.console.page import page
+from executive.frontends.console.steering import Steering
+from executive.frontends.console.telling import told
+from robot.reality.scene import Scene
+
+PERIOD_S = 0.05
+"""Between two messages to a page: as often as the robot thinks."""
+TELL_S = 0.2
+"""Between two looks at what happened."""
+BATCH = 1000
+"""Moments of a message, of the many of a run that has gone on for a while."""
+MOST_PAGES = 16
+MAX_MESSAGE = 1 << 16
+NOBODY = "Nobody takes orders from this page: no robot is at work here."
+TOKEN_S = 5.0
+"""How long a page may take to show its token."""
+
+MakeScene = Callable[[Mapping[str, Any]], Scene | str]
+"""What the world of a run looks like that was started with this, or why that is not known."""
+
+
+class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a page sends: first its token, then where in time it looks (`at`), or an `Order`."""
+
+    token: str = ""
+    at: float | None = None
+    line: str = ""
+    do: str = ""
+
+
+class Show:
+    """A run that is shown, with what it looks like.
+
+    Attributes:
+        following: reads it.
+        steering: hands on what pages want, while somebody takes it.
+        scene: as JSON; empty until it is known.
+    """
+
+    def __init__(self, folder: Path, make_scene: MakeScene) -> None:
+        """Begin to make the scene in another thread."""
+        self.following = Following(folder)
+        self.steering = Steering(folder, now_s=lambda: self.following.run.end_s)
+        self.scene = b""
+        self.parts: dict[str, bytes] = {}
+        self.live = self.following.live
+        self._make_scene = make_scene
+        self._told_s = 0.0
+        self._making: asyncio.Task[None] | None = None
+        self._steering = asyncio.create_task(self.steering.work())
+
+    async def look(self, now_s: float) -> None:
+        """Read on, and work out what is new."""
+        if self._making is None and self.following.run.events:
+            self._making = asyncio.create_task(self._make())
+        read = False
+        while self.following.read():
+            read = True
+            await asyncio.sleep(0)  # others are told meanwhile
+        if (read or not self.parts) and now_s >= self._told_s + TELL_S:
+            self._told_s = now_s
+            self.live = self.following.live
+            self.parts = {key: _json(part) for key, part in told(self.following.run).items()}
+        elif now_s >= self._told_s + 1.0:
+            self._told_s = now_s
+            self.live = self.following.live
+
+    async def _make(self) -> None:
+        made = await asyncio.to_thread(self._make_scene, self.following.run.about)
+        self.scene = _json({"problem": made} if isinstance(made, str) else made)
+
+    def close(self) -> None:
+        """Read no more, and steer no more."""
+        self._steering.cancel()
+        self.following.close()
+
+
+class PageServer:
+    """The server, inside an event loop.
+
+    Attributes:
+        url: of the page, with its token.
+    """
+
+    def __init__(
+        self,
+        find: Callable[[], Path | None],
+        make_scene: MakeScene,
+        *,
+        token: str = "",
+    ) -> None:
+        """Serve nothing yet.
+
+        Args:
+            find: gives the folder of the run to be shown, None while there is none.
+            make_scene: what a run's world looks like.
+            token: that pages have to know; a new one by default.
+        """
+        self.token = token or secrets.token_urlsafe(18)
+        self.url = ""
+        self.show: Show | None = None
+        self._find = find
+        self._make_scene = make_scene
+        self._page, self._policy = page()
+        self._hosts: frozenset[str] = frozenset()
+        self._pages = 0
+
+    async def open(self, listening: socket.socket) -> Server:
+        """Serve on a socket that listens, on this machine alone."""
+        server = await serve(
+            self._serve, sock=listening,
+            process_request=self._answer, max_size=MAX_MESSAGE, compression=None,
+            ping_interval=10, ping_timeout=20, server_header=None,
+        )  # fmt: skip
+        number = int(listening.getsockname()[1])
+        self._hosts = frozenset({f"{HOST}:{number}", f"localhost:{number}"})
+        self.url = url(Address(port=number, token=self.token))
+        return server
+
+    async def follow(self) -> None:
+        """Read the run that is to be shown, for ever."""
+        clock, look_s = asyncio.get_running_loop().time, 0.0
+        while True:
+            begun_s = clock()
+            if begun_s >= look_s:
+                look_s = begun_s + 1.0
+                self._choose()
+            if self.show is not None:
+                await self.show.look(begun_s)
+            await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
+
+    def _choose(self) -> None:
+        folder = self._find()
+        if folder is None or (self.show and self.show.following.folder == folder):
+            return
+        if self.show is not None:
+            self.show.close()
+        self.show = Show(folder, self._make_scene)
+
+    # --- what browsers ask for ---
+
+    def _answer(self, _connection: ServerConnection, request: Request) -> Response | None:
+        """The page, or a refusal; None lets the page's own connection through."""
+        hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
+        if len(hosts) != 1 or hosts[0] not in self._hosts:
+            return _plain(HTTPStatus.MISDIRECTED_REQUEST, "this page has another name")
+        if "Upgrade" in request.headers:
+            if origins != [f"http://{hosts[0]}"]:
+                return _plain(HTTPStatus.FORBIDDEN, "another site's page steers no robot")
+            return None
+        if request.path != "/":
+            return _plain(HTTPStatus.NOT_FOUND, "there is nothing here")
+        return _response(HTTPStatus.OK, self._page, "text/html; charset=utf-8", self._policy)
+
+    async def _serve(self, connection: ServerConnection) -> None:
+        """One page, until it is closed."""
+        if self._pages >= MOST_PAGES:
+            await connection.close(1013, "too many pages")
+            return
+        self._pages += 1
+        try:
+            first = await asyncio.wait_for(connection.recv(), TOKEN_S)
+            wish = _wish(first)
+            if wish is None or not hmac.compare_digest(wish.token.encode(), self.token.encode()):
+                await connection.close(4401, "not the token of this page")
+                return
+            telling = asyncio.create_task(Viewer(self, connection).tell())
+            try:
+                await self._hear(connection)
+            finally:
+                telling.cancel()
+        except (ConnectionClosed, TimeoutError):
+            pass
+        finally:
+            self._pages -= 1
+
+    async def _hear(self, connection: ServerConnection) -> None:
+        async for message in connection:
+            wish = _wish(message)
+            if wish is None:
+                continue
+            if wish.do or wish.line:
+                order = Order(do=wish.do, line=wish.line)
+                if self.show is None or not self.show.steering.open:
+                    await connection.send(_json({"word": {"out": NOBODY}}), text=True)
+                else:
+                    self.show.steering.send(order)
+            elif self.show is not None:
+                at = None if wish.at is None else self.show.following.run
+                if at is not None and wish.at is not None:
+                    then = {"then": {"t_s": wish.at, **told(at, wish.at)}}
+                    await connection.send(_json(then), text=True)
+
+
+class Viewer:
+    """What one page has been told."""
+
+    def __init__(self, console: PageServer, connection: ServerConnection) -> None:
+        """Nothing yet."""
+        self._console = console
+        self._connection = connection
+        self._show: Show | None = None
+        self._greeted = False
+        self._scene = False
+        self._moments = 0
+        self._parts: dict[str, bytes] = {}
+        self._live: bool | None = None
+        self._steers: bool | None = None
+        self._asks = b""
+        self._words = 0
+
+    async def tell(self) -> None:
+        """Tell what is new, for ever; each message waits until the page has taken the last."""
+        loop = asyncio.get_running_loop()
+        while True:
+            begun_s = loop.time()
+            show = self._console.show
+            if show is not self._show or not self._greeted:
+                self._greeted = True
+                self._show, self._scene, self._moments = show, False, 0
+                self._parts, self._live, self._steers, self._asks = {}, None, None, b""
+                self._words = show.steering.first if show else 0
+                name = show.following.folder.name if show else ""
+                begun = _json({"show": name})
+                await self._connection.send(begun, text=True)
+            more = False
+            if show is not None:
+                message = self._news(show)
+                if message:
+                    await self._connection.send(message, text=True)
+                for word in self._said(show.steering):
+                    await self._connection.send(word, text=True)
+                more = self._scene and self._moments < len(show.following.moments)
+            if not more:
+                await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))
+
+    def _news(self, show: Show) -> bytes:
+        """What this page does not know yet, as JSON; empty if there is nothing."""
+        news: list[bytes] = []
+        if show.scene and not self._scene:
+            self._scene = True
+            news.append(b'"scene":' + show.scene)
+        moments = show.following.moments
+        if self._scene and self._moments < len(moments):
+            if not self._moments and len(moments) > BATCH:  # first of all the picture as it is now
+                news.append(b'"latest":' + moments[-1])
+            batch = moments[self._moments : self._moments + BATCH]
+            self._moments += len(batch)
+            news.append(b'"moments":[' + b",".join(batch) + b"]")
+        for key, part in show.parts.items():
+            if self._parts.get(key) != part:
+                self._parts[key] = part
+                news.append(b'"%b":%b' % (key.encode(), part))
+        if show.live is not self._live:
+            self._live = show.live
+            news.append(b'"live":' + _json(show.live))
+        steering = show.steering
+        if steering.open is not self._steers:
+            self._steers = steering.open
+            news.append(b'"steers":' + _json(steering.open))
+        if steering.asks != self._asks:
+            self._asks = steering.asks
+            news.append(b'"asks":' + steering.asks)
+        return b"{" + b",".join(news) + b"}" if news else b""
+
+    def _said(self, steering: Steering) -> list[bytes]:
+        """What was said since this page was told; of much, the newest."""
+        behind = min(steering.count - self._words, len(steering.words))
+        self._words = steering.count
+        return list(steering.words)[len(steering.words) - behind :]
+
+
+def _json(value: object) -> bytes:
+    return msgspec.json.encode(value)
+
+
+def _wish(message: str | bytes) -> Wish | None:
+    try:
+        return msgspec.json.decode(message, type=Wish)
+    except (msgspec.DecodeError, UnicodeError, RecursionError):
+        return None
+
+
+def _plain(status: HTTPStatus, text: str) -> Response:
+    return _response(
+        status, f"{text}\n".encode(), "text/plain; charset=utf-8", "default-src 'none'"
+    )
+
+
+def _response(status: HTTPStatus, body: bytes, kind: str, policy: str) -> Response:
+    headers = Headers(
+        {
+            "Content-Type": kind,
+            "Content-Length": str(len(body)),
+            "Content-Security-Policy": policy,
+            "Cache-Control": "no-store",
+            "Cross-Origin-Opener-Policy": "same-origin",
+            "Cross-Origin-Resource-Policy": "same-origin",
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+            "X-Frame-Options": "DENY",
+            "Connection": "close",
+        }
+    )
+    return Response(status.value, status.phrase, headers, body)

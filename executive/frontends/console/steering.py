@@ -1,0 +1,98 @@
+"""The console's end of the desk: hands on what pages want, and brings back what is answered."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import stat
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import msgspec
+
+from executive.frontends.console.desk import FILE, Order, Place
+from robot.ordinary_files import read_secret
+
+AGAIN_S = 0.3
+MAX_ANSWER = 1 << 20
+MOST_WORDS = 300
+"""What was answered, the newest; a page that comes later is told that much."""
+
+
+class Steering:
+    """A connection to the desk of a run, as long as there is one.
+
+    Attributes:
+        words: what was said and answered, as JSON.
+        count: how many there were so far.
+        asks: what the robot asks a person, as JSON; empty before it is known.
+    """
+
+    def __init__(self, folder: Path, *, now_s: Callable[[], float]) -> None:
+        """Connect to nothing yet; `now_s` is the run's time, by which words are ordered."""
+        self._now_s = now_s
+        self.words: deque[bytes] = deque(maxlen=MOST_WORDS)
+        self.count = 0
+        self.asks = b""
+        self._folder = folder
+        self._writer: asyncio.StreamWriter | None = None
+
+    @property
+    def open(self) -> bool:
+        """Whether what is sent arrives."""
+        return self._writer is not None and not self._writer.is_closing()
+
+    def send(self, order: Order) -> bool:
+        """Hand on an order at once; whether there is anybody to take it."""
+        if self._writer is None or not self.open:
+            return False
+        self._writer.write(msgspec.json.encode(order) + b"\n")
+        return True
+
+    async def work(self) -> None:
+        """Keep a connection, for ever."""
+        while True:
+            with suppress(OSError, ValueError, asyncio.IncompleteReadError):
+                await self._converse()
+            self._writer = None
+            await asyncio.sleep(AGAIN_S)
+
+    async def _converse(self) -> None:
+        path = _place(self._folder)
+        if path is None:
+            return
+        reader, writer = await asyncio.open_unix_connection(path, limit=MAX_ANSWER)
+        self._writer = writer
+        try:
+            while line := await reader.readline():
+                self._take(line.strip())
+        finally:
+            writer.close()
+
+    def _take(self, line: bytes) -> None:
+        news = msgspec.json.decode(line, type=dict[str, msgspec.Raw])
+        if "asks" in news:
+            self.asks = bytes(news["asks"])
+            return
+        told = {"t_s": round(self._now_s(), 3), **news}
+        self.words.append(msgspec.json.encode({"word": told}))
+        self.count += 1
+
+    @property
+    def first(self) -> int:
+        """Number of the oldest word that is kept."""
+        return self.count - len(self.words)
+
+
+def _place(folder: Path) -> str | None:
+    """The socket of a run's desk, if both are this user's own."""
+    try:
+        owner = folder.stat().st_uid
+        place = msgspec.json.decode(read_secret(folder / FILE, limit=4096), type=Place)
+        found = Path(place.socket).stat()
+    except (OSError, msgspec.DecodeError):
+        return None
+    own = owner == os.geteuid() == found.st_uid
+    return place.socket if own and stat.S_ISSOCK(found.st_mode) else None

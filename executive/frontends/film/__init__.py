@@ -1,0 +1,1 @@
+"""`humanoid film`: a run as a film to send to somebody."""

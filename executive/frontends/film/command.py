@@ -1,0 +1,151 @@
+"""What `humanoid film` does, from its options to an exit status."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from executive.frontends.film import writing
+from executive.frontends.film.pictures import Composer, Frame, panel_px
+from executive.frontends.output import Screen, say
+from executive.frontends.reality import REALITY
+from executive.journal import motion, past_runs, reader
+from executive.journal.motion import Moment
+from executive.journal.run import Run
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
+from robot.model import description
+from robot.reality.studio import Standing, Studio
+
+HELD_S = 0.35
+"""Further apart, two moments are a rest and not a motion."""
+LINGER_S = 1.5
+"""How long the last picture stays, in seconds of the film."""
+ASPECT = 0.5625
+
+
+class Asked(msgspec.Struct, frozen=True, kw_only=True):
+    """The options of `humanoid film`."""
+
+    run: str | None = None
+    output: Path | None = None
+    speed: float = 2.0
+    begin_s: float | None = None
+    end_s: float | None = None
+    width: int = 800
+
+
+def film(asked: Asked) -> int:
+    """Make the film; returns the exit status.
+
+    Raises:
+        ConfigError: there is no such run, its movements were not kept, or nothing can be written.
+    """
+    folder = past_runs.find(asked.run)
+    path = asked.output or folder / f"film{writing.best()}"
+    kind = writing.kind_of(path)
+    run, moments = reader.read(folder), _moments(folder)
+    begin_s, end_s = _span(asked, moments)
+    count = math.ceil((end_s - begin_s) / asked.speed * kind.rate_hz) + 1
+    if count > kind.most_frames:
+        cure = f"--speed {math.ceil(asked.speed * count / kind.most_frames)}, or --from and --to"
+        text = f"{count} pictures are too many for a {kind.suffix}"
+        raise ConfigError([Problem(text, str(path), suggestion=cure)])
+    times = [begin_s + k * asked.speed / kind.rate_hz for k in range(count)]
+    width = asked.width - asked.width % 2
+    height = 2 * round(ASPECT * width / 2)
+    with _studio(run, width - panel_px(width), height) as studio:
+        composer = Composer(run, width=width, height=height)
+        frames = _frames(moments, times, studio, composer)
+        linger = round(LINGER_S * kind.rate_hz)
+        with Screen(err=True).status("making the film") as status:
+
+            def shown() -> Iterator[Frame]:
+                last: Frame | None = None
+                for number, frame in enumerate(frames):
+                    status.update(f"making the film: {100 * number // count} %")
+                    last = frame
+                    yield frame
+                if last is not None:
+                    yield from [last] * linger
+
+            writing.write(path, kind, shown(), width=width, height=height)
+    size = path.stat().st_size / 1e6
+    long_s = count / kind.rate_hz
+    say(f"Done: {path}  ({long_s:.0f} s, {asked.speed:g} times as fast, {size:.1f} MB)")
+    return ExitStatus.DONE
+
+
+def _moments(folder: Path) -> list[Moment]:
+    try:
+        moments = list(motion.read(folder))
+    except OSError as error:
+        cure = "runs that are made from now on keep it"
+        text = f"it was not kept how anything moved: {error.strerror}"
+        raise ConfigError([Problem(text, str(folder / motion.FILE), suggestion=cure)]) from None
+    if not moments:
+        raise ConfigError([Problem("nothing has moved in this run", str(folder))])
+    return moments
+
+
+def _span(asked: Asked, moments: list[Moment]) -> tuple[float, float]:
+    first_s, last_s = moments[0].t_s, moments[-1].t_s
+    begin_s = first_s if asked.begin_s is None else asked.begin_s
+    end_s = last_s if asked.end_s is None else asked.end_s
+    if not first_s <= begin_s <= end_s <= last_s:
+        text = f"the run goes from {first_s:.2f} to {last_s:.2f} s"
+        raise ConfigError([Problem(text, suggestion="choose --from and --to in between")])
+    return begin_s, end_s
+
+
+def _studio(run: Run, width: int, height: int) -> Studio:
+    world, robot, seed = (run.about.get(key) for key in ("world", "robot", "seed"))
+    if not (isinstance(world, str) and isinstance(robot, str)):
+        raise ConfigError("the journal does not say where this was")
+    vary_seed = seed if run.about.get("varied") and isinstance(seed, int) else None
+    where = REALITY.world(world, vary_seed=vary_seed)
+    return where.studio(description.load(robot), width=width, height=height)
+
+
+def _frames(
+    moments: list[Moment], times: list[float], studio: Studio, composer: Composer
+) -> Iterator[Frame]:
+    """The pictures, in order; the camera follows the robot without its sway."""
+    at: tuple[float, float] | None = None
+    for t_s, standing in zip(times, standings(moments, times), strict=True):
+        x, y, *_ = standing.base
+        at = (x, y) if at is None else (at[0] + 0.12 * (x - at[0]), at[1] + 0.12 * (y - at[1]))
+        yield composer.compose(studio.shoot(standing, at_m=at), t_s)
+
+
+def standings(moments: list[Moment], times: list[float]) -> Iterator[Standing]:
+    """How everything stood at some growing times."""
+    objects: dict[str, motion.Flat | None] = {}
+    people: dict[str, motion.Flat | None] = {}
+    k = -1
+    for t_s in times:
+        while k + 1 < len(moments) and (k < 0 or moments[k + 1].t_s <= t_s):
+            k += 1
+            objects.update(moments[k].objects)
+            people.update(moments[k].people)
+        base, q = _between(moments[k], moments[min(k + 1, len(moments) - 1)], t_s)
+        yield Standing(base=base, q=q, objects=dict(objects), people=dict(people))
+
+
+def _between(a: Moment, b: Moment, t_s: float) -> tuple[motion.Flat, tuple[float, ...]]:
+    gap_s = b.t_s - a.t_s
+    if not 0.0 < gap_s <= HELD_S or len(a.q) != len(b.q):
+        return a.base, a.q
+    part = min(1.0, max(0.0, (t_s - a.t_s) / gap_s))
+    first, second = np.array(a.base), np.array(b.base)
+    if first[3:] @ second[3:] < 0.0:
+        second[3:] *= -1.0
+    base = (1.0 - part) * first + part * second
+    base[3:] /= np.linalg.norm(base[3:]) or 1.0
+    q = (1.0 - part) * np.array(a.q) + part * np.array(b.q)
+    x, y, z, w, i, j, l = (float(one) for one in base)  # noqa: E741
+    return (x, y, z, w, i, j, l), tuple(float(one) for one in q)

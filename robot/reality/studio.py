@@ -1,0 +1,36 @@
+"""Pictures of a robot in its world as somebody says that it stands: nothing moves by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from robot.closing import Closing
+from robot.reality.scene import Flat
+
+Image = NDArray[np.uint8]
+"""Shape (height, width, 3)."""
+
+
+class Standing(msgspec.Struct, frozen=True, kw_only=True):
+    """How everything stands: X_WB, joints in the order of the motors, X_WO by id.
+
+    What is not named, or is None, is not there.
+    """
+
+    base: Flat
+    q: tuple[float, ...]
+    objects: Mapping[str, Flat | None]
+    people: Mapping[str, Flat | None]
+
+
+class Studio(Closing, Protocol):
+    """A context manager in which pictures are taken."""
+
+    def shoot(self, standing: Standing, *, at_m: tuple[float, float]) -> Image:
+        """One picture, which looks at a point of the floor."""
+        ...

@@ -1,0 +1,39 @@
+"""A shell before a puppet that walks: orders come to something, without a plant."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+from executive.frontends.prompt import commands
+from executive.frontends.prompt.robot import Robot
+from executive.frontends.prompt.shell import Shell
+from executive.frontends.reality import REALITY
+from executive.meaning import request
+from executive.runs import runtimes
+from executive.runs.runtimes import Opened, Setup
+from robot.clock import WallClock
+from robot.se3 import SE3
+from tests.fakes.puppet_prompt import Paced
+from tests.fakes.puppet_runtime import SensingPuppet
+
+
+@contextmanager
+def puppet_shell(folder: Path, said: list[str], *, world: str = "kitchen") -> Generator[Shell]:
+    """A shell whose robot is up; what it says is put into `said`."""
+    where = request.setting(REALITY, world, robot="juno")
+    runtime = Paced(SensingPuppet(where.description, {}, where.world_map, X_WN=SE3()))
+
+    @contextmanager
+    def opened(_setup: Setup, *, handle: object = None) -> Generator[Opened]:
+        yield Opened(runtime, runtime.planner)
+
+    before, runtimes.opened = runtimes.opened, opened  # type: ignore[assignment]
+    try:
+        setup = Setup(where=where, kind="live", folder=folder)
+        with Robot(setup, wall=WallClock(), time_of_day=time.time) as robot:
+            yield Shell(robot, said.append, table=commands.table, folder=folder)
+    finally:
+        runtimes.opened = before

@@ -1,0 +1,222 @@
+"""Orders from pages: a stop first, whatever else comes, and no client holds anybody up."""
+
+from __future__ import annotations
+
+import json
+import socket
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.console import desk as desks
+from executive.frontends.console.desk import FILE, Desk
+from robot.errors import RobotError
+from tests.fakes.waiting import HANG_S
+
+POLL_S = 0.005
+
+
+class Told:
+    """A shell that only notes what it is told; a line may take until `go_on` is set."""
+
+    def __init__(self):
+        self.said: list[str] = []
+        self.out = self.said.append
+        self.did: list[str] = []
+        self.stops = 0
+        self.asked: tuple[str, tuple[str, ...]] | None = None
+        self.go_on = threading.Event()
+        self.go_on.set()
+
+    def stop(self, why):
+        self.stops += 1
+        self.did.append("stop")
+        self.out("Stopping.")
+
+    def stop_at_once(self, text):
+        if text.startswith("estop"):
+            self.did.append(text)
+            if text == "estop reset":
+                raise RobotError("it is pressed")
+            return True
+        if text == "stop":
+            self.stop("")
+        return text == "stop"
+
+    def halt_at_once(self, text):
+        if text == "wait":
+            self.did.append("halt")
+        return text == "wait"
+
+    def line(self, text, *, stops=None):
+        self.go_on.wait(HANG_S)
+        if text == "a mistake":
+            raise ValueError("a mistake of this software")
+        self.did.append(f"{text} ({stops})")
+
+    def command(self, name):
+        self.did.append(name)
+
+
+def until(so, what=""):
+    limit_s = time.monotonic() + HANG_S
+    while not so():
+        assert time.monotonic() < limit_s, what
+        time.sleep(POLL_S)
+
+
+class Client:
+    """A console's end."""
+
+    def __init__(self, folder: Path):
+        self.socket = socket.socket(socket.AF_UNIX)
+        self.socket.settimeout(HANG_S)
+        self.socket.connect(json.loads((folder / FILE).read_text())["socket"])
+        self.reader = self.socket.makefile("rb")
+        assert "asks" in self.next()
+
+    def next(self) -> dict:
+        line = self.reader.readline()
+        if not line:
+            raise EOFError
+        return json.loads(line)
+
+    def order(self, **order):
+        self.socket.sendall(json.dumps(order).encode() + b"\n")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return tmp_path
+
+
+@pytest.fixture
+def told():
+    return Told()
+
+
+@pytest.fixture
+def desk(told, folder):
+    private = folder / "private"
+    private.mkdir()
+    with Desk(told, folder=folder, private=private) as made:
+        yield made
+
+
+def test_buttons_and_lines_do_what_they_say(desk, told, folder):
+    client = Client(folder)
+    for button in ("pause", "resume", "cancel", "estop", "release", "stop"):
+        client.order(do=button)
+    client.order(line="go to the table")
+    until(lambda: "go to the table (1)" in told.did)
+    assert told.did[:6] == ["pause", "resume", "cancel", "estop", "estop release", "stop"]
+    assert client.next() == {"out": "Stopping."}
+    assert client.next() == {"you": "go to the table"}
+
+
+def test_a_stop_does_not_wait_for_a_line_that_is_worked_off(desk, told, folder):
+    client = Client(folder)
+    told.go_on.clear()
+    client.order(line="something long")
+    client.order(line="something after it")
+    client.order(line="stop")
+    until(lambda: told.did == ["stop"])
+    client.order(line="wait")
+    until(lambda: told.did == ["stop", "halt"])
+    told.go_on.set()
+    until(lambda: len(told.did) == 5)
+    assert told.did[2:4] == ["something long (0)", "something after it (0)"]  # before the stop
+
+
+def test_what_makes_no_sense_ends_nothing(desk, told, folder):
+    client = Client(folder)
+    junk = (
+        b"",
+        b"{",
+        b"[]",
+        b'{"do": 5}',
+        b'{"run": "rm"}',
+        b"\xff\x00",
+        b"[" * 5000,
+        b"x" * 200_000,
+    )
+    client.socket.sendall(b"\n".join(junk) + b"\n")
+    client.order(do="dance")
+    client.order(do="reset")
+    client.order(line="a mistake")
+    client.order(line="quit")
+    client.order(do="stop")
+    until(lambda: "stop" in told.did)
+    until(lambda: any("a mistake of this software" in one for one in told.said))
+    assert "Not done: it is pressed" in told.said
+    assert any("terminal" in one for one in told.said)  # a page does not end the prompt
+    assert [one for one in told.did if one.startswith(("quit", "dance"))] == []
+
+
+def test_more_lines_than_anybody_types_are_refused_and_a_stop_is_not(desk, told, folder):
+    client = Client(folder)
+    told.go_on.clear()
+    for number in range(desks.MOST_LINES + 20):
+        client.order(line=f"line {number}")
+    client.order(do="stop")
+    until(lambda: told.stops == 1)
+    assert sum("Too many lines" in one for one in told.said) == 20
+    told.go_on.set()
+
+
+def test_who_does_not_read_is_let_go_and_others_are_told(desk, told, folder):
+    slow, other = Client(folder), Client(folder)
+    heard: list[str] = []
+
+    def read():
+        while True:
+            try:
+                heard.append(other.next().get("out", ""))
+            except (EOFError, OSError):
+                return
+
+    threading.Thread(target=read, daemon=True).start()
+    for number in range(3000):  # more than a socket holds
+        told.out(f"{number} " + "x" * 1000)
+        while len(heard) < number - 50:
+            time.sleep(POLL_S)
+    until(lambda: len(heard) == 3000)
+    with pytest.raises(EOFError):
+        while True:
+            slow.next()
+    Client(folder).order(do="stop")
+    until(lambda: told.stops == 1)
+
+
+def test_what_is_asked_is_told_when_it_changes(desk, told, folder):
+    client = Client(folder)
+    told.asked = ("Which cup?", ("the red one", "the blue one"))
+    assert client.next() == {
+        "asks": {"question": "Which cup?", "choices": ["the red one", "the blue one"]}
+    }
+    told.asked = None
+    assert client.next() == {"asks": None}
+
+
+def test_a_desk_that_is_closed_leaves_nothing(told, folder):
+    private = folder / "private"
+    private.mkdir()
+    out = told.out
+    with Desk(told, folder=folder, private=private):
+        found = (folder / FILE).stat()
+        assert found.st_mode & 0o077 == 0
+        Client(folder)
+    assert told.out == out
+    assert not (folder / FILE).exists() and not [*private.iterdir()]
+
+
+def test_the_desk_of_an_executive_that_died_is_taken_over(told, folder):
+    private = folder / "private"
+    private.mkdir()
+    first = Desk(told, folder=folder, private=private)
+    first._socket.close()  # as a killed process leaves it
+    with Desk(told, folder=folder, private=private):
+        Client(folder).order(do="stop")
+        until(lambda: told.stops == 1)
