@@ -13,7 +13,7 @@ from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts
 from executive.frontends import speaking
 from executive.frontends.dump.writer import along
-from executive.frontends.launching import under_way
+from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
@@ -101,6 +101,7 @@ def _work_off(prepared: Prepared, show: Show, handle: Handle | None) -> Summary:
     interrupts = Interrupts()
     with ExitStack() as stack:
         stack.enter_context(interrupts.listen())
+        hear_people(handle, interrupts)
         robot = stack.enter_context(runtimes.opened(prepared.setup, handle=handle))
         session = stack.enter_context(
             Session(

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from executive.engine.loop import Interrupts
 from executive.frontends.exit import last_words
 from executive.frontends.output import say
 from robot.bringup import launcher
@@ -85,6 +86,12 @@ def _path(kind: type[Any], value: object) -> object:
 def under_way(handle: Handle | None) -> Run | None:
     """The run that an executive before this one has begun; None where there was none."""
     return handle.under_way if handle is not None and handle.deaths else None
+
+
+def hear_people(handle: Handle | None, interrupts: Interrupts) -> None:
+    """Say that this executive hears people from now on; what they said before counts, too."""
+    if handle is not None and handle.hear():
+        interrupts.wish()
 
 
 def now_stamp() -> str:

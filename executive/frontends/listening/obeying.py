@@ -141,15 +141,15 @@ class Conversation:
                 say(f"(“{one.text}” passed over: {one.why})")
             return
         say(f"> {one.text}")
-        if one.kind == "stop" or shell.is_cry(one.text):
-            shell.stop("a cry to stop was heard")
+        if one.kind == "stop" or shell.brake.is_cry(one.text):
+            shell.brake.stop("a cry to stop was heard")
         elif one.kind == "halt":
             shell.halt_at_once(one.text)
         elif shell.asks and not one.sure:
             shell.answer("I did not hear that well. Please say it again.")
         elif not shell.help(one.text):
             shell.halt_at_once(one.text)
-            doing = self._worker.submit(self._do, one, shell.stops)
+            doing = self._worker.submit(self._do, one, shell.brake.stops)
             if not self._recorded:
                 return
             doing.result()
