@@ -1,4 +1,4 @@
-"""What a skill is at stands in sentences: "I fell while waving", "no plan while walking to Anna"."""
+"""What a skill is at stands in a sentence: "I fell while waving", "no plan while walking"."""
 
 import ast
 from pathlib import Path
