@@ -111,7 +111,21 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
     if there is not None:
         run_folder.claim(Path(there.folder))
         return Path(there.folder)
-    folder = wanted or run_folder.folder_for(text, stamp=now_stamp())
+    folder = wanted or new_folder(text)
     run_folder.claim(folder, wanted=wanted is not None)
     run_folder.check_free(folder)
     return folder
+
+
+def new_folder(text: str) -> Path:
+    """A new folder for a run, where others cannot exchange it; says so where that is at home.
+
+    Raises:
+        ConfigError: if there is no such place.
+    """
+    from executive.runs import run_folder
+
+    base, why = run_folder.place_for_new()
+    if why:
+        say(why, err=True)
+    return run_folder.folder_for(text, stamp=now_stamp(), base=base)
