@@ -128,17 +128,18 @@ class Shell:
         """Whether the person is asked something, by the conversation or by a job."""
         return self.dialogue.question is not None or bool(self.robot.executive.question)
 
-    def halt_at_once(self, text: str, *, busy: bool | None = None) -> bool:
+    def halt_at_once(self, text: str, *, busy: bool | None = None, spoken: bool = False) -> bool:
         """Halt a robot at work if a line is a cry that ends nothing; never waits.
 
         Args:
             text: the line.
             busy: whether there is something to halt (None: if there are jobs).
+            spoken: whether it was heard; commands are typed.
         """
         at_work = self.robot.busy if busy is None else busy
         if not (at_work or self.brake.halt.on) or not is_halt(text):
             return False
-        if self._is_answer(text) or self._is_command(text):
+        if self._is_answer(text) or (not spoken and self._is_command(text)):
             return False
         self.brake.halt_robot()
         return True
@@ -201,18 +202,18 @@ class Shell:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
-        self._ask_to_go_on()
+        self.ask_to_go_on()
 
     def ask_again(self) -> None:
         """Ask what was asked by an executive before this one: whether to go on after a halt."""
         self.brake.halt.on = True
-        self._ask_to_go_on()
+        self.ask_to_go_on()
 
     def hear(self, text: str, *, stops: int) -> None:
         """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
         self._stops_before = stops
         try:
-            if self.halt_at_once(text):
+            if self.halt_at_once(text, spoken=True):
                 self._take_halted(text)
             else:
                 self.sentence(text)
@@ -220,7 +221,7 @@ class Shell:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
-        self._ask_to_go_on()
+        self.ask_to_go_on()
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -422,7 +423,7 @@ class Shell:
         if said:
             self.sentence(said)
 
-    def _ask_to_go_on(self) -> None:
+    def ask_to_go_on(self) -> None:
         """Ask what is to become of the jobs that were halted, where nothing else is asked."""
         if not self.brake.halt.on or self.dialogue.question is not None:
             return

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
@@ -668,6 +669,35 @@ def test_a_cry_halts_what_is_under_way_and_asks_whether_to_go_on(shell: Shell):
     shell.line("wave")
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "done"
+
+
+@pytest.mark.parametrize("cry", ["wait", "pause", "cancel", "careful"])
+def test_a_cry_that_was_heard_by_mistake_costs_a_question(shell: Shell, cry: str):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
+    heard = partial(Spoken, text=cry)
+    shell.line("squat for 2 seconds")
+    talk.take(heard(kind="halt"))
+    assert eventually(lambda: shell.robot.executive.state == "paused")
+    talk.take(heard(kind="halted"))
+    assert eventually(lambda: ear.replying)
+    assert "Shall I go on with “squat for 2 seconds”?" in shell.out.text
+    talk.take(Spoken(kind="sentence", text="yes"))
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+
+
+def test_a_pause_that_is_said_waits_for_a_yes(shell: Shell):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
+    shell.line("squat for 2 seconds")
+    talk.take(Spoken(kind="sentence", text="pause"))
+    assert eventually(lambda: ear.replying)
+    assert eventually(lambda: shell.robot.executive.state in ("pausing", "paused"))
+    talk.take(Spoken(kind="stop", text="stop"))
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "cancelled"
+    assert shell.dialogue.question is None
 
 
 def test_what_is_said_after_a_cry_takes_the_place_of_what_was_halted(shell: Shell):
