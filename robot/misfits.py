@@ -52,10 +52,15 @@ def _type(kind: Any) -> inspect.Type:
 
 def nearest(name: str, valid: Sequence[str]) -> str:
     """`did you mean 'x'?`, or the list of what is valid."""
-    close = difflib.get_close_matches(name[:SHOWN], valid, n=1, cutoff=0.5)
-    if close:
-        return f"did you mean {close[0]!r}?"
+    if close := closest(name, valid):
+        return f"did you mean {close!r}?"
     return "valid: " + listed(sorted(valid))
+
+
+def closest(name: str, valid: Sequence[str]) -> str:
+    """The valid name that was most likely meant; empty if none is near."""
+    close = difflib.get_close_matches(name[:SHOWN], valid, n=1, cutoff=0.5)
+    return close[0] if close else ""
 
 
 def listed(names: Sequence[str]) -> str:
