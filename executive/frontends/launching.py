@@ -11,16 +11,18 @@ from collections.abc import Callable
 from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
-from executive.engine.loop import Interrupts
 from executive.frontends.exit import last_words
 from executive.frontends.output import say
 from robot.bringup import launcher
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
+
+if TYPE_CHECKING:
+    from executive.engine.loop import Interrupts
 
 T = TypeVar("T")
 

@@ -31,4 +31,4 @@ def at_home() -> Path | None:
 def all_places() -> tuple[Path, ...]:
     """Where runs of the current folder may lie."""
     home = at_home()
-    return (HERE,) if home is None else (HERE, home)
+    return (HERE,) if home is None or not os.access(home, os.R_OK | os.X_OK) else (HERE, home)
