@@ -84,14 +84,14 @@ def _turn(
 ) -> tuple[PlainFrontEnd, Front]:
     """Load everything, then wait until as many executives have died as `number` says.
 
-    A wish to stop is for the executive whose turn it is: that hears it while it loads, a spare
-    does not.
+    A wish to stop is for the executive whose turn it is: the first one hears it while it loads;
+    for one that takes over the launcher does, until that hears people itself (`Handle.hear`).
     """
     heard = [wish for wish in WISHED if signal.getsignal(wish) is not signal.SIG_IGN]
-    if _read(folder).deaths < number:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-    else:
+    if number == 0:
         _hear(heard)
+    for wish in heard if number else ():
+        signal.signal(wish, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, WISHED)  # the launcher held them back
     clock = WallClock()
     from executive.runs import runtimes  # now that Ctrl-C is heard: it takes a second
@@ -100,7 +100,6 @@ def _turn(
     runtimes.live_parts()
     while (front := _read(folder)).deaths < number:
         clock.sleep_until(clock.now_s() + POLL_S)
-    _hear(heard)
     if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         signal.signal(signal.SIGHUP, _hang_up)
     return run, front

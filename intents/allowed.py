@@ -18,6 +18,8 @@ from intents.vocabulary import Vocabulary
 MAX_GOALS, MAX_DEPTH, MAX_TIMES, MAX_COUNT = 30, 4, 100, 100
 MAX_WALK_M, MAX_TURN_RAD, MAX_TIME_S = 50.0, 20 * pi, 86400.0
 MAX_SPOKEN = 300
+MOST_LISTED = 40
+"""Names that are told where one is not known."""
 DIRECTIONS = ("left", "right", "up", "down", "ahead", "behind", "around")
 GESTURES = (
     "wave", "point", "nod", "shake_head", "bow", "thumbs_up", "clap", "shrug", "dance",
@@ -218,5 +220,7 @@ def spoken(text: str) -> str:
 
 def _unknown(said: str, known: frozenset[str] | set[str] | tuple[str, ...]) -> str:
     alike = [name for name in sorted(known) if singular(name.lower()) == singular(said.lower())]
-    hint = f"; did you mean {alike[0]!r}?" if alike else f"; known: {', '.join(sorted(known)[:40])}"
-    return f"{said[:60]!r} is not known{hint}"
+    if alike:
+        return f"{said[:60]!r} is not known; did you mean {alike[0]!r}?"
+    more = f" and {len(known) - MOST_LISTED} more" if len(known) > MOST_LISTED else ""
+    return f"{said[:60]!r} is not known; known: {', '.join(sorted(known)[:MOST_LISTED])}{more}"

@@ -213,8 +213,10 @@ class Dialogue:
         for one in dict.fromkeys((text, said)):
             outcome, _ = hear(one, self.vocabulary, context=before) if one else (None, None)
             goals = outcome.goals if isinstance(outcome, Goals) else ()
-            if goals and all(isinstance(goal, Cancel | Pause | Resume) for goal in goals):
+            if goals and all(isinstance(goal, Cancel | Resume) for goal in goals):
                 return one
+            if goals and all(isinstance(goal, Pause) for goal in goals):
+                return ""  # it has halted, and is asked about
             waits = any(isinstance(goal, Wait | Balance) for goal in goals)
             if said and not waits and (goals or _is_choice(outcome)):
                 return one

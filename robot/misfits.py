@@ -21,6 +21,8 @@ Path = tuple[str | int, ...]
 
 SHOWN = 60
 """Characters of a value that a message repeats."""
+MOST_NAMES = 12
+"""Names that a message lists before it says how many more there are."""
 
 
 class Misfit(msgspec.Struct, frozen=True):
@@ -50,10 +52,21 @@ def _type(kind: Any) -> inspect.Type:
 
 def nearest(name: str, valid: Sequence[str]) -> str:
     """`did you mean 'x'?`, or the list of what is valid."""
+    if close := closest(name, valid):
+        return f"did you mean {close!r}?"
+    return "valid: " + listed(sorted(valid))
+
+
+def closest(name: str, valid: Sequence[str]) -> str:
+    """The valid name that was most likely meant; empty if none is near."""
     close = difflib.get_close_matches(name[:SHOWN], valid, n=1, cutoff=0.5)
-    if close:
-        return f"did you mean {close[0]!r}?"
-    return "valid: " + ", ".join(sorted(valid)[:12])
+    return close[0] if close else ""
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names as a message lists them: the first ones, and how many more there are."""
+    more = len(names) - MOST_NAMES
+    return ", ".join(names[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 def dotted(path: Path) -> str:

@@ -61,8 +61,9 @@ class Breakpoints:
         self._passed.discard(step)
 
     def _fits(self, name: str, step_id: str) -> bool:
-        name = name.casefold()
-        return any(
-            pattern == step_id or fnmatchcase(name, pattern.casefold())
-            for pattern in self._patterns
-        )
+        return any(pattern == step_id or fits(pattern, name) for pattern in self._patterns)
+
+
+def fits(pattern: str, name: str) -> bool:
+    """Whether a pattern is one of steps of that name."""
+    return fnmatchcase(name.casefold(), pattern.casefold())

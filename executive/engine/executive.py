@@ -71,6 +71,7 @@ class Executive:
         so_far: what the journal tells since this executive began, for all who show it.
         tree: what is ticked.
         pause_wanted: whether a pause was asked for, and neither `resume` nor `stop` since.
+        breaks: the patterns of the breakpoints that were asked for.
     """
 
     def __init__(
@@ -99,6 +100,7 @@ class Executive:
         self.on_request: Callable[[], None] = lambda: None
         self.outcome: Outcome | None = None
         self.pause_wanted = False
+        self.breaks: tuple[str, ...] = ()
         self._operator = self.board.claim("operator")
         self._voice = self.board.claim("voice")
         self._say_on = context.say
@@ -224,10 +226,12 @@ class Executive:
 
     def break_at(self, pattern: str) -> None:
         """Hold every step whose path is `pattern` or whose name it matches, before it begins."""
+        self.breaks = (*self.breaks, pattern)
         self._post(lambda: self.stage.breakpoints.add(pattern), "break_at", pattern=pattern)
 
     def clear_breaks(self, pattern: str | None = None) -> None:
         """Forget a breakpoint, or all of them; what is held stays held until `go_on`."""
+        self.breaks = tuple(one for one in self.breaks if pattern not in (None, one))
         self._post(lambda: self.stage.breakpoints.remove(pattern), "clear_breaks", pattern=pattern)
 
     def step_once(self) -> None:

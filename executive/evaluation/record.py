@@ -16,11 +16,14 @@ from executive.evaluation.campaign import Run, key_of
 from robot.closing import Closing
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import open_to_append, read_ordinary
+from robot.ordinary_files import open_ordinary, open_to_append
 
 FILE = "results.jsonl"
 MAX_BYTES = 500_000_000
-"""A record has some 300 bytes: more than that nobody has run."""
+MOST_OF_A_LINE = 100_000
+"""Bytes; a record has some 300."""
+MOST_LINES = 200_000
+"""A line a run: more than that nobody has run, and they are all kept at hand."""
 OTHER_FOLDER = "name another folder, or leave --resume out"
 S = TypeVar("S", bound=msgspec.Struct)
 _Count = Annotated[int, Meta(ge=0, le=1_000_000_000)]
@@ -101,25 +104,15 @@ class Results(Closing):
             folder.mkdir(parents=True, exist_ok=True)
             self._file = os.fdopen(open_to_append(self.path), "ab")
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            data = read_ordinary(self.path, limit=MAX_BYTES)
+            self.records, self.stale, torn, begun = _read(self.path, fingerprint)
         except BlockingIOError:
             cure = "wait for it, or leave --resume out"
             raise _refusal(self.path, "another evaluation writes into it", cure) from None
         except OSError as error:
             raise _refusal(self.path, f"cannot be used: {error.strerror}", OTHER_FOLDER) from None
-        lines = data.splitlines()
-        header = _decode(lines[0], Header) if lines else None
-        if lines and header is None:
-            raise _refusal(self.path, "this is no file of `humanoid eval`", OTHER_FOLDER)
-        self.records: dict[str, Record] = {}
-        self.stale = header is not None and header.code != fingerprint
-        for line in lines[1:]:
-            record = _decode(line, Record)
-            if record is not None and record.key == _key(record):
-                self.records[record.key] = record
-        if data and not data.endswith(b"\n"):
+        if torn:
             self._write(b"\n")
-        if header is None:
+        if not begun:
             self._write(_line(Header(code=fingerprint)))
 
     def left(self, runs: Iterable[Run]) -> list[Run]:
@@ -155,6 +148,36 @@ class Results(Closing):
         except OSError as error:
             cure = "make room; what is in it is kept"
             raise _refusal(self.path, f"cannot be written: {error.strerror}", cure) from None
+
+
+def _read(path: Path, fingerprint: str) -> tuple[dict[str, Record], bool, bool, bool]:
+    """The records of a file, line by line.
+
+    Returns:
+        Them; whether other code made them; whether the last line was torn; whether it was begun.
+
+    Raises:
+        ConfigError: it is none of results.
+        OSError: it cannot be read.
+    """
+    records: dict[str, Record] = {}
+    with open_ordinary(path) as file:
+        if os.fstat(file.fileno()).st_size > MAX_BYTES:
+            raise _refusal(path, f"is larger than {MAX_BYTES / 1e6:g} MB", OTHER_FOLDER)
+        line = first = file.readline(MOST_OF_A_LINE)
+        header = _decode(first, Header)
+        if first and header is None:
+            raise _refusal(path, "this is no file of `humanoid eval`", OTHER_FOLDER)
+        lines = 0
+        while following := file.readline(MOST_OF_A_LINE):
+            line, lines = following, lines + 1
+            record = _decode(line, Record)
+            if record is not None and record.key == _key(record):
+                records[record.key] = record
+            if lines > MOST_LINES:
+                raise _refusal(path, f"has more than {MOST_LINES} lines", OTHER_FOLDER)
+    stale = header is not None and header.code != fingerprint
+    return records, stale, not line.endswith(b"\n") and bool(line), header is not None
 
 
 def _key(record: Record) -> str:

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from executive.evaluation.campaign import RECOVERED, Case
 from executive.evaluation.record import Record
+from robot.misfits import listed
 
 HEAD = ("case", "expected", "with recovery", "without", "robot time", "what else happened")
 
@@ -142,7 +143,7 @@ def _caption(found: Report) -> str:
 def _cells(row: Row) -> list[str]:
     on, off = row.with_recovery, row.without
     wrong = ", ".join(f"{code} ×{count}" for code, count in on.wrong.items())
-    seeds = f" (seeds {', '.join(map(str, row.seeds_wrong[:6]))})" if wrong else ""
+    seeds = f" (seeds {listed([str(seed) for seed in row.seeds_wrong])})" if wrong else ""
     return [
         row.case,
         row.expect,

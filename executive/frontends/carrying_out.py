@@ -14,7 +14,7 @@ from executive.engine.loop import Interrupts
 from executive.frontends import speaking
 from executive.frontends.console.beside import shown as viewed
 from executive.frontends.dump.writer import along
-from executive.frontends.launching import under_way
+from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
@@ -135,6 +135,7 @@ def _work_off(
     interrupts = Interrupts()
     with ExitStack() as stack:
         stack.enter_context(interrupts.listen())
+        hear_people(handle, interrupts)
         robot = stack.enter_context(runtimes.opened(prepared.setup, handle=handle))
         session = stack.enter_context(
             Session(

@@ -18,11 +18,10 @@ from executive.frontends import evaluation_asked
 from executive.frontends.ending import Ending
 from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words
-from executive.frontends.launching import now_stamp
+from executive.frontends.launching import new_folder
 from executive.frontends.options import Eval
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.reality import REALITY
-from executive.runs import run_folder
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -85,7 +84,7 @@ def _folder(options: Eval) -> Path:
     """Where the results are, or are to be. Raises ConfigError if there are none to go on with."""
     if options.resume is not None:
         return folder_to_resume(options.resume)
-    return run_folder.folder_for("eval", stamp=now_stamp())
+    return new_folder("eval")
 
 
 def _say(found: Found, folder: Path, options: Eval) -> None:

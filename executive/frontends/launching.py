@@ -11,7 +11,7 @@ from collections.abc import Callable
 from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
@@ -20,6 +20,9 @@ from executive.frontends.output import say
 from robot.bringup import launcher
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
+
+if TYPE_CHECKING:
+    from executive.engine.loop import Interrupts
 
 T = TypeVar("T")
 
@@ -87,6 +90,12 @@ def under_way(handle: Handle | None) -> Run | None:
     return handle.under_way if handle is not None and handle.deaths else None
 
 
+def hear_people(handle: Handle | None, interrupts: Interrupts) -> None:
+    """Say that this executive hears people from now on; what they said before counts, too."""
+    if handle is not None and handle.hear():
+        interrupts.wish()
+
+
 def now_stamp() -> str:
     """The time of day, as folders of runs are called by it."""
     return f"{datetime.now().astimezone():%Y%m%d-%H%M%S}"
@@ -104,7 +113,21 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
     if there is not None:
         run_folder.claim(Path(there.folder))
         return Path(there.folder)
-    folder = wanted or run_folder.folder_for(text, stamp=now_stamp())
+    folder = wanted or new_folder(text)
     run_folder.claim(folder, wanted=wanted is not None)
     run_folder.check_free(folder)
     return folder
+
+
+def new_folder(text: str) -> Path:
+    """A new folder for a run, where others cannot exchange it; says so where that is at home.
+
+    Raises:
+        ConfigError: if there is no such place.
+    """
+    from executive.runs import run_folder
+
+    base, why = run_folder.place_for_new()
+    if why:
+        say(why, err=True)
+    return run_folder.folder_for(text, stamp=now_stamp(), base=base)

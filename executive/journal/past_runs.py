@@ -13,6 +13,7 @@ import msgspec
 
 from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
+from executive.journal.places import HERE, all_places
 from executive.journal.run import Run
 from robot import misfits
 from robot import quantities as q
@@ -22,8 +23,6 @@ from robot.ordinary_files import open_ordinary, read_ordinary
 from robot.printable import printable_line
 
 T = TypeVar("T")
-
-BASE = Path("runs")
 
 Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
 
@@ -64,13 +63,14 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     took_s: float
 
 
-def runs(base: Path = BASE) -> list[Path]:
-    """Every run's folder under `base`, the oldest first."""
-    found = [path.parent for path in base.glob(f"*/{FILE}")]
+def runs(base: Path | None = None) -> list[Path]:
+    """Every run's folder under `base`, the oldest first (None: of the current folder)."""
+    places = all_places() if base is None else (base,)
+    found = [path.parent for place in places for path in place.glob(f"*/{FILE}")]
     return sorted(found, key=lambda folder: (_began_s(folder), folder.name))
 
 
-def find(name: str | None, *, base: Path = BASE) -> Path:
+def find(name: str | None, *, base: Path | None = None) -> Path:
     """A run by its folder, the newest by a part of the folder's name, or the newest of all.
 
     Raises:
@@ -81,7 +81,7 @@ def find(name: str | None, *, base: Path = BASE) -> Path:
     known = runs(base)
     if not known:
         cure = 'begin with: humanoid do "squat for three seconds" --fast'
-        raise ConfigError([Problem(f"there is no run in {base}/", suggestion=cure)])
+        raise ConfigError([Problem(f"there is no run in {base or HERE}/", suggestion=cure)])
     if name is None:
         return known[-1]
     fitting = [folder for folder in known if name in folder.name]
@@ -93,7 +93,7 @@ def find(name: str | None, *, base: Path = BASE) -> Path:
     raise ConfigError([Problem(f"there is no run {name!r}", suggestion=hint)])
 
 
-def history(base: Path = BASE) -> Iterator[Past]:
+def history(base: Path | None = None) -> Iterator[Past]:
     """Every run under `base`, the oldest first."""
     for folder in runs(base):
         yield look(folder)

@@ -18,7 +18,6 @@ AS_IT_HAPPENS: Mapping[str, str] = {
     "paused": "paused: nothing moves",
     "break": "{step}: held at a breakpoint, it has not begun",
     "resume": "going on",
-    "resumed": "going on: {why}",
     "request": "requested: {request}",
     "again": "{step}: tried again ({count})",
     "branch": "{name}: {took}",
@@ -122,7 +121,14 @@ def _heard(data: Mapping[str, Any]) -> str:
     return f"{data.get('who', 'somebody')}{whose} says: {data.get('text', '')}"
 
 
-_OF_KIND = {"health": _health, "heard": _heard, "expect": _expect, "fault": _fault}
+def _resumed(data: Mapping[str, Any]) -> str:
+    what = f" with “{data['text']}”" if data.get("text") else ""
+    return f"going on{what}: {data.get('why', '')}"
+
+
+_OF_KIND = {
+    "health": _health, "heard": _heard, "expect": _expect, "fault": _fault, "resumed": _resumed,
+}  # fmt: skip
 
 
 def told(value: object) -> str:

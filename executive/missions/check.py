@@ -22,6 +22,7 @@ from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.misfits import closest
 from robot.model import description
 from robot.model.body import BodyModel
 from robot.reality.contract import Reality
@@ -152,7 +153,11 @@ def _check(
 def _setting(
     mission: Mission, reality: Reality, options: Options, *, problems: Problems
 ) -> Setting | None:
-    """Robot and world; None if there are mistakes in them, each noted where it is named."""
+    """Robot and world; mistakes in them are noted, each where it is named.
+
+    The rest is then looked at for what was most likely meant, and not at all (None) where nothing
+    of a near name comes along.
+    """
     said, named = options, mission.record
     robot = mission.beside(named.robot) if said.robot is None else said.robot
     world = mission.beside(named.world) if said.world is None else said.world
@@ -163,7 +168,10 @@ def _setting(
             BodyModel(description.load(robot))
         with _noted(problems, _named(mission, "world", said=options.world)):
             reality.world(world, vary_seed=options.vary_seed)
-        return None
+        robots, worlds = description.shipped(), reality.names()
+        robot = robot if robot in robots else closest(robot, robots)
+        world = world if world in worlds else closest(world, worlds)
+        return setting(reality, world, robot=robot) if robot and world else None
 
 
 def _named(mission: Mission, key: str, *, said: str | None) -> Node:

@@ -15,6 +15,7 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
+from executive.journal import places
 from executive.journal.journal import FILE
 from executive.runs import provenance
 from executive.runs.provenance import Origin
@@ -78,7 +79,29 @@ PRIVATE = 0o700
 """Mode of a run's folder: it says what was said, by whom, and where people and things were."""
 
 
-def folder_for(text: str, *, stamp: str, base: Path = Path("runs")) -> Path:
+def place_for_new() -> tuple[Path, str]:
+    """Where the folders of new runs go, and why not into the current folder, if so.
+
+    Raises:
+        ConfigError: if others could exchange the current folder, and there is no home.
+    """
+    try:
+        _check_way(places.HERE)
+    except ConfigError as refused:
+        home = places.at_home()
+        if home is None:
+            raise
+        try:
+            home.parent.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
+            home.mkdir(mode=PRIVATE, exist_ok=True)
+            _check_way(home)
+        except (ConfigError, OSError):
+            raise refused from None
+        return home, f"This run is kept in {home}: {refused.problems[0].message}."
+    return places.HERE, ""
+
+
+def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
     """A new folder, whose name sorts by time and says what it was about.
 
     It is made here, so that two runs that begin in the same second have one each; where none can be

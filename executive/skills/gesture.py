@@ -46,6 +46,12 @@ SIGN_S: dict[GestureKind, float] = {
     "raise_arm": 4.4, "raise_left_arm": 4.4, "raise_right_arm": 4.4, "raise_both_arms": 7.8,
 }  # fmt: skip
 """The sign alone, measured in a `--fast` run in the kitchen: for the forecast."""
+DOING: dict[GestureKind, str] = {
+    "wave": "waving", "point": "pointing", "nod": "nodding", "shake_head": "shaking the head",
+    "bow": "bowing", "raise_arm": "raising an arm", "raise_left_arm": "raising the left arm",
+    "raise_right_arm": "raising the right arm", "raise_both_arms": "raising both arms",
+}  # fmt: skip
+"""What the robot is at, as it stands in a sentence: "I fell while waving"."""
 
 
 class GestureParams(SkillParams, frozen=True, kw_only=True):
@@ -115,7 +121,7 @@ class Gesture(ScriptedSkill[GestureParams]):
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""
         kind, p_W = self.parameters.kind, self._target()
-        self.body.phase = kind.replace("_", " ")
+        self.body.phase = DOING[kind]
         if p_W is not None:
             if kind not in HEAD_ONLY:
                 yield from self._face(p_W)

@@ -14,6 +14,7 @@ from intents import allowed
 from intents.context import Context
 from intents.goals import Goal
 from intents.grounding import Unknown, ground, queries
+from intents.language_model import misfits
 from intents.language_model.answers import answer_in
 from intents.language_model.endpoint import Endpoint, Key
 from intents.language_model.mending import goals_from
@@ -227,7 +228,7 @@ def _read(said: str, text: str, vocabulary: Vocabulary, context: Context) -> Out
     try:
         goals = goals_from(answer.goals, vocabulary)
     except (msgspec.ValidationError, RecursionError) as error:
-        return str(error)[:300]
+        return misfits.in_words(error)
     wrong = (
         allowed.fault(goals, vocabulary)
         or allowed.steering(goals)

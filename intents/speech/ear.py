@@ -28,7 +28,7 @@ OWN_WORDS_S = 8.0
 CALLED_S = 6.0
 """So long after the wake word alone, a sentence needs none."""
 
-Kind = Literal["stop", "halt", "sentence", "ignored"]
+Kind = Literal["stop", "halt", "halted", "sentence", "ignored"]
 _NEVER_S = float("-inf")
 
 
@@ -37,7 +37,8 @@ class Spoken(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         kind: a cry to stop, a cry that a robot at work halts for (what was said follows when it
-            has ended), a sentence for the robot, or something that it passes over.
+            has ended), the end of one with which nothing that was said agrees (it is asked about,
+            and nothing is done for it), a sentence for the robot, or what it passes over.
         text: the words, without the wake word.
         why: why it is passed over.
         begin_s: where it begins in the stream.
@@ -173,8 +174,8 @@ class Ear:
         halted, self._halted = self._halted, None
         kind, text, why = self._judged(heard, utterance)
         if halted is not None and (kind == "ignored" or not (is_halt(text) or is_stay(text))):
-            heard = Heard(text=halted.text, took_s=heard.took_s)  # the two do not agree: only halt
-            kind, text, why = "sentence", halted.text, ""
+            heard = Heard(text=halted.text, took_s=heard.took_s)
+            kind, text, why = "halted", halted.text, ""
         elif kind == "sentence":
             self._recogniser.learn()
         return Spoken(

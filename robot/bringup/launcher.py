@@ -1,7 +1,8 @@
 """The process in the terminal: it runs an executive as its child, and the robot that one asks for.
 
 The executive has the terminal; Ctrl-C reaches it once, as it is in the same group. When it dies,
-the robot finishes its step and stands by itself, the executive is started again, and goes on. After
+the robot finishes its step and stands by itself, the executive is started again, and goes on. Who
+says stop in between is heard here, and the next one stops before it does anything else. After
 the last death that the table allows, the robot is lowered and its motors damp.
 
 Nobody could stop a robot whose executive is suspended, so Ctrl-Z is answered with words.
@@ -24,7 +25,17 @@ import msgspec
 
 from robot.bringup import lowering, private_folder
 from robot.bringup.child import POLL_S, Child, describe_exit
-from robot.bringup.mailbox import FRONT_FILE, RUN_FILE, STATE_FILE, Front, State, save
+from robot.bringup.mailbox import (
+    FRONT_FILE,
+    RUN_FILE,
+    STATE_FILE,
+    Front,
+    State,
+    hears_file,
+    leave_stop,
+    save,
+    take_stop,
+)
 from robot.bringup.processes import EXECUTIVE, PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import run
@@ -41,7 +52,11 @@ PASS_ON_S = 0.5
 One that has heard of it takes the second word for the same wish (`SIGTERM`, however often).
 """
 
+STOP_HEARD = "Stop is heard: the robot stands, and nothing goes on when the next executive is up."
 NOT_SUSPENDED = "Ctrl-Z does not suspend a robot: nobody could stop it then. Ctrl-C stops it."
+
+_LOCAL, _KEYS = 3, 6
+"""Places in what `termios.tcgetattr` returns."""
 
 Tell = Callable[[str], None]
 
@@ -112,18 +127,21 @@ class Launcher:
         self._robot: Supervisor | None = None
         self._state = self._told = State()
         self._pass_on_s = math.inf
-        self._passed_on = self._unheeded = False
+        self._passed_on = self._unheeded = self._stop_heard = False
 
     def run(self) -> Ended:
         """Until an executive has ended by itself, or must not be started again."""
-        with _terminal() as restore, self._signals():
+        terminal = _Terminal()
+        with self._signals():
             try:
                 while True:
                     ended = self._one_executive()
-                    if ended is None or ended.reason:
-                        restore()
-                    if ended is not None:
-                        return ended
+                    if ended is None:
+                        terminal.hear_stops()
+                        continue
+                    if ended.reason or self._front.deaths:
+                        terminal.restore()
+                    return ended
             finally:
                 self._executive.stop()
                 if self._robot is not None:
@@ -141,9 +159,7 @@ class Launcher:
         while (status := self._executive.status) is None:
             self._look_after()
             self._pass_on()
-            if self._unheeded:
-                self._unheeded = False
-                self._tell(NOT_SUSPENDED)
+            self._answer_keys()
             if self._is_up():
                 self._executive.prepare()
             self._clock.sleep_until(self._clock.now_s() + POLL_S)
@@ -214,9 +230,26 @@ class Launcher:
 
     # --- signals ---
 
+    @property
+    def _is_deaf(self) -> bool:
+        """Whether the executive takes over from one that died, and does not hear people yet."""
+        deaths = self._front.deaths
+        return deaths > 0 and not (self._private / hears_file(deaths)).exists()
+
+    def _answer_keys(self) -> None:
+        """Say what becomes of keys that reach nobody but this process."""
+        if self._unheeded:
+            self._unheeded = False
+            self._tell(NOT_SUSPENDED)
+        if self._stop_heard:
+            self._stop_heard = False
+            self._tell(STOP_HEARD)
+        elif self._front.deaths and not self._is_deaf and take_stop(self._private):
+            self._pass_on_s = self._clock.now_s()  # it began to hear in that very moment
+
     def _pass_on(self) -> None:
         """Tell the executive, once, that somebody wants it to end."""
-        if not self._passed_on and self._clock.now_s() >= self._pass_on_s:
+        if not self._passed_on and self._clock.now_s() >= self._pass_on_s and not self._is_deaf:
             self._passed_on = True
             self._executive.signal(signal.SIGTERM)
 
@@ -225,7 +258,8 @@ class Launcher:
         """Note who wants it to end, or to be suspended.
 
         Ctrl-C and a closed terminal reach the executive by themselves, a signal to this process
-        alone does not, and one that comes while the executive is started may not.
+        alone does not, and one that comes while the executive is started may not. To one that takes
+        over Ctrl-C is a stop, as it was at the terminal of the one before.
         """
         before = {number: signal.getsignal(number) for number in (*WISHED, signal.SIGTSTP)}
 
@@ -234,6 +268,11 @@ class Launcher:
                 self._unheeded = True
                 return
             now_s = self._clock.now_s()
+            if self._is_deaf:
+                leave_stop(self._private)
+                self._stop_heard = True
+                if number == signal.SIGINT:
+                    return
             at_once = number == signal.SIGTERM
             self._pass_on_s = min(self._pass_on_s, now_s if at_once else now_s + PASS_ON_S)
 
@@ -247,19 +286,38 @@ class Launcher:
                 signal.signal(number, handler)
 
 
-@contextlib.contextmanager
-def _terminal() -> Generator[Callable[[], None]]:
-    """Remember how the terminal is; what is yielded puts it back as it was, cursor and all."""
-    try:
-        modes = termios.tcgetattr(sys.stdin.fileno())
-    except (termios.error, ValueError, OSError):
-        yield lambda: None
-        return
+class _Terminal:
+    """The terminal between two executives, and after the last: as it was, cursor and all."""
 
-    def restore() -> None:
+    def __init__(self) -> None:
+        """Remember how it is; nothing, where there is none."""
+        try:
+            self._modes = termios.tcgetattr(sys.stdin.fileno())
+        except (termios.error, ValueError, OSError):
+            self._modes = None
+
+    def restore(self) -> None:
+        """Put it back as it was."""
+        if self._modes is not None:
+            self._set(termios.TCSADRAIN, self._modes)
+
+    def hear_stops(self) -> None:
+        """Let Ctrl-C be a signal, where the dead executive read it as a key.
+
+        All else stays as it was left, so that what is typed waits for the next executive as keys:
+        a terminal that gathers lines would swallow Ctrl-D and the like.
+        """
+        if self._modes is None:
+            return
         with contextlib.suppress(termios.error, OSError):
-            termios.tcsetattr(sys.stdin.fileno(), termios.TCSADRAIN, modes)
+            modes = termios.tcgetattr(sys.stdin.fileno())
+            if not modes[_LOCAL] & termios.ICANON:
+                modes[_LOCAL] |= termios.ISIG
+                modes[_KEYS][termios.VQUIT] = modes[_KEYS][termios.VSUSP] = b"\0"
+                self._set(termios.TCSANOW, modes)
+
+    def _set(self, when: int, modes: list[Any]) -> None:
+        with contextlib.suppress(termios.error, OSError):
+            termios.tcsetattr(sys.stdin.fileno(), when, modes)
         if sys.stdout.isatty():
             os.write(sys.stdout.fileno(), b"\x1b[?25h\x1b[?2004l\r\n")
-
-    yield restore

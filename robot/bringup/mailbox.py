@@ -4,6 +4,8 @@
 ``front.json``   written by the launcher: which front end the executive runs, with its options
 ``run.json``     written by the executive: the robot and world it wants (`robot.bus.run.Run`)
 ``state.json``   written by the launcher: how the processes are, after every change
+``hears-N``      left by the executive that took over from N others: it hears people itself now
+``stop``         left by the launcher, for an executive that did not hear people when they said so
 ===============  ==============================================================================
 
 The files outlive either process's death in the middle of anything: an executive that is started
@@ -16,6 +18,7 @@ turn. A checksum tells a reader that it read between two words.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import struct
 import zlib
@@ -30,6 +33,7 @@ from robot.errors import ProcessError
 from robot.failures import Failure
 
 FRONT_FILE, RUN_FILE, STATE_FILE = "front.json", "run.json", "state.json"
+STOP_FILE = "stop"
 
 
 class Front(msgspec.Struct, frozen=True, kw_only=True):
@@ -86,6 +90,12 @@ class Handle:
         elif there != wanted:
             raise ProcessError("this process has another robot already; start it anew")
 
+    def hear(self) -> bool:
+        """Say that people are heard from here on; whether they said stop while nobody could."""
+        told = take_stop(self.folder)
+        _touch(self.folder / hears_file(self.deaths))
+        return take_stop(self.folder) or told
+
     @property
     def restarted(self) -> tuple[str, ...]:
         """What was started again, in order, a sentence each."""
@@ -105,6 +115,31 @@ class Handle:
     def _read(self) -> State:
         self._state = read(self.folder / STATE_FILE, State) or self._state
         return self._state
+
+
+def hears_file(deaths: int) -> str:
+    """The name of what says that an executive hears people, after so many others have died."""
+    return f"hears-{deaths}"
+
+
+def leave_stop(folder: Path) -> None:
+    """Tell the next executive that people said stop; also from a signal handler."""
+    _touch(folder / STOP_FILE)
+
+
+def take_stop(folder: Path) -> bool:
+    """Whether people said stop, and nobody has heeded it; from here on somebody has."""
+    try:
+        (folder / STOP_FILE).unlink()
+    except FileNotFoundError:
+        return False
+    return True
+
+
+def _touch(path: Path) -> None:
+    """Leave an empty file, where there is room for one."""
+    with contextlib.suppress(OSError):
+        os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600))
 
 
 ROOM_BYTES = 1 << 16

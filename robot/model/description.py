@@ -249,6 +249,11 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         return tuple(values.get(motor, 0.0) for motor in self.motors)
 
 
+def shipped() -> list[str]:
+    """Names of the robots that come along."""
+    return sorted(entry.parent.name for entry in SHIPPED.glob("*/*.yaml"))
+
+
 def load(name_or_path: str = "juno") -> RobotDescription:
     """Load a shipped robot by name, or any robot by the path of its YAML file.
 
@@ -260,8 +265,7 @@ def load(name_or_path: str = "juno") -> RobotDescription:
     if path.suffix not in (".yaml", ".yml"):
         path = SHIPPED / name_or_path / f"{name_or_path}.yaml"
         if not path.exists():
-            names = sorted(entry.parent.name for entry in SHIPPED.glob("*/*.yaml"))
-            hint = config.nearest(name_or_path, names)
+            hint = config.nearest(name_or_path, shipped())
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
     description = config.load(path, RobotDescription)
     published, mjcf_folder = description.published, path.parent

@@ -23,6 +23,12 @@ def front(handle: Handle, options: dict) -> int:
         with (folder / "told").open("a") as file:
             file.write(text + "\n")
 
+    if options.get("deaf_at_first") and handle.deaths:
+        tell("deaf")
+        while not (folder / "hear").exists():
+            time.sleep(0.01)
+    if handle.hear():
+        tell("told to stop")
     heard = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _: heard.append(number))

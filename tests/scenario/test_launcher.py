@@ -157,6 +157,23 @@ def test_the_one_that_takes_over_was_there_before(shell):
     assert job.end()[0] == 1
 
 
+def test_a_stop_while_nobody_hears_is_told_to_the_one_that_takes_over(shell, tmp_path):
+    job = shell(ends=False, dies=0, spare_after_s=0.0, deaf_at_first=True)
+    first = job.wait_up()
+    assert eventually(lambda: len(executives(job.job.pid, "tests.fakes.fronts")) == 2)
+    os.kill(first, signal.SIGKILL)
+    assert eventually(lambda: job.told[-1] == "deaf")
+    os.killpg(job.job.pid, signal.SIGINT)
+    (tmp_path / "hear").touch()
+    second = job.wait_up(2)
+    assert job.told[1:] == ["deaf", "told to stop", f"up {second} 1"]
+    job.job.send_signal(signal.SIGTERM)  # now that it hears, the launcher passes wishes on
+    status, text = job.end()
+    assert status == 1
+    assert "Stop is heard: the robot stands" in text
+    assert job.told[-1] == "heard [15]"
+
+
 @pytest.mark.parametrize("how", ["kill", "exception"])
 def test_the_third_death_in_a_minute_is_the_last(shell, how):
     job = shell(dies=99, how=how)

@@ -54,11 +54,14 @@ class Steered(Protocol):
 
     Attributes:
         out: says a line to people.
-        stops: how often it was told to stop.
     """
 
     out: Callable[[str], None]
-    stops: int
+
+    @property
+    def stops(self) -> int:
+        """How often it was told to stop."""
+        ...
 
     @property
     def asked(self) -> tuple[str, tuple[str, ...]] | None:

@@ -164,7 +164,7 @@ def parse_only(options: Listen) -> int:
 
 def _turn(one: Spoken, dialogue: Dialogue, state: RobotState) -> Turn | None:
     """What something that was said leads to; nothing, if nothing is meant or it goes on."""
-    if one.kind in ("ignored", "halt"):
+    if one.kind in ("ignored", "halt", "halted"):
         return None
     turn = dialogue.hear(one.text, state)
     if isinstance(turn, Goals) and one.kind == "sentence" and not one.sure:
@@ -191,7 +191,7 @@ def _record(one: Spoken, turn: Turn | None) -> dict[str, object]:
 def _words(one: Spoken, turn: Turn | None) -> str:
     """What was said and what it means, for people."""
     head = f"[{one.begin_s:6.2f} s] “{one.text}”"
-    if one.kind == "halt":
+    if one.kind in ("halt", "halted"):
         return f"{head}  a robot at work halts"
     if turn is None:
         return f"{head}  passed over: {one.why}"

@@ -141,15 +141,17 @@ class Conversation:
                 say(f"(“{one.text}” passed over: {one.why})")
             return
         say(f"> {one.text}")
-        if one.kind == "stop" or shell.is_cry(one.text):
-            shell.stop("a cry to stop was heard")
+        if one.kind == "stop" or shell.brake.is_cry(one.text):
+            shell.brake.stop("a cry to stop was heard")
         elif one.kind == "halt":
-            shell.halt_at_once(one.text)
+            shell.halt_at_once(one.text, spoken=True)
+        elif one.kind == "halted":
+            self._worker.submit(self._ask)
         elif shell.asks and not one.sure:
             shell.answer("I did not hear that well. Please say it again.")
         elif not shell.help(one.text):
-            shell.halt_at_once(one.text)
-            doing = self._worker.submit(self._do, one, shell.stops)
+            shell.halt_at_once(one.text, spoken=True)
+            doing = self._worker.submit(self._do, one, shell.brake.stops)
             if not self._recorded:
                 return
             doing.result()
@@ -163,6 +165,11 @@ class Conversation:
             self._shell.hear(one.text, stops=stops)
         except Exception as error:
             self._shell.out(as_mistake(error))
+        self._ear.replying = self._shell.asks
+
+    def _ask(self) -> None:
+        """Ask about a halt for a cry that may have been none; nothing else comes of it."""
+        self._shell.ask_to_go_on()
         self._ear.replying = self._shell.asks
 
     def _said(self, text: str) -> str:

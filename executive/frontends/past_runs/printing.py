@@ -17,6 +17,7 @@ from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
+from executive.journal.places import HERE
 from executive.journal.why import told as explain
 from executive.runs.again import replay as again
 from executive.runs.again.comparison import Difference
@@ -47,7 +48,7 @@ def history(*, count: int, as_json: bool) -> int:
         write_json(shown)
         return ExitStatus.DONE
     if not shown:
-        say(f'There is no run in {past_runs.BASE}/ yet. Begin with: humanoid do "squat" --fast')
+        say(f'There is no run in {HERE}/ yet. Begin with: humanoid do "squat" --fast')
         return ExitStatus.DONE
     table_screen().print(_table(shown))
     if len(known) > len(shown):

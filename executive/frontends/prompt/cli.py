@@ -18,6 +18,7 @@ from executive.frontends.launching import (
     FrontEnd,
     folder_for,
     from_plain_options,
+    hear_people,
     launch,
     under_way,
 )
@@ -28,6 +29,7 @@ from executive.frontends.prompt import commands
 from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
+from executive.frontends.prompt.typed import asks_to_stop, typed_ahead
 from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal import failures
@@ -73,11 +75,17 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
+    on_terminal = sys.stdin.isatty() and sys.stdout.isatty()
+    taking_over = under_way(handle) is not None
+    ahead = typed_ahead(sys.stdin) if on_terminal and taking_over else b""
     aloud = speaking.able(wanted=options.aloud, model=options.voice_model)
     with speaking.opened(wanted=aloud, model=options.voice_model) as speech:
-        with conversation(options, "prompt", handle=handle, speech=speech) as shell:
-            if sys.stdin.isatty() and sys.stdout.isatty():
-                return _at_terminal(shell, options, handle)
+        stopped = asks_to_stop(ahead)
+        with conversation(
+            options, "prompt", handle=handle, speech=speech, stopped=stopped
+        ) as shell:
+            if on_terminal:
+                return _at_terminal(shell, options, handle, ahead)
             interrupts = shell.robot.interrupts
             work_off(shell, lines_until(sys.stdin, lambda: interrupts.count > 0))
             status = status_of(shell)
@@ -88,26 +96,32 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
 in_executive = from_plain_options(Begun, prompt)
 
 
-def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None) -> int:
+def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None, ahead: bytes) -> int:
     """Prompt on a terminal until the person leaves; returns the exit status."""
     from executive.frontends.prompt.terminal import Terminal
 
     if under_way(handle) is not None:
-        say("The prompt is back; the robot goes on with what was open.")
+        stopped = shell.robot.interrupts.pressed > 0
+        say(f"The prompt is back{'; what was open is stopped' if stopped else ''}.")
     kind = "fast" if handle is None else "live"
     say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
     history = Path(os.path.expanduser(HISTORY))  # noqa: PTH111 - without a home it stays as it is
-    Terminal(shell, history=history if history.is_absolute() else None).run()
+    Terminal(shell, history=history if history.is_absolute() else None, ahead=ahead).run()
     shell.speech.hush()
     if shell.gone:
         return ExitStatus.BROKEN
-    say("The robot comes to a stand." if shell.robot.busy else shell.standing())
+    say("The robot comes to a stand." if shell.robot.busy else shell.brake.standing())
     return ExitStatus.DONE
 
 
 @contextmanager
 def conversation(
-    options: Begun, about: str, *, handle: Handle | None = None, speech: Speech
+    options: Begun,
+    about: str,
+    *,
+    handle: Handle | None = None,
+    speech: Speech,
+    stopped: bool = False,
 ) -> Generator[Shell]:
     """A robot to talk to, and what comes of what is said.
 
@@ -116,6 +130,7 @@ def conversation(
         about: what the run's folder is called by.
         handle: of a live robot.
         speech: says aloud what is for ears.
+        stopped: whether people said stop before this executive took over.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
@@ -135,12 +150,21 @@ def conversation(
     )
     with ExitStack() as stack:
         stack.enter_context(viewed(folder, wanted=options.view))
-        with Screen(err=True).status("starting the robot"):
+        if under_way(handle) is not None:  # a stop comes before what is gone on with
+            stack.enter_context(robot.interrupts.listen())
+            hear_people(handle, robot.interrupts)
+            if stopped:
+                robot.interrupts.wish()
             stack.enter_context(robot)
-        stack.enter_context(robot.interrupts.listen())
+        else:
+            with Screen(err=True).status("starting the robot"):
+                stack.enter_context(robot)
+            stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, say, table=commands.table, folder=folder, model=model, speech=speech)
         shell.dialogue.agreed = options.yes
         tell_what_goes_on(robot.session.journal)
+        if robot.halted_before:
+            shell.ask_again()
         robot.session.journal.listen(_tell)
         robot.session.journal.listen(speech.note)
         stack.enter_context(attended(shell, folder, handle))

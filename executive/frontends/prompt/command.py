@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from robot.misfits import nearest, shown
+
 
 def nothing() -> Iterable[str]:
     """No choices."""
@@ -33,6 +35,7 @@ class Command:
         accepts: whether what follows makes this a command; else the line is a sentence.
         choices: what may follow, for completion.
         takes_sentence: what follows is a sentence.
+        kind: what the choices are, for a message about one that is none.
     """
 
     name: str
@@ -42,8 +45,17 @@ class Command:
     accepts: Callable[[str], bool] = alone
     choices: Callable[[], Iterable[str]] = nothing
     takes_sentence: bool = False
+    kind: str = ""
 
     @property
     def loose(self) -> bool:
         """Whether almost anything may follow, so that a slip in its name cannot be told."""
         return self.takes_sentence or self.accepts in (alone, anything, bool)
+
+    def misfit(self, rest: str) -> str:
+        """Why what follows the name makes no command of it, and what would."""
+        choices = sorted(self.choices())
+        cure = f" ({nearest(rest.casefold(), choices)})" if choices else ""
+        if self.kind:
+            return f"there is no {self.kind} {shown(rest)}{cure}"
+        return f"`{self.name}` takes no {shown(rest)}{cure}"

@@ -7,6 +7,7 @@ from pathlib import Path
 from shlex import quote
 from shutil import get_terminal_size
 
+from executive.behaviours.breakpoints import fits
 from executive.blackboard import KEYS
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, Job
@@ -21,7 +22,7 @@ from executive.journal.why import told
 from executive.missions import fault_plans
 from executive.skills.catalogue import SKILLS
 from robot.errors import ConfigError
-from robot.misfits import shown
+from robot.misfits import listed, shown
 
 KEY_NAMES = tuple(key.name for key in KEYS)
 PAST_SHOWN = 10
@@ -44,6 +45,7 @@ def table(shell: Shell) -> tuple[Command, ...]:
         Command(
             name="watch", usage="watch KEY", summary="tell when a value on the blackboard changes",
             run=seeing.watch, accepts=_one_of("", *KEY_NAMES), choices=lambda: KEY_NAMES,
+            kind="key",
         ),
         Command(
             name="unwatch", usage="unwatch [KEY]", summary="watch it no more",
@@ -76,7 +78,7 @@ def table(shell: Shell) -> tuple[Command, ...]:
         Command(
             name="run", usage="run MISSION [KEY=VALUE ...]",
             summary="check a mission, and queue it as one job",
-            run=steering.run, accepts=_is_mission, choices=samples,
+            run=steering.run, accepts=_is_mission, choices=samples, kind="mission",
         ),
         Command(
             name="pause", usage="pause", summary="come to a stand and hold the task there",
@@ -127,7 +129,7 @@ def table(shell: Shell) -> tuple[Command, ...]:
             name="help", usage="help [COMMAND | skills]",
             summary="this list, or one command, or what the robot can do",
             run=seeing.help, accepts=lambda rest: rest in ("", "skills", *shell.commands),
-            choices=lambda: ("skills", *shell.commands),
+            choices=lambda: ("skills", *shell.commands), kind="command",
         ),
         Command(
             name="quit", usage="quit", summary="stop, and leave (also Ctrl-D)", run=keeping.quit
@@ -314,14 +316,14 @@ class _Steering:
 
     def pause(self, _rest: str) -> None:
         self._shell.robot.executive.pause()
-        self._shell.settle_halt()
+        self._shell.brake.settle_halt()
         self._shell.answer("Pausing; `resume` goes on with the step.")
 
     def resume(self, _rest: str) -> None:
         executive = self._shell.robot.executive
         if executive.pause_wanted:
             executive.resume()
-            self._shell.settle_halt()
+            self._shell.brake.settle_halt()
         elif executive.held:
             held = ", ".join(executive.held)
             self._shell.answer(f"Nothing is paused; a breakpoint holds {held}: say `continue`.")
@@ -333,7 +335,7 @@ class _Steering:
             self._shell.answer(f"Nothing is paused, and nothing is to be done.{last}")
 
     def stop(self, _rest: str) -> None:
-        self._shell.stop("the operator said stop")
+        self._shell.brake.stop("the operator said stop")
 
     def estop(self, rest: str) -> None:
         executive = self._shell.robot.executive
@@ -346,7 +348,7 @@ class _Steering:
             executive.reset_estop()
             self._shell.out("The robot may move again.")
         else:
-            self._shell.press()
+            self._shell.brake.press()
             if rest:
                 self._shell.out(f"{shown(rest)} is neither release nor reset, so it is pressed.")
             self._shell.out("Emergency stop. `estop release`, then `estop reset`, undo it.")
@@ -355,8 +357,8 @@ class _Steering:
         under_way = self._shell.under_way()
         if rest:
             self._shell.robot.executive.cancel(number_of(rest))
-        elif self._shell.halt.on:
-            self._shell.give_up_halted()
+        elif self._shell.brake.halt.on:
+            self._shell.brake.give_up_halted()
         elif under_way:
             self._shell.robot.executive.cancel(under_way[0].number)
         elif self._shell.robot.executive.pause_wanted:
@@ -368,7 +370,7 @@ class _Steering:
         executive = self._shell.robot.executive
         if executive.question:
             executive.answer("continue")
-        elif executive.held and not self._shell.halt.on:
+        elif executive.held and not self._shell.brake.halt.on:
             executive.go_on()
         else:
             self.resume("")
@@ -387,6 +389,9 @@ class _Steering:
         elif rest:
             executive.break_at(rest)
             self._shell.out(f"Holding before {rest}; `step` and `continue` go on.")
+            steps = self._shell.steps_to_do()
+            if steps and not any(fits(rest, name) for name in steps):
+                self._shell.out(f"  No step of what is to be done is called so: {listed(steps)}.")
         else:
             held = ", ".join(executive.held) or "nothing"
             self._shell.out(f"Held now: {held}. Give a step's name, such as: break pick*")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.frontends.prompt.robot import CRIED
 from intents.goals import Resume
 from intents.outcomes import YES_OR_NO, Question
 
@@ -28,7 +29,7 @@ class Halt:
     def begin(self) -> None:
         """Come to a stand at once, and keep what is under way."""
         self.on = True
-        self._executive.pause("the operator cried to halt")
+        self._executive.pause(CRIED)
 
     def end(self) -> None:
         """It is known what is wanted: go on with what is left."""

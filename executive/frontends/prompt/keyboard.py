@@ -25,10 +25,8 @@ from prompt_toolkit.input.vt100 import Vt100Input, raw_mode
 from prompt_toolkit.key_binding import KeyPress
 from prompt_toolkit.keys import Keys
 
-from executive.frontends.prompt.typed import COLOUR, Typed
+from executive.frontends.prompt.typed import COLOUR, STOPS, Typed
 
-STOPS = re.compile(rb"([\x03\x1c])")
-"""Ctrl-C and Ctrl-\\, which end a program anywhere else."""
 _LINE_END = re.compile(rb"[\r\n]")
 HEEDED = Keys.SIGINT
 """Tells the library of a stop that was heeded; no terminal can send it. Its data is the line that
@@ -62,6 +60,7 @@ class Keyboard(Vt100Input):
         stop: Callable[[], bool],
         is_cry: Callable[[str], bool],
         cried: Callable[[], None],
+        ahead: bytes = b"",
     ) -> None:
         """Listen to nothing yet.
 
@@ -71,11 +70,13 @@ class Keyboard(Vt100Input):
             is_cry: whether a line that was entered, as far as that can be known, is to stop
                 something.
             cried: called when such a line was entered.
+            ahead: what was typed before.
         """
         super().__init__(stdin)
         self._stop = stop
         self._is_cry = is_cry
         self._cried = cried
+        self._ahead = ahead
         self._sent = self._last_stop = self._reached = 0
         self._typed = Typed()
         self._terminal = stdin.fileno()
@@ -104,6 +105,8 @@ class Keyboard(Vt100Input):
     # --- the thread ---
 
     def _listen(self) -> None:
+        if self._ahead:
+            self._take(self._ahead)
         poll = select.poll()
         poll.register(self._terminal, select.POLLIN)
         poll.register(self._left, select.POLLIN)

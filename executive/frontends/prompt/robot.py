@@ -14,6 +14,7 @@ from executive.frontends.prompt.view import Observer, View, view_of_lost
 from executive.meaning.request import Setting, Understood
 from executive.runs import runtimes
 from executive.runs.again.continuation import Left, return_to
+from executive.runs.again.orders import orders_in
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from robot.bringup.mailbox import Handle
@@ -23,6 +24,8 @@ from robot.errors import ProcessError
 from robot.failures import Failure
 from robot.model.description import RobotDescription
 
+CRIED = "the operator cried to halt"
+"""Why it is paused that has halted for a cry."""
 LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
 
@@ -146,6 +149,13 @@ class Robot(Closing):
         left = self._left
         returned = left is not None and left.folder == self._setup.folder
         return left.ended if left is not None and returned else ()
+
+    @property
+    def halted_before(self) -> bool:
+        """Whether it was halted when this executive took the place of one that died."""
+        left = self._left
+        returned = left is not None and left.folder == self._setup.folder
+        return left is not None and returned and orders_in(left.events).paused == CRIED
 
     @property
     def lost(self) -> Failure | None:

@@ -16,32 +16,33 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
+from executive.behaviours.breakpoints import fits
 from executive.blackboard import HELD, WORLD
 from executive.engine.executive import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.frontends.prompt import foresight
+from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.command import Command
-from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
 from executive.frontends.prompt.robot import AtWork
-from executive.frontends.prompt.stance import standing
 from executive.frontends.prompt.state import robot_state
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Refused, Understood, meant, unable
-from intents.context import verdict_of
+from executive.trees.parts import errands
+from intents.context import Context, verdict_of
 from intents.dialogue import Dialogue
 from intents.goals import Cancel, Goal, Pause, Resume, Stop
 from intents.halting import besides, is_halt
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.parser import hear
 from intents.plans import numbered
 from intents.state import RobotState
-from intents.stopping import is_stay, is_stop
 from intents.wording import in_words
 from robot.errors import RobotError
-from robot.misfits import shown
+from robot.misfits import listed, shown
 from robot.se3 import SE3
 
 if TYPE_CHECKING:
@@ -57,13 +58,12 @@ class Shell:
 
     Attributes:
         robot: what is spoken to.
-        halt: whether it has halted for a cry, and waits to be told more.
+        brake: brings it to a stand.
         out: says a line to people.
         speech: says aloud what it answers.
         folder: of this run.
         leaving: whether the person wants to go.
         refused: how many lines led to nothing, because they could not be meant.
-        stops: how often it was told to stop; a line from before the last one comes to nothing.
     """
 
     def __init__(
@@ -87,24 +87,22 @@ class Shell:
             speech: says aloud what it answers.
         """
         self.robot = robot
-        self.halt = Halt(robot.executive)
         self.out = out
         self.speech = speech or Speech()
         self.folder = folder
         self.leaving = False
         self.refused = 0
-        self.stops = 0
         self._stops_before: int | None = None
-        self._submitting = threading.Lock()
         self._one_line = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
+        self.brake = Brake(robot, self.dialogue, out=out, speech=self.speech, model=model)
         self._model = model
         if model is not None:
             model.unable = self._unable
         self._holds: tuple[str, ...] = ()
         self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
         self._corrects = False
-        self._slip = ""
+        self._slip = "", 0
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
@@ -113,9 +111,9 @@ class Shell:
         if text.startswith("estop"):
             self.commands["estop"].run(text.removeprefix("estop").strip())
             return True
-        if not self.is_cry(text):
+        if not self.brake.is_cry(text):
             return False
-        self.stop("the operator said stop")
+        self.brake.stop("the operator said stop")
         return True
 
     def is_emergency(self, text: str) -> bool:
@@ -124,13 +122,8 @@ class Shell:
         if not name.startswith("estop"):
             return False
         if rest not in (["release"], ["reset"]):
-            self.press()
+            self.brake.press()
         return True
-
-    def press(self) -> None:
-        """Press the emergency stop; from any thread."""
-        self.speech.hush()
-        self.robot.executive.press_estop("the operator pressed the emergency stop")
 
     @property
     def asks(self) -> bool:
@@ -146,29 +139,33 @@ class Shell:
         wanted = self.robot.executive.question
         return (wanted, ANSWERS) if wanted else None
 
+    @property
+    def stops(self) -> int:
+        """How often the robot was told to stop; a line from before comes to nothing."""
+        return self.brake.stops
+
+    def stop(self, why: str) -> None:
+        """Bring the robot to a stand and end all jobs; from any thread."""
+        self.brake.stop(why)
+
     def command(self, name: str) -> None:
         """Do what a command does that takes no words."""
         self.commands[name].run("")
 
-    def is_cry(self, text: str) -> bool:
-        """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        return is_stop(text) or (self.robot.busy and is_stay(text))
-
-    def halt_at_once(self, text: str, *, busy: bool | None = None) -> bool:
+    def halt_at_once(self, text: str, *, busy: bool | None = None, spoken: bool = False) -> bool:
         """Halt a robot at work if a line is a cry that ends nothing; never waits.
 
         Args:
             text: the line.
             busy: whether there is something to halt (None: if there are jobs).
+            spoken: whether it was heard; commands are typed.
         """
         at_work = self.robot.busy if busy is None else busy
-        if not (at_work or self.halt.on) or not is_halt(text):
+        if not (at_work or self.brake.halt.on) or not is_halt(text):
             return False
-        if self._is_answer(text) or self._is_command(text):
+        if self._is_answer(text) or (not spoken and self._is_command(text)):
             return False
-        with self._submitting:
-            self.halt.begin()
-        self.speech.hush()
+        self.brake.halt_robot()
         return True
 
     def _is_answer(self, text: str) -> bool:
@@ -201,47 +198,10 @@ class Shell:
         self.out(text)
         self.speech.say(text)
 
-    def stop(self, why: str) -> None:
-        """Bring the robot to a stand and end all jobs, be silent, and say so."""
-        busy = self.robot.busy
-        self.stop_unsaid(why)
-        self.out("Stopping." if busy else self.standing())
-
-    def standing(self) -> str:
-        """What is true of a robot that has nothing to stop."""
-        return standing(self.robot.executive, self.robot.view)
-
-    def stop_unsaid(self, why: str) -> None:
-        """Stop without a word; first the robot, then what only is in the way of hearing."""
-        with self._submitting:
-            self.stops += 1
-            self.robot.executive.stop(why)
-            self.halt.forget()
-        self._slip = ""
-        self._ask_model_no_more()
-        self.speech.hush()
-        self.dialogue.forget()
-
-    def ask_no_more(self) -> bool:
-        """Close what was asked of the person; whether there was anything."""
-        if self.dialogue.question is None:
-            return False
-        self.dialogue.forget()
-        self.out("I ask no more.")
-        return True
-
     def leave(self) -> None:
         """Let nothing begin any more, and bring the robot to a stand."""
         self.leaving = True
-        with self._submitting:
-            self.stops += 1
-            if self.robot.busy:
-                self.robot.executive.stop("the operator leaves")
-        self._ask_model_no_more()
-
-    def _ask_model_no_more(self) -> None:
-        if self._model is not None:
-            self._model.give_up()
+        self.brake.leave()
 
     def line(self, text: str, *, stops: int | None = None) -> None:
         """Do what a line says; never raises for what is in it.
@@ -255,7 +215,7 @@ class Shell:
                 return
         except RobotError as error:
             self._refuse(f"Not done: {error}")
-            self._ask_to_go_on()
+            self.ask_to_go_on()
             return
         with self._one_line:  # people at the terminal and at pages take turns
             self._line(text, stops=stops)
@@ -265,7 +225,7 @@ class Shell:
         try:
             halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
-            if self._stopped_since:
+            if self._stopped:
                 self._refuse_stopped(text)
             elif halted:
                 self._take_halted(text)
@@ -275,7 +235,12 @@ class Shell:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
-        self._ask_to_go_on()
+        self.ask_to_go_on()
+
+    def ask_again(self) -> None:
+        """Ask what was asked by an executive before this one: whether to go on after a halt."""
+        self.brake.halt.on = True
+        self.ask_to_go_on()
 
     def hear(self, text: str, *, stops: int) -> None:
         """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
@@ -285,7 +250,7 @@ class Shell:
     def _hear(self, text: str, *, stops: int) -> None:
         self._stops_before = stops
         try:
-            if self.halt_at_once(text):
+            if self.halt_at_once(text, spoken=True):
                 self._take_halted(text)
             else:
                 self.sentence(text)
@@ -293,7 +258,7 @@ class Shell:
             self._refuse(f"Not done: {error}")
         finally:
             self._stops_before = None
-        self._ask_to_go_on()
+        self.ask_to_go_on()
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -314,11 +279,11 @@ class Shell:
                 self._model.begin_mission()
         answers = self.dialogue.question is not None
         turn = self.dialogue.hear(text, state)
-        if self._stopped_since:  # it may have taken as long as a language model does
+        if self._stopped:  # it may have taken as long as a language model does
             self.dialogue.forget()
             self._refuse_stopped(text)
             return None
-        if self.dialogue.dropped and not self.halt.on:
+        if self.dialogue.dropped and not self.brake.halt.on:
             self.out(f"I ask no more: {self.dialogue.dropped}")
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
         still = self.dialogue.question
@@ -356,7 +321,7 @@ class Shell:
         asks_or_not = isinstance(turn, Question | Refusal) and not answers
         if asks_or_not and is_halt(text) and not besides(text):
             self.dialogue.unask()
-            self.answer(self.standing())  # to a robot that moves it would have been a cry
+            self.answer(self.brake.standing())  # to a robot that moves it would have been a cry
         elif isinstance(turn, Reply):
             self.answer(turn.text)
         elif isinstance(turn, Question):
@@ -385,10 +350,10 @@ class Shell:
             self._refuse(self.gone)
             return
         self._make_room(understood.text, urgent=urgent)
-        with self._submitting:
-            stopped = self._stopped_since
-            number = 0 if stopped else self.robot.submit(understood, urgent=urgent, **how)
-        if stopped:
+        number = self.brake.unless_stopped(
+            self._stops_before, lambda: self.robot.submit(understood, urgent=urgent, **how)
+        )
+        if number is None:
             self._refuse_stopped(understood.text)
             return
         self._holds = understood.holds
@@ -396,15 +361,29 @@ class Shell:
         self._asked[number] = understood, on_the_floor(world.X_WB) if world is not None else None
         live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
         mine = live.pop(number, None)
+        self._tell_of_breaks(understood)
         before = [
             job
             for job in live.values()
-            if mine and job.resources & mine.resources and not self.halt.gave_up(job)
+            if mine and job.resources & mine.resources and not self.brake.halt.gave_up(job)
         ]
         if before and not urgent:
             self.answer(f"Queued as {number}, with {len(before)} before it.")
-        if self.robot.executive.pause_wanted and not self.halt.on:
+        if self.robot.executive.pause_wanted and not self.brake.halt.on:
             self.answer("The robot is paused: `resume` lets it begin.")
+
+    def steps_to_do(self) -> list[str]:
+        """The names of the steps of all that is to be done, as far as it was asked for here."""
+        jobs = [job for job in self.robot.executive.jobs if job.state not in OVER]
+        asked = [self._asked[job.number][0] for job in jobs if job.number in self._asked]
+        return list(dict.fromkeys(step.name for one in asked for step in errands(one.task)))
+
+    def _tell_of_breaks(self, understood: Understood) -> None:
+        """Say that a job will not be held, where breakpoints were set to hold something."""
+        breaks = self.robot.executive.breaks
+        names = list(dict.fromkeys(step.name for step in errands(understood.task)))
+        if breaks and names and not any(fits(one, name) for one in breaks for name in names):
+            self.out(f"  No breakpoint ({listed(breaks)}) holds a step of it: {listed(names)}.")
 
     def _make_room(self, text: str, *, urgent: bool) -> None:
         """End what a task takes the place of: what was halted for it, or what it corrects."""
@@ -413,28 +392,17 @@ class Shell:
         jobs = [job for job in self.robot.executive.jobs if job.state not in OVER]
         replaced = [job for job in jobs if corrects and job.number == last]
         comes_first = urgent or "first" in text.casefold().split()
-        if self.halt.on and not replaced and not comes_first:
-            replaced = self.halt.kept
+        if self.brake.halt.on and not replaced and not comes_first:
+            replaced = self.brake.halt.kept
         if replaced:
-            self.halt.give_up(replaced, "something else was asked for instead")
+            self.brake.halt.give_up(replaced, "something else was asked for instead")
             self.answer(f"Instead of “{replaced[0].text}”.")
-        if self.halt.on and (comes_first or not self._still_under_way()):
-            self.halt.end()
-
-    def settle_halt(self) -> None:
-        """It was said what is to become of the jobs that were halted; it is asked no more."""
-        if self.halt.on:
-            self.halt.forget()
-            self.dialogue.unask()
-
-    def give_up_halted(self) -> None:
-        """End what was halted; what waits after it is asked about next."""
-        self.halt.give_up(self.halt.kept, "cancelled on request")
-        self.dialogue.unask()
+        if self.brake.halt.on and (comes_first or not self._still_under_way()):
+            self.brake.halt.end()
 
     def _still_under_way(self) -> list[Job]:
         """The jobs under way that were not given up."""
-        return [job for job in self.halt.kept if job.state in UNDER_WAY]
+        return [job for job in self.brake.halt.kept if job.state in UNDER_WAY]
 
     def under_way(self) -> list[Job]:
         """The jobs that have begun and are not over."""
@@ -450,7 +418,7 @@ class Shell:
         first, _, rest = text.partition(" ")
         rest = rest.strip()
         command = self.commands.get(first.casefold())
-        offered, self._slip = self._slip, ""
+        offered = self._take_slip()
         if offered and (said := verdict_of(text)) is not None:
             if said:
                 self._take(offered)
@@ -461,28 +429,44 @@ class Shell:
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
         elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
-            self._slip = slip
+            self._slip = slip, self.brake.stops
             self._refuse(f"Did you mean `{slip}`?")
-        elif not self.help(text):
+        elif self.help(text):
+            pass
+        elif command is not None and self._is_no_sentence(text):
+            self._refuse(f"Not done: {command.misfit(rest)}", f"Use: {command.usage}")
+        else:
             self.sentence(text)
+
+    def _is_no_sentence(self, text: str) -> bool:
+        """Whether two words that begin as a command mean nothing else: "run nope", "help foo"."""
+        if len(text.split()) != 2 or is_halt(text) or self.dialogue.is_answered_by(text):
+            return False
+        alone, _ = hear(text, self.dialogue.vocabulary, context=Context())
+        return isinstance(alone, Question | Refusal)
+
+    def _take_slip(self) -> str:
+        """The command that was offered for the line before; a stop since then withdraws it."""
+        (offered, stops), self._slip = self._slip, ("", 0)
+        return "" if self.brake.stopped_since(stops) else offered
 
     def _take_halted(self, text: str) -> None:
         """Do what a cry that the robot has halted for says besides."""
-        if not self.halt.kept:
-            self.out(self.standing())
+        if not self.brake.halt.kept:
+            self.out(self.brake.standing())
             return
         self.out("Halting.")
         said = self.dialogue.besides(text, self._state())
         if said:
             self.sentence(said)
 
-    def _ask_to_go_on(self) -> None:
+    def ask_to_go_on(self) -> None:
         """Ask what is to become of the jobs that were halted, where nothing else is asked."""
-        if not self.halt.on or self.dialogue.question is not None:
+        if not self.brake.halt.on or self.dialogue.question is not None:
             return
-        question = self.halt.question()
+        question = self.brake.halt.question()
         if question is None:
-            self.halt.end()
+            self.brake.halt.end()
             return
         self.dialogue.ask(question)
         self.answer(question.question)
@@ -490,7 +474,7 @@ class Shell:
     def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
         """What the goals mean here."""
         self._corrects = turn.instead
-        expected = self.robot.busy and not (self.halt.on or turn.instead)
+        expected = self.robot.busy and not (self.brake.halt.on or turn.instead)
         held = self._holds if expected else self._held()
         understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
         if isinstance(understood, Refused):
@@ -499,9 +483,9 @@ class Shell:
         return understood
 
     @property
-    def _stopped_since(self) -> bool:
+    def _stopped(self) -> bool:
         """Whether there was a stop since the line that is being done was entered."""
-        return self._stops_before not in (None, self.stops)
+        return self.brake.stopped_since(self._stops_before)
 
     def _refuse_stopped(self, text: str) -> None:
         self._refuse(f"Not done: “{text}” was there when you said stop")

@@ -54,10 +54,17 @@ MOST_MISTAKES = 5
 class Terminal:
     """A prompt until the person leaves."""
 
-    def __init__(self, shell: Shell, *, history: Path | None) -> None:
-        """Prepare; `history` is the file of what was typed (None: not kept)."""
+    def __init__(self, shell: Shell, *, history: Path | None, ahead: bytes = b"") -> None:
+        """Prepare.
+
+        Args:
+            shell: does what a line says.
+            history: the file of what was typed (None: not kept).
+            ahead: what was typed before there was a prompt.
+        """
         self._shell = shell
         self._history = history
+        self._ahead = ahead
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
         self._open_lines = 0
         self._was_heeded = False
@@ -99,7 +106,10 @@ class Terminal:
     # --- the prompt's thread ---
 
     def _prompting(self) -> None:
-        keyboard = Keyboard(sys.stdin, stop=self._stop_busy, is_cry=self._is_cry, cried=self._cried)
+        keyboard = Keyboard(
+            sys.stdin, stop=self._stop_busy, is_cry=self._is_cry, cried=self._cried,
+            ahead=self._ahead,
+        )  # fmt: skip
         try:
             self._prompt = self._session(keyboard)
             with keyboard, patch_stdout(raw=True):
@@ -161,7 +171,7 @@ class Terminal:
             elif text.strip() in LEAVING:
                 shell.leaving = True
             elif not self._stopped(text):
-                stops = shell.stops  # before looking, so that a stop in between counts
+                stops = shell.brake.stops  # before looking, so that a stop in between counts
                 if keyboard.behind:
                     continue
                 self._open_lines += 1
@@ -201,10 +211,10 @@ class Terminal:
     def _stop_busy(self) -> bool:
         """Ctrl-C stops and silences the robot, or closes its question; whether there was one."""
         if self._busy:
-            self._shell.stop("the operator pressed Ctrl-C")
+            self._shell.brake.stop("the operator pressed Ctrl-C")
             return True
         self._shell.speech.hush()
-        return self._shell.ask_no_more()
+        return self._shell.brake.ask_no_more()
 
     def _is_cry(self, line: str) -> bool:
         """Whether a line is to stop something, for all that the prompt has not read it yet.
@@ -213,14 +223,14 @@ class Terminal:
         """
         if self._shell.is_emergency(line):
             return False
-        if self._busy and (self._shell.is_cry(line) or is_stay(line)):
+        if self._busy and (self._shell.brake.is_cry(line) or is_stay(line)):
             return True
         self._shell.halt_at_once(line, busy=self._busy)
         return False
 
     def _cried(self) -> None:
         """Heed a cry before the prompt has it, which tells of it when it has."""
-        self._shell.stop_unsaid("the operator said stop")
+        self._shell.brake.stop_unsaid("the operator said stop")
 
     # --- what the library calls ---
 
@@ -241,7 +251,7 @@ class Terminal:
             if event.current_buffer.text:
                 event.current_buffer.reset()
             else:
-                self._shell.out(f"{self._shell.standing()} Ctrl-D or `quit` leaves.")
+                self._shell.out(f"{self._shell.brake.standing()} Ctrl-D or `quit` leaves.")
 
         def heeded(event: KeyPressEvent) -> None:
             """A line that was heeded is entered as what was heard."""

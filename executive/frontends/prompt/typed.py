@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import re
+import select
+import termios
+from typing import TextIO
 
 from intents.letters import without_sequences
+from intents.stopping import is_stay, is_stop
+
+STOPS = re.compile(rb"([\x03\x1c])")
+"""Ctrl-C and Ctrl-\\, which end a program anywhere else."""
 
 COLOUR = re.compile(r"\x1b\[[\d;:]*m")
 """Nobody types one, so that it was pasted; the input library takes it for a report of a mouse."""
@@ -13,8 +21,32 @@ KEPT = 4096
 """Bytes of a line that are kept: a cry stands at its beginning or its end."""
 
 
+MOST_AHEAD = 1 << 16
+"""Bytes that are taken of what was typed while nobody read."""
 _REPORT = re.compile(rb"\x1b\[\d+;\d+R")
 """Where the cursor is, as the terminal answers the library, in between what people type."""
+
+
+def typed_ahead(terminal: TextIO) -> bytes:
+    """What was typed while nobody read it; nothing of a terminal that gathers lines."""
+    fd, found = terminal.fileno(), b""
+    try:
+        if termios.tcgetattr(fd)[3] & termios.ICANON:
+            return b""
+        while len(found) < MOST_AHEAD and select.select([fd], [], [], 0)[0]:
+            data = os.read(fd, MOST_AHEAD - len(found))
+            if not data:
+                break
+            found += data
+    except (OSError, termios.error):
+        pass
+    return found
+
+
+def asks_to_stop(data: bytes) -> bool:
+    """Whether what was typed to a robot at work has a stop in it: a key, or a line."""
+    lines = Typed().take(data)
+    return STOPS.search(data) is not None or any(is_stop(one) or is_stay(one) for one in lines)
 
 
 class Typed:

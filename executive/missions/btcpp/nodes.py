@@ -18,6 +18,7 @@ from executive.missions.btcpp.steps import (
     flat,
     named,
     number_in,
+    one_of,
     whole,
     with_option,
 )
@@ -169,9 +170,7 @@ class Importer:
         """One after the other until one succeeds."""
         if not element.children:
             raise element.wrong("Fallback without children", "add one")
-        *others, step = [self.step(child, ports) for child in element.children]
-        for other in reversed(others):
-            step = with_option({"do": flat(other)}, "on_fail", {"any": flat(step)})
+        step = one_of([self.step(child, ports) for child in element.children])
         return named(fields(step), attributes) if fields(step) else step
 
     def parallel(self, element: Element, attributes: Ports, ports: Ports) -> Step:

@@ -25,13 +25,24 @@ _NESTING = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 def whole(element: Element, attributes: Ports, key: str, *, most: int = 10**9) -> int:
     """The whole number in a port, from 1. Raises ConfigError."""
-    text = attributes.get(key, "")
-    if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) == 0:
-        message = f"{element.tag} with {key}={text[:40]!r} has no equivalent"
+    text = attributes.get(key, "").strip()
+    if not re.fullmatch(r"-?[0-9]{1,9}", text):
+        shown = f"is {text[:40]!r}" if key in attributes else "is missing"
+        cure = f'{key}="{_in_milliseconds(text)}"' if key.endswith("msec") else "1 or more"
+        raise element.wrong(f"{element.tag}: {key} {shown}, and must be a whole number", cure)
+    if int(text) <= 0:
+        message = f"{element.tag} with {key}={text!r} has no equivalent"
         raise element.wrong(message, "a whole number from 1: nothing here is without an end")
     if int(text) > most:
         raise element.wrong(f"{element.tag} with {key}={text!r}: at most {most} are possible")
     return int(text)
+
+
+def _in_milliseconds(text: str) -> int:
+    """What was most likely meant by a time with its unit: 5000 by "5s"."""
+    found = re.fullmatch(r"(\d{1,6}(?:\.\d{1,6})?) ?(ms|s|min)?", text)
+    factor = {"ms": 1, "s": 1000, "min": 60_000, None: 1}
+    return max(1, round(float(found[1]) * factor[found[2]])) if found else 5000
 
 
 def number_in(element: Element, port: str, text: str) -> float:
@@ -72,6 +83,19 @@ def with_option(step: Step, option: str, value: Any) -> Step:
     plain = inside and not any(key in inside for key in OPTIONS[order:])
     inner = inside if plain else {"do": [step]}
     return {**inner, option: value}
+
+
+def one_of(steps: list[Step]) -> Step:
+    """The first of some steps that succeeds.
+
+    Halves are put into one another, as it does not matter where one splits them: a chain would be
+    nested as deep as it is long.
+    """
+    if len(steps) == 1:
+        return steps[0]
+    middle = len(steps) // 2
+    first, second = one_of(steps[:middle]), one_of(steps[middle:])
+    return with_option({"do": flat(first)}, "on_fail", {"any": flat(second)})
 
 
 def checked(condition: Any) -> Step:

@@ -147,7 +147,8 @@ def go_on(session: Session, assignment: Assignment, events: list[Event], *, anew
         done=assignment.done,
     )
     session.journal.write(
-        session.now_s, "resumed", why=_words(found, anew=anew), done=sorted(found.done),
+        session.now_s, "resumed", text=assignment.understood.text,
+        why=_words(found, anew=anew), done=sorted(found.done),
         again=[{"step": step, "why": why} for step, why in found.again],
     )  # fmt: skip
     left = msgspec.structs.replace(assignment, done=found.done)

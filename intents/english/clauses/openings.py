@@ -132,8 +132,8 @@ def _sets_out(text: Text, at: int) -> bool:
         return False
     after = connector_end(text, at + 1) or at + 1
     inner = max((end for _, end in verbs_at(text.words, after)), default=after)
-    whole = verbs_at(text.words, at)[0][1]
-    whole = at + 1 < whole >= inner
+    verbs = verbs_at(text.words, at)
+    whole = bool(verbs) and at + 1 < verbs[0][1] >= inner
     goes_somewhere = text.lookup(lexicon.LOCATIVES, at + 1) or text.word(after) == "go"
     return not whole and not goes_somewhere and bool(verbs_at(text.words, after))
 

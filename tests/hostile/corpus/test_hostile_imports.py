@@ -133,7 +133,6 @@ TREES: dict[str, str | bytes | Make] = {
     "cdata": _tree("<![CDATA[<Say/>]]>"),
     "comment-flood": _tree("<!--" + "x" * 3_000_000 + "-->"),
     "gigantic-attribute": _leaf(f'message="{"x" * 3_000_000}"'),
-    "fallback-300": _tree("<Fallback>" + '<Sleep msec="1000"/>' * 300 + "</Fallback>"),
     "fallback-15000": _tree("<Fallback>" + '<Sleep msec="1000"/>' * 15_000 + "</Fallback>"),
     "retries": _tree('<RetryUntilSuccessful num_attempts="2">' * 90 + '<Sleep msec="1"/>' + "</RetryUntilSuccessful>" * 90),
     "subtree-chain-1500": _chain(1500, 0),

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
@@ -115,6 +116,45 @@ def test_a_sentence_that_begins_like_a_command_is_a_sentence(shell: Shell, line:
     assert not shell.commands[first].accepts(rest)
 
 
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("run nope", "there is no mission 'nope'"),
+        ("run brng", "did you mean 'bring'?"),
+        ("help foo", "there is no command 'foo' (valid: break, cancel,"),
+        ("help canccel", "did you mean 'cancel'?"),
+        ("watch batery", "there is no key 'batery'"),
+        ("tree of", "did you mean 'off'?"),
+        ("cancel foo", "Use: cancel [N]"),
+        ("step 2", "Use: step"),
+    ],
+)
+def test_a_command_with_what_it_does_not_take_says_what_it_takes(
+    shell: Shell, line: str, says: str
+):
+    shell.line(line)
+    assert says in shell.out.text
+    assert shell.dialogue.question is None
+
+
+def test_a_breakpoint_that_holds_nothing_is_told(shell: Shell):
+    shell.line("break plaice*")
+    assert "No step" not in shell.out.text  # nobody knows yet what will be asked
+    shell.line("say hello")
+    assert "No breakpoint (plaice*) holds a step of it: say hello." in shell.out.text
+    shell.line("break off")
+    shell.robot.wait()
+    shell.line("walk 1 metre back")
+    shell.out.clear()
+    shell.line("break say*")
+    assert "No step of what is to be done is called so: walk 1 m back" in shell.out.text
+    shell.line("break walk*")
+    assert shell.out[-1].startswith("Holding before walk*")
+    shell.line("break off")
+    shell.line("stop")
+    shell.robot.wait()
+
+
 def test_every_command_explains_itself(shell: Shell):
     shell.line("help")
     for command in shell.commands.values():
@@ -221,7 +261,7 @@ def test_a_yes_to_the_command_that_was_meant_runs_it_and_a_no_nothing(shell: She
 
 
 def test_a_line_from_before_a_stop_comes_to_nothing(shell: Shell):
-    typed = shell.stops
+    typed = shell.brake.stops
     shell.line("stop")
     before = len(shell.robot.executive.jobs)
     shell.line("squat for 5 seconds", stops=typed)
@@ -469,7 +509,7 @@ def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
 
 def test_a_stop_acts_while_a_language_model_is_asked(tmp_path: Path):
     with asking_for_ever(tmp_path) as (shell, server):
-        how = {"stops": shell.stops}
+        how = {"stops": shell.brake.stops}
         line = Thread(target=shell.line, args=("brighten up the morning",), kwargs=how)
         line.start()
         assert eventually(lambda: server.requests)
@@ -505,7 +545,7 @@ def test_a_stop_is_heard_while_a_language_model_is_asked(tmp_path: Path):
 
 def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
     voice = Loudspeaker()
-    shell.speech = Speech(voice)
+    shell.speech = shell.brake.speech = Speech(voice)
     try:
         for line in ("what are you holding?", "status", "help", "blah blah", "pick up the cup"):
             shell.line(line)
@@ -516,7 +556,7 @@ def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
         shell.line("stop")
         assert voice.told[-1] == "(hush)"
     finally:
-        shell.speech = Speech()
+        shell.speech = shell.brake.speech = Speech()
 
 
 def test_a_robot_that_is_gone_is_said_to_be_and_takes_no_more_jobs(tmp_path: Path):
@@ -547,7 +587,7 @@ def test_a_step_that_a_breakpoint_holds_is_told(shell: Shell):
 
 def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
     voice = Loudspeaker()
-    shell.speech = Speech(voice)
+    shell.speech = shell.brake.speech = Speech(voice)
     try:
         terminal = Terminal(shell, history=None)
         (ctrl_c,) = terminal._keys().get_bindings_for_keys((Keys.ControlC,))
@@ -557,7 +597,7 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
         ctrl_c.handler(SimpleNamespace(app=app, current_buffer=line))
         assert voice.told == ["(hush)"]
     finally:
-        shell.speech = Speech()
+        shell.speech = shell.brake.speech = Speech()
 
 
 @pytest.mark.parametrize(
@@ -625,10 +665,39 @@ def test_a_cry_halts_what_is_under_way_and_asks_whether_to_go_on(shell: Shell):
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "cancelled"
     assert shell.dialogue.question is None
-    assert not shell.halt.on
+    assert not shell.brake.halt.on
     shell.line("wave")
     shell.robot.wait()
     assert shell.robot.executive.jobs[-1].state == "done"
+
+
+@pytest.mark.parametrize("cry", ["wait", "pause", "cancel", "careful"])
+def test_a_cry_that_was_heard_by_mistake_costs_a_question(shell: Shell, cry: str):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
+    heard = partial(Spoken, text=cry)
+    shell.line("squat for 2 seconds")
+    talk.take(heard(kind="halt"))
+    assert eventually(lambda: shell.robot.executive.state == "paused")
+    talk.take(heard(kind="halted"))
+    assert eventually(lambda: ear.replying)
+    assert "Shall I go on with “squat for 2 seconds”?" in shell.out.text
+    talk.take(Spoken(kind="sentence", text="yes"))
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "done"
+
+
+def test_a_pause_that_is_said_waits_for_a_yes(shell: Shell):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
+    shell.line("squat for 2 seconds")
+    talk.take(Spoken(kind="sentence", text="pause"))
+    assert eventually(lambda: ear.replying)
+    assert eventually(lambda: shell.robot.executive.state in ("pausing", "paused"))
+    talk.take(Spoken(kind="stop", text="stop"))
+    shell.robot.wait()
+    assert shell.robot.executive.jobs[-1].state == "cancelled"
+    assert shell.dialogue.question is None
 
 
 def test_what_is_said_after_a_cry_takes_the_place_of_what_was_halted(shell: Shell):
@@ -663,6 +732,6 @@ def test_no_to_a_question_is_no_cry(shell: Shell):
     shell.line("walk 1 metre back")
     shell.line("pick up the cup")
     shell.line("no")
-    assert not shell.halt.on
+    assert not shell.brake.halt.on
     shell.line("stop")
     shell.robot.wait()

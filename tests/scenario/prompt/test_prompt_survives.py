@@ -8,7 +8,7 @@ import pytest
 
 from executive.journal.journal import read
 from tests.fakes.executives import executives
-from tests.fakes.terminal import CTRL_D, CTRL_U, TAB, UP, Terminal
+from tests.fakes.terminal import CTRL_C, CTRL_D, CTRL_U, ENTER, TAB, UP, Terminal
 from tests.fakes.waiting import eventually
 
 pytestmark = pytest.mark.live
@@ -76,8 +76,51 @@ def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_pat
     assert "nod" not in done
 
 
+@pytest.mark.slow
+def test_what_is_typed_while_the_executive_is_replaced_is_heard(tmp_path: Path):
+    run = tmp_path / "run"
+    with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
+        assert terminal.shows("`help` shows what can be said")
+        terminal.enter("walk three metres forward")
+        assert terminal.shows("walk | ")
+        terminal.enter("wait")
+        assert terminal.shows("Shall I go on with “walk three metres forward”?")
+        _kill_and_come_back(terminal)
+        assert eventually(lambda: terminal.text.count("Shall I go on with") == 2)
+        terminal.enter("yes")
+        assert terminal.shows("walk | ")
+        _kill(terminal)
+        terminal.press(CTRL_C)
+        assert terminal.shows("Stop is heard")
+        assert terminal.shows("The prompt is back; what was open is stopped")
+        terminal.press(CTRL_D)
+        assert eventually(lambda: terminal.process.poll() is not None)
+        assert terminal.process.returncode == 0
+    jobs = {e.data["job"]: e.data["state"] for e in read(run) if e.event == "job"}
+    assert jobs == {1: "cancelled"}
+
+
+@pytest.mark.slow
+def test_who_leaves_while_the_executive_is_replaced_leaves(tmp_path: Path):
+    run = tmp_path / "run"
+    with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
+        assert terminal.shows("`help` shows what can be said")
+        terminal.enter("walk three metres forward")
+        assert terminal.shows("walk | ")
+        _kill(terminal)
+        terminal.press("nod" + ENTER + CTRL_D)
+        assert eventually(lambda: terminal.process.poll() is not None)
+        assert terminal.process.returncode == 0
+
+
+def _kill(terminal: Terminal) -> None:
+    first, *_ = executives(terminal.process.pid)
+    before = terminal.text.count("killed by SIGKILL")
+    os.kill(first, signal.SIGKILL)
+    assert eventually(lambda: terminal.text.count("killed by SIGKILL") > before)
+
+
 def _kill_and_come_back(terminal: Terminal) -> None:
     before = terminal.text.count("The prompt is back")
-    first, *_ = executives(terminal.process.pid)
-    os.kill(first, signal.SIGKILL)
+    _kill(terminal)
     assert eventually(lambda: terminal.text.count("The prompt is back") > before)

@@ -392,8 +392,11 @@ def test_a_model_is_told_its_mistake_and_asked_once_more() -> None:
 @pytest.mark.parametrize(
     ("goal", "told"),
     [
-        ({"goal": "pick"}, "missing required field `object`"),
-        ({"goal": "juggle"}, "juggle"),
+        ({"goal": "pick"}, "goal 1: 'object' is missing"),
+        ({"goal": "juggle"}, "goal 1, goal: 'juggle' is not known"),
+        ({"goal": "pick", "object": {"name": [1]}}, "object.name: a list where a text"),
+        ({"goal": "wait", "duration_s": "soon"}, "duration_s: a text where a number"),
+        ({"goal": "walk_on_hands", "style": 1}, "'walk_on_hands' is not known"),
         ({"goal": "pick", "object": {"name": "plate", "color": "green"}}, "no green plate"),
         ({"goal": "cancel"}, "for a person to say"),
         ({"goal": "wait", "duration_s": "1e9"}, "86400"),
@@ -404,6 +407,7 @@ def test_what_is_wrong_is_told_in_words(goal: dict[str, Any], told: str) -> None
         model = LanguageModel(endpoint(server.url))
         assert model("tidy up", HOME, Context(entities=THERE)) is None
     assert told in server.requests[1]["messages"][-1]["content"]
+    assert "`" not in model.trouble  # a library's wording
 
 
 def test_what_cannot_be_done_here_is_told_too() -> None:

@@ -107,3 +107,5 @@ def test_a_file_that_is_not_text_is_refused(tmp_path):
 def test_nearest_falls_back_to_what_is_valid():
     assert config.nearest("kitchn", ["kitchen", "empty"]) == "did you mean 'kitchen'?"
     assert config.nearest("qqqqq", ["kitchen", "empty"]) == "valid: empty, kitchen"
+    many = [f"room {number:02}" for number in range(20)]
+    assert config.nearest("qqqqq", many).endswith("room 10, room 11 and 8 more")

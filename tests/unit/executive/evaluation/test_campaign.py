@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import tracemalloc
 
 import pytest
 
@@ -161,6 +162,24 @@ def test_what_no_run_can_have_come_to_is_not_believed(tmp_path, wrong):
     (tmp_path / FILE).write_text("".join(f"{json.dumps(line)}\n" for line in lines))
     with Results(tmp_path, fingerprint="x") as results:
         assert list(results.records) == ["a/1"]
+
+
+def test_a_large_file_is_read_line_by_line(tmp_path):
+    lines = [
+        b'{"code":"x"}\n',
+        *[b"y" * 999_999 + b"\n"] * 40,
+        json.dumps(_plain(record())).encode(),
+    ]
+    (tmp_path / FILE).write_bytes(b"".join(lines))
+    tracemalloc.start()
+    with Results(tmp_path, fingerprint="x") as results:
+        assert list(results.records) == ["a/0"]
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 5_000_000
+    (tmp_path / FILE).write_bytes(b'{"code":"x"}\n' + b"\n" * 300_000)
+    with pytest.raises(ConfigError, match="more than 200000 lines"):
+        Results(tmp_path, fingerprint="x")
 
 
 def test_results_of_another_mission_are_not_taken_for_those_of_this_one(tmp_path):

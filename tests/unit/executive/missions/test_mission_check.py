@@ -558,3 +558,32 @@ def test_an_expectation_of_several_parts_is_only_met_by_all_of_them(write):
         ("table",),
         ("counter",),
     ]
+
+
+def test_a_misspelt_world_or_a_wrong_item_hides_no_other_mistake(tmp_path):
+    path = tmp_path / "m.yaml"
+    path.write_text(
+        """name: m
+world: kitchenn
+robot: jun
+steps:
+  - pick up the purple cup
+  - go_to: {place: nowhere}
+expect: ["the red cup is on the moon", {objct: x}]
+faults: [{at_s: 1, fault: meteor}, {at_s: 1, fault: shove, strenth_n_s: 3}]
+"""
+    )
+    with pytest.raises(ConfigError) as refused:
+        check(path)
+    lines = [problem.line for problem in refused.value.problems]
+    assert lines == sorted(lines)
+    assert set(lines) == {2, 3, 5, 6, 7, 8}
+    assert lines.count(7) == lines.count(8) == 2
+
+
+def test_a_world_that_resembles_none_is_told_with_what_needs_no_world(tmp_path):
+    path = tmp_path / "m.yaml"
+    path.write_text("name: m\nworld: zzzzzz\nbogus: 1\nsteps: [wave]\n")
+    with pytest.raises(ConfigError) as refused:
+        check(path)
+    assert [problem.line for problem in refused.value.problems] == [2, 3]

@@ -69,6 +69,9 @@ WRONG = [
     ('<Delay delay_msec="9000000"><Say text="a"/></Delay>', "wait: 9000"),
     ('<NavigateThroughPoses goals="0;map;1;2;0;0;0;0;1;0;map;1e10;2;0;0;0;0;1"/>',
      "x_m: 10000000000"),
+    ('<Timeout msec="5s"><Say text="a"/></Timeout>', "msec is '5s', and must be"),
+    ('<Timeout><Say text="a"/></Timeout>', "Timeout: msec is missing"),
+    ('<Repeat num_cycles="-1"><Say text="a"/></Repeat>', "nothing here is without an end"),
     ('<Timeout msec="99999999"><Say text="a"/></Timeout>', "timeout_s: 99"),
     ('<RetryUntilSuccessful num_attempts="102"><Say text="a"/></RetryUntilSuccessful>',
      "at most 101"),
@@ -212,6 +215,34 @@ def test_trees_that_nothing_calls_are_named_and_looked_at(problems, tmp_path):
 )
 def test_what_does_nothing_leaves_nothing_behind(inside):
     assert steps_of(f'{inside}<Say text="a"/>') == [{"say": "a"}]
+
+
+def tried(step, working):
+    """What a step says until it is done, where only some can be said; and whether it is done."""
+    if "say" in step:
+        return [step["say"]], step["say"] in working
+    said = []
+    for one in step["do"]:
+        more, done = tried(one, working)
+        said += more
+        if not done:
+            break
+    else:
+        return said, True
+    if "on_fail" not in step:
+        return said, False
+    more, done = tried({"do": step["on_fail"]["any"]}, working)
+    return said + more, done
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 21, 200])
+def test_a_fallback_of_any_length_tries_one_after_the_other(count):
+    names = [f"t{number}" for number in range(count)]
+    children = "".join(f'<Say text="{name}"/>' for name in names)
+    (step,) = steps_of(f"<Fallback>{children}</Fallback>")
+    for at in {0, count // 2, count - 1}:
+        assert tried(step, {names[at]}) == (names[: at + 1], True)
+    assert tried(step, set()) == (names, False)
 
 
 def test_beside_what_does_nothing_one_branch_is_no_parallel():

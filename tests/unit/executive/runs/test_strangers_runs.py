@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from executive.frontends import launching
+from executive.journal import past_runs
 from executive.journal.journal import Event
 from executive.missions.check import Options
 from executive.runs import mission_task, run_folder
@@ -17,6 +19,7 @@ from robot.errors import ConfigError, Problem
 from tests.fakes.missions import check, known
 
 WHERE = known("empty", robot="juno")
+SQUAT = b'{"n":0,"t_s":0.0,"event":"run","text":"squat","world":"empty","seed":3}\n'
 SUBMIT: dict[str, Any] = {"request": "submit", "text": "x", "urgent": False, "limits": {},
                           "origin": {"goals": []}}  # fmt: skip
 
@@ -260,6 +263,48 @@ def test_a_folder_of_runs_in_which_every_user_can_exchange_them_is_refused(tmp_p
         run_folder.folder_for("squat", stamp="20260101-120000", base=base)
     base.chmod(0o1777)
     assert run_folder.folder_for("squat", stamp="20260101-120000", base=base).is_dir()
+
+
+@pytest.mark.parametrize("state", [None, "state"])
+def test_below_a_folder_of_others_a_run_is_kept_at_home_and_found_there(
+    tmp_path, monkeypatch, capsys, state
+):
+    theirs, home = tmp_path / "theirs", tmp_path / "home"
+    for folder in (theirs, home):
+        folder.mkdir()
+    theirs.chmod(0o777)
+    monkeypatch.chdir(theirs)
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.delenv("XDG_STATE_HOME", raising=False)
+    if state:
+        monkeypatch.setenv("XDG_STATE_HOME", str(home / state))
+    folder = launching.folder_for(None, "squat")
+    assert folder.is_relative_to(home / (state or ".local/state") / "humanoid" / "runs")
+    assert {path.stat().st_mode & 0o777 for path in (folder, *list(folder.parents)[:2])} == {0o700}
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert "This run is kept in" in told
+    assert "can be changed by every user" in told
+    (folder / "journal.jsonl").write_bytes(SQUAT)
+    assert past_runs.find(None) == past_runs.find("squat") == folder
+    assert [Path(one.folder) for one in past_runs.history()] == [folder]
+    monkeypatch.chdir(home)  # what lies there is of the other folder
+    assert past_runs.runs() == []
+    assert list(theirs.iterdir()) == []
+
+
+def test_who_names_a_folder_of_others_is_refused(tmp_path, monkeypatch):
+    shared = tmp_path / "shared"
+    shared.mkdir()
+    shared.chmod(0o777)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    with pytest.raises(ConfigError, match="every user"):
+        launching.folder_for(shared / "run", "squat")
+    monkeypatch.chdir(shared)
+    shared.chmod(0o777)
+    (tmp_path / "home").write_text("no folder")
+    with pytest.raises(ConfigError, match="every user"):  # no home to go to
+        launching.folder_for(None, "squat")
 
 
 def test_a_link_in_the_place_of_a_journal_is_one_that_is_there(tmp_path):

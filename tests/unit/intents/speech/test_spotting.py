@@ -123,12 +123,16 @@ def test_a_halt_comes_first_and_what_is_asked_after():
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
-    [("wave", "wait"), ("wait go to the table", "wait go to the table")],
+    ("text", "end"),
+    [
+        ("wave", ("halted", "wait")),
+        ("", ("halted", "wait")),
+        ("wait go to the table", ("sentence", "wait go to the table")),
+    ],
 )
-def test_after_a_halt_only_what_agrees_with_it_is_done(text, told):
+def test_after_a_halt_only_what_agrees_with_it_is_done(text, end):
     found = listened(Told("wait", heard=Heard(text=text)))
-    assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), ("sentence", told)]
+    assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), end]
 
 
 def test_nothing_is_spotted_of_a_robot_that_is_not_at_work():

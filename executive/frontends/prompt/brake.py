@@ -1,0 +1,132 @@
+"""What brings the robot to a stand: stops, halts, the emergency stop, and whoever leaves.
+
+All of it may be called from any thread, and waits for nobody.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from executive.frontends.prompt.halt import Halt
+from executive.frontends.prompt.robot import AtWork
+from executive.frontends.prompt.stance import standing
+from executive.frontends.speaking import Speech
+from intents.dialogue import Dialogue
+from intents.stopping import is_stay, is_stop
+
+if TYPE_CHECKING:
+    from intents.language_model import LanguageModel
+
+
+class Brake:
+    """Stops and halts a robot that is spoken to.
+
+    Attributes:
+        halt: whether it has halted for a cry, and waits to be told more.
+        stops: how often it was told to stop; a line from before the last one comes to nothing.
+        speech: falls silent with a stop.
+    """
+
+    def __init__(
+        self,
+        robot: AtWork,
+        dialogue: Dialogue,
+        *,
+        out: Callable[[str], None],
+        speech: Speech,
+        model: LanguageModel | None,
+    ) -> None:
+        """Nobody has said stop yet.
+
+        Args:
+            robot: that is stopped.
+            dialogue: is forgotten with a stop.
+            out: says a line to people.
+            speech: falls silent.
+            model: is waited for no longer.
+        """
+        self.halt = Halt(robot.executive)
+        self.stops = 0
+        self._robot = robot
+        self._dialogue = dialogue
+        self._out = out
+        self.speech = speech
+        self._model = model
+        self._lock = threading.Lock()
+
+    def is_cry(self, text: str) -> bool:
+        """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
+        return is_stop(text) or (self._robot.busy and is_stay(text))
+
+    def stop(self, why: str) -> None:
+        """Bring the robot to a stand and end all jobs, be silent, and say so."""
+        busy = self._robot.busy
+        self.stop_unsaid(why)
+        self._out("Stopping." if busy else self.standing())
+
+    def stop_unsaid(self, why: str) -> None:
+        """Stop without a word; first the robot, then what only is in the way of hearing."""
+        with self._lock:
+            self.stops += 1
+            self._robot.executive.stop(why)
+            self.halt.forget()
+        self._ask_model_no_more()
+        self.speech.hush()
+        self._dialogue.forget()
+
+    def press(self) -> None:
+        """Press the emergency stop."""
+        self.speech.hush()
+        self._robot.executive.press_estop("the operator pressed the emergency stop")
+
+    def halt_robot(self) -> None:
+        """Come to a stand at once and keep the jobs, until it is known what is wanted."""
+        with self._lock:
+            self.halt.begin()
+        self.speech.hush()
+
+    def settle_halt(self) -> None:
+        """It was said what is to become of the jobs that were halted; it is asked no more."""
+        if self.halt.on:
+            self.halt.forget()
+            self._dialogue.unask()
+
+    def give_up_halted(self) -> None:
+        """End what was halted; what waits after it is asked about next."""
+        self.halt.give_up(self.halt.kept, "cancelled on request")
+        self._dialogue.unask()
+
+    def ask_no_more(self) -> bool:
+        """Close what was asked of the person; whether there was anything."""
+        if self._dialogue.question is None:
+            return False
+        self._dialogue.forget()
+        self._out("I ask no more.")
+        return True
+
+    def leave(self) -> None:
+        """Let nothing begin any more, and bring the robot to a stand."""
+        with self._lock:
+            self.stops += 1
+            if self._robot.busy:
+                self._robot.executive.stop("the operator leaves")
+        self._ask_model_no_more()
+
+    def stopped_since(self, stops: int | None) -> bool:
+        """Whether there was a stop since there had been so many (None: since now)."""
+        return stops not in (None, self.stops)
+
+    def unless_stopped(self, stops: int | None, begin: Callable[[], int]) -> int | None:
+        """What `begin` returns; None, and it is not called, if there was a stop since `stops`."""
+        with self._lock:
+            return None if self.stopped_since(stops) else begin()
+
+    def standing(self) -> str:
+        """What is true of a robot that has nothing to stop."""
+        return standing(self._robot.executive, self._robot.view)
+
+    def _ask_model_no_more(self) -> None:
+        if self._model is not None:
+            self._model.give_up()
