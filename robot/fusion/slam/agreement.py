@@ -10,7 +10,7 @@ from robot.se3 import Array
 
 THROUGH_M = 0.4
 THROUGH_SHARE = 0.05
-"""A beam must have gone this much farther than a point: the corner beside a beam is no contradiction."""
+"""A beam went through a point if it went this much farther: beside a corner it may."""
 
 
 def contradicted(patch: Patch, points: Array, *, every: int = 3) -> float:

@@ -54,14 +54,14 @@ class Tracked:
     Attributes:
         pose: in the front end's frame.
         key: whether it became a key frame.
-        sure: whether the scan was matched, rather than placed by odometry.
-        information: (3, 3), of the match.
+        information: (3, 3), of the match; zero where there was none.
+        blind: (3,) variances of the way since the last key frame that only odometry tells.
     """
 
     pose: Array
     key: bool
-    sure: bool
     information: Array
+    blind: Array
 
 
 class FrontEnd:
@@ -80,6 +80,7 @@ class FrontEnd:
         self._patch: Patch | None = None
         self._raster: Raster | None = None
         self._lost = 0
+        self._blind = np.zeros(3)
         self._noise = 1.0
 
     def track(self, scan: Scan, odometry: Array) -> Tracked:
@@ -88,31 +89,42 @@ class FrontEnd:
         self._odometry = odometry
         before_m, self._seen_m = self._seen_m, scan.seen_m
         if self._patch is None:
-            return self._keep(scan, sure=True, information=np.zeros((3, 3)))
+            return self._keep(scan, np.zeros((3, 3)))
         way_m, turn_rad = float(np.hypot(moved[0], moved[1])), abs(float(moved[2]))
-        if way_m < STILL_M and turn_rad < STILL_RAD and not self._lost and _alike(before_m, scan.seen_m):
+        if (
+            way_m < STILL_M
+            and turn_rad < STILL_RAD
+            and not self._lost
+            and _alike(before_m, scan.seen_m)
+        ):
             self.pose = compose(self.pose, moved)
-            return Tracked(self.pose, key=False, sure=True, information=np.zeros((3, 3)))
-        sigmas = np.array(
-            [
-                SLIP_M + SLIP_SHARE * way_m,
-                SLIP_M + SLIP_SHARE * way_m,
-                SLIP_RAD + SLIP_TURN_SHARE * turn_rad + SLIP_RAD_PER_M * way_m,
-            ]
-        ) * (1.0 + self._lost) * self._noise
+            return Tracked(self.pose, key=False, information=np.zeros((3, 3)), blind=self._blind)
+        sigmas = (
+            np.array(
+                [
+                    SLIP_M + SLIP_SHARE * way_m,
+                    SLIP_M + SLIP_SHARE * way_m,
+                    SLIP_RAD + SLIP_TURN_SHARE * turn_rad + SLIP_RAD_PER_M * way_m,
+                ]
+            )
+            * (1.0 + self._lost)
+            * self._noise
+        )
         expected = compose(self.pose, moved)
         found = self._find(scan, expected, sigmas)
         sure = found is not None
         self.pose = expected if found is None else found.pose
         self._lost = 0 if sure else min(self._lost + 1, 10)
         information = np.zeros((3, 3)) if found is None else found.information
-        if found is not None:
+        if found is None:
+            self._blind = self._blind + sigmas**2
+        else:
             self._learn(found.pose - expected, sigmas / self._noise)
         last = self._recent[-1][1]
         apart = between(last, self.pose)
         if np.hypot(apart[0], apart[1]) > self._key_m or abs(apart[2]) > KEY_RAD:
-            return self._keep(scan, sure=sure, information=information)
-        return Tracked(self.pose, key=False, sure=sure, information=information)
+            return self._keep(scan, information)
+        return Tracked(self.pose, key=False, information=information, blind=self._blind)
 
     def _learn(self, innovation: Array, sigmas: Array) -> None:
         """How much worse odometry is than thought: a slow mean of normalised innovations."""
@@ -159,12 +171,13 @@ class FrontEnd:
         other = match(self._patch, scan.points, scan.normals, searched.pose)
         return other if other.fit > found.fit + BETTER else found
 
-    def _keep(self, scan: Scan, *, sure: bool, information: Array) -> Tracked:
+    def _keep(self, scan: Scan, information: Array) -> Tracked:
         self._recent.append((scan, self.pose))
         scans, poses = zip(*self._recent, strict=True)
         self._patch = Patch(scans, poses)
         self._raster = None
-        return Tracked(self.pose, key=True, sure=sure, information=information)
+        blind, self._blind = self._blind, np.zeros(3)
+        return Tracked(self.pose, key=True, information=information, blind=blind)
 
 
 def _alike(before_m: Array | None, now_m: Array) -> bool:

@@ -15,7 +15,6 @@ import numpy as np
 
 from robot.fusion.slam.agreement import contradicted
 from robot.fusion.slam.matching import TIGHT_GATES_M, match
-from robot.fusion.slam.numerics import shortest_paths
 from robot.fusion.slam.patch import Patch
 from robot.fusion.slam.planar import between, placed
 from robot.fusion.slam.pose_graph import PoseGraph
@@ -52,8 +51,11 @@ AT_ONCE_RAD = np.radians(6.0)
 ALONE_M = 2.0
 """A window larger than this needs confirmation."""
 SCORE = 0.5
-FIT = 0.65
+FIT = 0.45
+FAR_FIT = 0.6
 CONTRADICTED = 0.15
+LENGTH_M = 0.3
+"""As how long a way a loop counts."""
 STIFFNESS = 300.0
 """Least eigenvalue of a match's information [1/m²]: less leaves a direction open."""
 KEPT = 16
@@ -117,20 +119,32 @@ class Places:
         return patch, grid
 
 
-def unsureness(graph: PoseGraph, poses: Array, source: int) -> tuple[Array, Array, Array]:
-    """1 sigma of place [m] and heading [rad] of every key frame as seen from one, and the way.
+def unsureness(graph: PoseGraph, current: int, way_m: Array) -> tuple[Array, Array]:
+    """1 sigma of place [m] and heading [rad] of every key frame as seen from one.
 
     Along the shortest way through the graph: an upper bound, since every other way only adds to
     what is known.
+
+    Args:
+        graph: what is known of the key frames.
+        current: the one that looks.
+        way_m: of every key frame from the first one.
     """
-    begins, ends = graph.ends()
-    apart = between(poses[begins], poses[ends])
-    lengths = np.hypot(apart[:, 0], apart[:, 1]) + TURN_M * np.abs(apart[:, 2]) + 1e-3
-    lengths = np.where(graph.is_loop(), 0.3, lengths)
-    way = shortest_paths(begins, ends, lengths, nodes=len(poses), source=source)
-    heading = HEADING_DRIFT * way
-    place = WAY_DRIFT * way + heading * (LEVER * way) ** 2
-    return np.sqrt(place), np.sqrt(heading), way
+    length = graph.way_from(current, len(way_m))
+    heading = HEADING_DRIFT * length
+    arm = LEVER * np.minimum(length, np.abs(way_m - way_m[current]))
+    return np.sqrt(WAY_DRIFT * length + heading * arm**2), np.sqrt(heading)
+
+
+def length_of(step: Array, blind: Array) -> float:
+    """As how long a way a step between two key frames counts [m].
+
+    Args:
+        step: x, y, heading.
+        blind: variances of what odometry alone tells of it.
+    """
+    way = float(np.hypot(step[0], step[1])) + TURN_M * abs(float(step[2])) + 1e-3
+    return way + max(float(blind[2]) / HEADING_DRIFT, float(blind[0]) / WAY_DRIFT)
 
 
 def along(poses: Array) -> Array:
@@ -209,7 +223,10 @@ def close(
             return None
         start, gates = found.pose, (0.4, 0.25, 0.15)
     matched = match(patch, scan.points, scan.normals, start, gates_m=gates)
-    if matched.fit < FIT or np.linalg.eigvalsh(matched.information)[0] < STIFFNESS:
+    if (
+        matched.fit < (FAR_FIT if window_m > ALONE_M else FIT)
+        or np.linalg.eigvalsh(matched.information)[0] < STIFFNESS
+    ):
         return None
     if contradicted(patch, placed(matched.pose, scan.points)) > CONTRADICTED:
         return None

@@ -19,8 +19,8 @@ STEP_RAD = np.radians(0.5)
 LOOP_M = 0.03
 LOOP_RAD = np.radians(0.5)
 """1 sigma of a relative pose from the front end, and from a loop."""
-GUESSED = 5.0
-"""How much worse a step is that odometry alone tells."""
+OPEN = np.diag([10.0, 10.0, 100.0])
+"""Information of a direction that a match says nothing of: 0.3 m, 0.1 rad."""
 OPTIMISE_EVERY = 25
 CONFIRM = 3
 CONFIRM_WITHIN = 15
@@ -67,45 +67,21 @@ class Mapper:
             self.poses = tracked.pose[None].copy()
             return
         step = between(self._fronts[-2], self._fronts[-1])
-        sigma = 1.0 if tracked.sure else GUESSED
-        way = float(np.hypot(step[0], step[1]))
         self.graph.add(
             len(self.scans) - 2,
             len(self.scans) - 1,
             step,
-            _information(
-                tracked.information,
-                sigma * max(STEP_M, 0.0 if tracked.sure else 0.2 * way),
-                sigma * STEP_RAD,
-            ),
+            _information(tracked.information, STEP_M, STEP_RAD, blind=tracked.blind),
             robust=False,
+            length_m=loops.length_of(step, tracked.blind),
         )
         self.poses = np.vstack([self.poses, compose(self.poses[-1], step)])
         if self.closing:
             self._close()
 
     def _close(self) -> None:
-        current = len(self.scans) - 1
-        place, heading, _ = loops.unsureness(self.graph, self.poses, current)
         added = far = False
-        for target in loops.targets(
-            self.poses,
-            current,
-            place,
-            sight_m=self._sight_m(current),
-            way_m=loops.along(self.poses),
-        ):
-            loop = loops.close(
-                self._places,
-                self.scans[current],
-                self.poses,
-                begin=target,
-                end=current,
-                place_m=float(place[target]),
-                heading_rad=float(heading[target]),
-            )
-            if loop is None:
-                continue
+        for loop in self._seen_again(len(self.scans) - 1):
             if loop.window_m > loops.ALONE_M:
                 far = self._confirm(loop) or far
             else:
@@ -114,16 +90,35 @@ class Mapper:
         self._since += added
         if far or self._since >= OPTIMISE_EVERY:
             self.poses = self.graph.optimised(self.poses, iterations=20 if far else 3)
-            self._places.forget()
             self._since = 0
             if far:
+                self._places.forget()
                 self._pending.clear()
+
+    def _seen_again(self, current: int) -> list[Loop]:
+        """The loops that a key frame closes with older ones."""
+        way_m = loops.along(self.poses)
+        place, heading = loops.unsureness(self.graph, current, way_m)
+        targets = loops.targets(
+            self.poses, current, place, sight_m=self._sight_m(current), way_m=way_m
+        )
+        closed = [
+            loops.close(
+                self._places,
+                self.scans[current],
+                self.poses,
+                begin=target,
+                end=current,
+                place_m=float(place[target]),
+                heading_rad=float(heading[target]),
+            )
+            for target in targets
+        ]
+        return [loop for loop in closed if loop is not None]
 
     def _confirm(self, loop: Loop) -> bool:
         """Keep a far loop until others say the same; whether it now counts."""
-        self._pending = [
-            other for other in self._pending if other.end > loop.end - CONFIRM_WITHIN
-        ]
+        self._pending = [other for other in self._pending if other.end > loop.end - CONFIRM_WITHIN]
         self._pending.append(loop)
         mine = compose(self.poses[loop.begin], loop.measured)
         same: list[Loop] = []
@@ -148,6 +143,7 @@ class Mapper:
             loop.measured,
             _information(loop.information, LOOP_M, LOOP_RAD),
             robust=True,
+            length_m=loops.LENGTH_M,
         )
 
     def _sight_m(self, key: int) -> float:
@@ -155,27 +151,17 @@ class Mapper:
         return float(np.median(np.hypot(points[:, 0], points[:, 1]))) if len(points) else 0.0
 
     def finish(self) -> None:
-        """Bring all measurements together."""
+        """Bring all measurements together, and look again where no loop was found on the way."""
         self.poses = self.graph.optimised(self.poses)
-
-    def refine(self) -> None:
-        """Measure all loops anew from where the key frames are now known to be."""
+        if not self.closing:
+            return
         self._places.forget()
-        fresh: list[Loop] = []
-        none, way = np.zeros(len(self.poses)), loops.along(self.poses)
-        for current in range(len(self.scans)):
-            for target in loops.targets(
-                self.poses, current, none, sight_m=self._sight_m(current), way_m=way
-            ):
-                loop = loops.close(
-                    self._places, self.scans[current], self.poses,
-                    begin=target, end=current, place_m=0.05, heading_rad=0.01,
-                )
-                if loop is not None:
-                    fresh.append(loop)
-        self.graph.drop_loops()
-        for loop in fresh:
-            self._add(loop)
+        looped = self.graph.looped()
+        for current in range(1, len(self.scans)):
+            if current not in looped:
+                for loop in self._seen_again(current):
+                    if loop.window_m <= loops.ALONE_M:
+                        self._add(loop)
         self.poses = self.graph.optimised(self.poses)
 
     def trajectory(self) -> Array:
@@ -184,9 +170,7 @@ class Mapper:
         keys = np.array(self._of_keys)
         before = np.searchsorted(keys, np.arange(len(tracked)), side="right") - 1
         after = np.minimum(before + 1, len(keys) - 1)
-        from_before = compose(
-            self.poses[before], between(tracked[keys[before]], tracked)
-        )
+        from_before = compose(self.poses[before], between(tracked[keys[before]], tracked))
         from_after = compose(self.poses[after], between(tracked[keys[after]], tracked))
         span = np.maximum(keys[after] - keys[before], 1)
         share = np.clip((np.arange(len(tracked)) - keys[before]) / span, 0.0, 1.0)
@@ -198,8 +182,18 @@ class Mapper:
         return result
 
 
-def _information(matched: Array, sigma_m: float, sigma_rad: float) -> Array:
-    """Of a match whose errors have a floor: what the points leave open stays open."""
+def _information(
+    matched: Array, sigma_m: float, sigma_rad: float, *, blind: Array | None = None
+) -> Array:
+    """Of a match whose errors have a floor: what the points leave open stays open.
+
+    Args:
+        matched: (3, 3) information of the match.
+        sigma_m: the floor of its place.
+        sigma_rad: the floor of its heading.
+        blind: (3,) variances that are added.
+    """
     floor = np.diag([sigma_m**2, sigma_m**2, sigma_rad**2])
-    open_ = np.linalg.inv(matched + np.diag([10.0, 10.0, 100.0]))
-    return np.linalg.inv(floor + open_)
+    if blind is not None:
+        floor = floor + np.diag(blind)
+    return np.asarray(np.linalg.inv(floor + np.linalg.inv(matched + OPEN)))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from robot.fusion.slam.numerics import solve
 from robot.fusion.slam.patch import WIDEST_M, Patch
 from robot.fusion.slam.planar import turn, wrapped
 from robot.se3 import Array
@@ -64,9 +65,9 @@ def match(
         prior: information (3, 3) of the start; none by default.
         gates_m: how far a neighbour may be, by iteration.
     """
-    pose = start.astype(float)
+    pose = np.array(start, dtype=float)
     size = patch.tree.size
-    information = np.zeros((3, 3))
+    information: Array = np.zeros((3, 3))
     fit = 0.0
     for step in range(ITERATIONS):
         gate_m = gates_m[min(step, len(gates_m) - 1)]
@@ -85,9 +86,7 @@ def match(
         errors = np.einsum("ij,ij->i", arms + pose[:2] - patch.points[found], across)
         scale = 0.5 * gate_m
         weights = alike / (1.0 + (errors / scale) ** 2) ** 2
-        jacobian = np.column_stack(
-            [across, across[:, 1] * arms[:, 0] - across[:, 0] * arms[:, 1]]
-        )
+        jacobian = np.column_stack([across, across[:, 1] * arms[:, 0] - across[:, 0] * arms[:, 1]])
         weighted = jacobian * (weights / POINT_M**2)[:, None]
         information = weighted.T @ jacobian
         right = weighted.T @ errors
@@ -98,7 +97,7 @@ def match(
             off[2] = wrapped(off[2])
             matrix = matrix + prior
             right = right + prior @ off
-        change = -np.linalg.solve(matrix, right)
+        change = solve(matrix, -right)
         pose = pose + change
         if (
             step >= len(gates_m) - 1

@@ -41,7 +41,7 @@ def inverse(pose: Array) -> Array:
 
 
 def turn(angle_rad: float) -> Array:
-    """The matrix, transposed, that turns rows of points: `points @ turn(angle)`."""
+    """The matrix that turns rows of points by an angle when it stands to their right."""
     cos, sin = np.cos(angle_rad), np.sin(angle_rad)
     return np.array([[cos, sin], [-sin, cos]])
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robot.fusion.slam.numerics import Indices, Mask, solve_sparse
+from robot.fusion.slam.numerics import Indices, shortest_paths, solve_sparse
 from robot.fusion.slam.planar import wrapped
 from robot.se3 import Array
 
@@ -28,43 +28,54 @@ class PoseGraph:
         self._measured: list[Array] = []
         self._information: list[Array] = []
         self._robust: list[bool] = []
+        self._lengths_m: list[float] = []
 
     def add(
-        self, begin: int, end: int, measured: Array, information: Array, *, robust: bool
+        self,
+        begin: int,
+        end: int,
+        measured: Array,
+        information: Array,
+        *,
+        robust: bool,
+        length_m: float,
     ) -> None:
-        """Add that key frame `end` is at `measured` in the frame of key frame `begin`."""
+        """Add that key frame `end` is at `measured` in the frame of key frame `begin`.
+
+        Args:
+            begin: a key frame.
+            end: another one.
+            measured: x, y, heading.
+            information: (3, 3), the inverse of its covariance.
+            robust: whether it may be wrong altogether, as a loop may.
+            length_m: it is as unsure as a way of this length.
+        """
         self._begins.append(begin)
         self._ends.append(end)
         self._measured.append(measured)
         self._information.append(information)
         self._robust.append(robust)
-
-    def drop_loops(self) -> None:
-        """Forget what is robust."""
-        kept = [k for k, robust in enumerate(self._robust) if not robust]
-        for values in (
-            self._begins, self._ends, self._measured, self._information, self._robust,
-        ):
-            values[:] = [values[k] for k in kept]
+        self._lengths_m.append(length_m)
 
     @property
     def loops(self) -> int:
         """How many."""
         return sum(self._robust)
 
-    def ends(self) -> tuple[Indices, Indices]:
-        """First and second key frame of every edge."""
-        return np.array(self._begins), np.array(self._ends)
+    def looped(self) -> set[int]:
+        """Key frames that a loop ends in."""
+        pairs = zip(self._ends, self._robust, strict=True)
+        return {end for end, robust in pairs if robust}
 
-    def is_loop(self) -> Mask:
-        """Which edges are loops."""
-        return np.array(self._robust, dtype=bool)
-
-    def say(self, poses: Array) -> Array:
-        """Weight of every edge under its kernel, 0 to 1."""
-        begins, ends, measured, information, robust = self._arrays()
-        errors, _, _ = _linearised(poses, begins, ends, measured)
-        return _weights(errors, information, robust)
+    def way_from(self, source: int, nodes: int) -> Array:
+        """The shortest way from a key frame to each of all `nodes` [m]."""
+        return shortest_paths(
+            np.array(self._begins),
+            np.array(self._ends),
+            np.array(self._lengths_m),
+            nodes=nodes,
+            source=source,
+        )
 
     def optimised(self, poses: Array, *, iterations: int = ITERATIONS) -> Array:
         """The poses (n, 3) that fit best, from a start."""

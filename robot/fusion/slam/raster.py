@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.fusion.slam.numerics import Indices, maximum_over
+from robot.fusion.slam.numerics import Indices, combinations
 from robot.fusion.slam.planar import turn
 from robot.se3 import Array
 
@@ -24,8 +24,8 @@ LARGEST_M = 80.0
 BATCH = 256
 POINTS = 100
 ARM_M = 12.0
-"""A search takes so many points, and none that are farther away: a step of an angle would carry them
-over several cells."""
+"""A search takes so many points, and none that are farther away: a step of an angle would carry
+them over several cells."""
 MOST = 60_000
 """Poses that are looked at before a search is given up: a place that is so much like itself, or so
 empty, that bounds do not help."""
@@ -73,7 +73,7 @@ class Raster:
             both = wide.copy()
             np.maximum(both[:, :-half], wide[:, half:], out=both[:, :-half])
             self._levels.append(both)
-        self._shape = grid.shape
+        self._width, self._height = int(high[0] - low[0]), int(high[1] - low[1])
 
     def search(
         self,
@@ -99,9 +99,8 @@ class Raster:
         top = len(self._levels) - 1
         while top > 0 and 2**top > 2 * reach:
             top -= 1
-        starts = np.arange(-reach, reach + 1, 2**top)
-        a, dx, dy = np.meshgrid(np.arange(len(headings)), starts, starts, indexing="ij")
-        candidates = np.column_stack([a.ravel(), dx.ravel(), dy.ravel()])
+        starts: Indices = np.arange(-reach, reach + 1, 2**top, dtype=np.int64)
+        candidates = combinations(np.arange(len(headings)), starts, starts)
         # Of equal scores the one nearest the middle wins: last resort in a bare corridor.
         best = _Best(score=least, left=MOST)
         self._descend(cells, candidates, top, reach, best)
@@ -122,7 +121,7 @@ class Raster:
         # A cell left of or below the grid still reaches into it when its block does: the margin.
         places = cells[candidates[:, 0]] + candidates[:, None, 1:]
         x, y = places[..., 0], places[..., 1]
-        width, height = self._shape
+        width, height = self._width, self._height
         inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
         values = grid.ravel().take(np.where(inside, x * height + y, 0))
         values *= inside
@@ -145,7 +144,8 @@ class Raster:
             first = order[0]
             if scores[first] > best.score:
                 best.score = float(scores[first])
-                best.candidate = tuple(int(value) for value in candidates[first])  # type: ignore
+                angle, x, y = (int(value) for value in candidates[first])
+                best.candidate = angle, x, y
             return
         half = 2 ** (level - 1)
         width = 8

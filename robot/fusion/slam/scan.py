@@ -102,7 +102,5 @@ def _standing_alone(points: Array, ranges: Array, returned: Mask, joined: Mask) 
     far = np.where(returned, ranges, np.inf)
     left = np.where(begins > 0, far[begins - 1], 0.0)
     right = np.where(ends < size - 1, far[np.minimum(ends + 1, size - 1)], 0.0)
-    alone = (
-        (width < NARROW_M) & (left > far[begins] + GAP_M) & (right > far[ends] + GAP_M)
-    )
+    alone = (width < NARROW_M) & (left > far[begins] + GAP_M) & (right > far[ends] + GAP_M)
     return np.repeat(alone, ends - begins + 1)
