@@ -9,6 +9,7 @@ import numpy as np
 from robot.fusion.slam import loops
 from robot.fusion.slam.front_end import FrontEnd
 from robot.fusion.slam.loops import Loop, Places
+from robot.fusion.slam.numerics import inverse_of
 from robot.fusion.slam.planar import between, compose, wrapped
 from robot.fusion.slam.pose_graph import PoseGraph
 from robot.fusion.slam.scan import Scan
@@ -196,4 +197,4 @@ def _information(
     floor = np.diag([sigma_m**2, sigma_m**2, sigma_rad**2])
     if blind is not None:
         floor = floor + np.diag(blind)
-    return np.asarray(np.linalg.inv(floor + np.linalg.inv(matched + OPEN)))
+    return inverse_of(floor + inverse_of(matched + OPEN))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,14 @@ def combinations(first: Indices, second: Indices, third: Indices) -> Indices:
 
 def solve(matrix: Array, right: Array) -> Array:
     """Solution of a small system."""
-    return np.asarray(np.linalg.solve(matrix, right))
+    result: Any = np.linalg.solve(matrix, right)
+    return result
+
+
+def inverse_of(matrix: Array) -> Array:
+    """Inverse of a small matrix."""
+    result: Any = np.linalg.inv(matrix)
+    return result
 
 
 def by_blocks(grid: NDArray[np.uint8], side: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
