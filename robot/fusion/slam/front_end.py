@@ -141,7 +141,7 @@ class FrontEnd:
         if found.fit >= FITS:
             return found
         if self._raster is None:
-            self._raster = Raster(self._patch.filled(CELL_M), levels=3)
+            self._raster = Raster(self._patch.filled(CELL_M), levels=3, reach_m=LARGEST_WINDOW_M)
         reach_m = float(np.clip(WINDOW_SIGMAS * sigmas[0], LEAST_WINDOW_M, LARGEST_WINDOW_M))
         reach_rad = float(np.clip(WINDOW_SIGMAS * sigmas[2], LEAST_WINDOW_RAD, LARGEST_WINDOW_RAD))
         found = self._search(scan, expected, found, reach_m, reach_rad)

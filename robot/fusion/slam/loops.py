@@ -18,7 +18,7 @@ from robot.fusion.slam.matching import TIGHT_GATES_M, match
 from robot.fusion.slam.patch import Patch
 from robot.fusion.slam.planar import between, placed
 from robot.fusion.slam.pose_graph import PoseGraph
-from robot.fusion.slam.raster import CELL_M, Raster, search_points
+from robot.fusion.slam.raster import Raster, search_points
 from robot.fusion.slam.scan import Scan
 from robot.se3 import Array
 
@@ -58,8 +58,10 @@ LENGTH_M = 0.3
 """As how long a way a loop counts."""
 STIFFNESS = 300.0
 """Least eigenvalue of a match's information [1/m²]: less leaves a direction open."""
-KEPT = 16
-"""Patches with their rasters that are kept at hand."""
+FINE, COARSE = (0.1, 4, 2.2), (0.2, 5, LARGEST_M + 0.2)
+"""Side of a cell [m], coarser levels, and largest reach [m] of the rasters of patches."""
+KEPT = 32
+"""Patches and rasters that are kept at hand."""
 STEP_RAD = np.radians(1.5)
 
 
@@ -80,17 +82,35 @@ class Places:
 
     def __init__(self, scans: Sequence[Scan]) -> None:
         self._scans = scans
-        self._kept: OrderedDict[int, tuple[Patch, Raster | None]] = OrderedDict()
+        self._kept: OrderedDict[tuple[int, float], Patch | Raster] = OrderedDict()
 
     def patch(self, center: int, poses: Array) -> Patch:
         """The key frames around one, in its frame."""
-        return self._get(center, poses, raster=False)[0]
+        kept = self._kept.get((center, 0.0))
+        if not isinstance(kept, Patch):
+            around = self._around(center, poses)
+            kept = Patch(
+                [self._scans[k] for k in around],
+                [between(poses[center], poses[k]) for k in around],
+            )
+        self._keep((center, 0.0), kept)
+        return kept
 
-    def raster(self, center: int, poses: Array) -> Raster:
-        """Their raster."""
-        raster = self._get(center, poses, raster=True)[1]
-        assert raster is not None
-        return raster
+    def raster(self, center: int, poses: Array, reach_m: float) -> Raster:
+        """Their raster, coarser for a large window."""
+        cell_m, levels, most_m = FINE if reach_m <= FINE[2] else COARSE
+        kept = self._kept.get((center, cell_m))
+        if not isinstance(kept, Raster):
+            points = self.patch(center, poses).filled(cell_m)
+            kept = Raster(points, levels=levels, reach_m=most_m, cell_m=cell_m)
+        self._keep((center, cell_m), kept)
+        return kept
+
+    def _keep(self, key: tuple[int, float], made: Patch | Raster) -> None:
+        self._kept[key] = made
+        self._kept.move_to_end(key)
+        if len(self._kept) > KEPT:
+            self._kept.popitem(last=False)
 
     def forget(self) -> None:
         """Make them anew: the poses were changed."""
@@ -102,21 +122,6 @@ class Places:
         way = np.concatenate([[0.0], np.cumsum(steps)])
         near = np.flatnonzero(np.abs(way - way[center - low]) <= AROUND_M)
         return range(low + int(near[0]), low + int(near[-1]) + 1)
-
-    def _get(self, center: int, poses: Array, *, raster: bool) -> tuple[Patch, Raster | None]:
-        patch, grid = self._kept.pop(center, (None, None))
-        if patch is None:
-            around = self._around(center, poses)
-            patch = Patch(
-                [self._scans[k] for k in around],
-                [between(poses[center], poses[k]) for k in around],
-            )
-        if raster and grid is None:
-            grid = Raster(patch.filled(CELL_M), levels=6)
-        self._kept[center] = (patch, grid)
-        if len(self._kept) > KEPT:
-            self._kept.popitem(last=False)
-        return patch, grid
 
 
 def unsureness(graph: PoseGraph, current: int, way_m: Array) -> tuple[Array, Array]:
@@ -210,18 +215,19 @@ def close(
     window_rad = min(SIGMAS * heading_rad, LARGEST_RAD)
     start, gates = expected, TIGHT_GATES_M
     if window_m > AT_ONCE_M or window_rad > AT_ONCE_RAD:
-        raster = places.raster(begin, poses)
+        reach_m = window_m + 0.1
+        raster = places.raster(begin, poses, reach_m)
         found = raster.search(
             search_points(scan.points),
             expected,
-            reach_m=window_m + raster.cell_m,
+            reach_m=reach_m,
             reach_rad=window_rad + np.radians(2.0),
-            step_rad=STEP_RAD,
+            step_rad=STEP_RAD if raster.cell_m == FINE[0] else 1.5 * STEP_RAD,
             least=SCORE,
         )
         if found is None:
             return None
-        start, gates = found.pose, (0.4, 0.25, 0.15)
+        start, gates = found.pose, (0.5, 0.4, 0.25, 0.15)
     matched = match(patch, scan.points, scan.normals, start, gates_m=gates)
     if (
         matched.fit < (FAR_FIT if window_m > ALONE_M else FIT)

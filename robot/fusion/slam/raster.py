@@ -9,6 +9,7 @@ poses below it: what cannot win is never looked at, and the best is the best of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +22,18 @@ CELL_M = 0.1
 BESIDE = 140
 """Value beside a cell that was hit, of 255: half a cell off is no miss."""
 LARGEST_M = 80.0
-BATCH = 256
+BATCH = 512
 POINTS = 100
 ARM_M = 12.0
 """A search takes so many points, and none that are farther away: a step of an angle would carry
 them over several cells."""
+FEW = 16
+"""Cells of a level that are looked into first."""
 MOST = 60_000
 """Poses that are looked at before a search is given up: a place that is so much like itself, or so
 empty, that bounds do not help."""
+
+Places: TypeAlias = NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,35 +50,45 @@ class Found:
 
 
 class Raster:
-    """A grid of hits with its coarser levels."""
+    """A grid of hits with its coarser levels.
 
-    def __init__(self, points: Array, *, levels: int, cell_m: float = CELL_M) -> None:
+    Attributes:
+        cell_m: side of a cell of the finest level.
+        reach_m: how far from its middle a window may go.
+    """
+
+    def __init__(
+        self, points: Array, *, levels: int, reach_m: float, cell_m: float = CELL_M
+    ) -> None:
+        """Draw points (n, 2) [m]."""
         self.cell_m = cell_m
+        self.reach_m = reach_m
         middle = np.median(points, axis=0)
         near = points[np.all(np.abs(points - middle) < 0.5 * LARGEST_M, axis=1)]
-        self._margin = 2**levels
-        low = np.floor(near.min(axis=0) / cell_m).astype(np.int64) - 1 - self._margin
-        high = np.floor(near.max(axis=0) / cell_m).astype(np.int64) + 2 + self._margin
+        # Whatever point of a scan, wherever it is moved to within reach, has a cell: those that are
+        # farther out than the empty margin of the map are taken to stand at its edge.
+        self._reach = int(np.ceil(reach_m / cell_m)) + 1
+        margin = 2 * self._reach + 2**levels + 1
+        low = np.floor(near.min(axis=0) / cell_m).astype(np.int64) - margin
+        high = np.floor(near.max(axis=0) / cell_m).astype(np.int64) + margin + 1
         self._low = low
-        grid = np.zeros(tuple(high - low), dtype=np.uint8)
+        self._size = high - low
+        grid = np.zeros((int(self._size[0]), int(self._size[1])), dtype=np.uint8)
         cells = np.floor(near / cell_m).astype(np.int64) - low
         hit = np.zeros(grid.shape, dtype=bool)
         hit[cells[:, 0], cells[:, 1]] = True
         for dx in (-1, 0, 1):
             for dy in (-1, 0, 1):
-                beside = np.roll(hit, (dx, dy), axis=(0, 1))
-                grid[beside] = BESIDE
+                grid[np.roll(hit, (dx, dy), axis=(0, 1))] = BESIDE
         grid[hit] = 255
         self._levels: list[NDArray[np.uint8]] = [grid]
         for level in range(levels):
-            last = self._levels[-1]
+            last, half = self._levels[-1], 2**level
             wide = last.copy()
-            half = 2**level
             np.maximum(wide[:-half], last[half:], out=wide[:-half])
             both = wide.copy()
             np.maximum(both[:, :-half], wide[:, half:], out=both[:, :-half])
             self._levels.append(both)
-        self._width, self._height = int(high[0] - low[0]), int(high[1] - low[1])
 
     def search(
         self,
@@ -88,14 +103,14 @@ class Raster:
         """The pose with the best score within a window about `center`, if it is above `least`."""
         turns = max(0, int(np.ceil(reach_rad / step_rad)))
         headings = center[2] + step_rad * np.arange(-turns, turns + 1)
-        cells = np.stack(
-            [
-                np.floor((points @ turn(float(heading)) + center[:2]) / self.cell_m)
-                for heading in headings
-            ]
-        ).astype(np.int64)
-        cells -= self._low
-        reach = int(np.ceil(reach_m / self.cell_m))
+        reach = min(int(np.ceil(reach_m / self.cell_m)), self._reach)
+        edge = self._reach + 1
+        cells = [
+            np.floor((points @ turn(float(heading)) + center[:2]) / self.cell_m)
+            for heading in headings
+        ]
+        inside = np.clip(np.stack(cells) - self._low, edge, self._size - edge - len(self._levels))
+        flat = (inside[..., 0] * self._size[1] + inside[..., 1]).astype(np.int32)
         top = len(self._levels) - 1
         while top > 0 and 2**top > 2 * reach:
             top -= 1
@@ -103,7 +118,7 @@ class Raster:
         candidates = combinations(np.arange(len(headings)), starts, starts)
         # Of equal scores the one nearest the middle wins: last resort in a bare corridor.
         best = _Best(score=least, left=MOST)
-        self._descend(cells, candidates, top, reach, best)
+        self._descend(flat, candidates, top, reach, best)
         if best.candidate is None or best.left <= 0:
             return None
         index, x, y = best.candidate
@@ -116,50 +131,42 @@ class Raster:
         )
         return Found(pose=pose, score=best.score)
 
-    def _scores(self, cells: Indices, candidates: Indices, level: int) -> Array:
-        grid = self._levels[level]
-        # A cell left of or below the grid still reaches into it when its block does: the margin.
-        places = cells[candidates[:, 0]] + candidates[:, None, 1:]
-        x, y = places[..., 0], places[..., 1]
-        width, height = self._width, self._height
-        inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
-        values = grid.ravel().take(np.where(inside, x * height + y, 0))
-        values *= inside
-        return values.mean(axis=1) / 255.0
+    def _scores(self, flat: Places, candidates: Indices, level: int) -> Array:
+        moved = candidates[:, 1] * int(self._size[1]) + candidates[:, 2]
+        places = flat[candidates[:, 0]] + moved[:, None].astype(np.int32)
+        values = self._levels[level].ravel().take(places)
+        return values.sum(axis=1, dtype=np.int64) / (255.0 * flat.shape[1])
 
     def _descend(
-        self, cells: Indices, candidates: Indices, level: int, reach: int, best: _Best
+        self, flat: Places, candidates: Indices, level: int, reach: int, best: _Best
     ) -> None:
         best.left -= len(candidates)
         if best.left <= 0:
             return
+        batches = range(0, len(candidates), BATCH)
         scores = np.concatenate(
-            [
-                self._scores(cells, candidates[begin : begin + BATCH], level)
-                for begin in range(0, len(candidates), BATCH)
-            ]
+            [self._scores(flat, candidates[begin : begin + BATCH], level) for begin in batches]
         )
         order = np.argsort(-scores, kind="stable")
         if level == 0:
-            first = order[0]
-            if scores[first] > best.score:
-                best.score = float(scores[first])
-                angle, x, y = (int(value) for value in candidates[first])
+            if scores[order[0]] > best.score:
+                best.score = float(scores[order[0]])
+                angle, x, y = (int(value) for value in candidates[order[0]])
                 best.candidate = angle, x, y
             return
-        half = 2 ** (level - 1)
-        width = 8
-        for begin in range(0, len(order), width):
+        corners = _corners(2 ** (level - 1))
+        begin, width = 0, FEW
+        while begin < len(order) and best.left > 0:
             some = order[begin : begin + width]
             some = some[scores[some] > best.score]
             if not len(some):
                 return
-            parents = candidates[some]
-            children = (parents[:, None, :] + np.array(_corners(half))[None]).reshape(-1, 3)
+            children = (candidates[some][:, None, :] + corners).reshape(-1, 3)
             children = children[np.all(np.abs(children[:, 1:]) <= reach, axis=1)]
             if len(children):
-                self._descend(cells, children, level - 1, reach, best)
-            width = min(2 * width, 4 * BATCH)
+                self._descend(flat, children, level - 1, reach, best)
+            begin += width
+            width = min(2 * width, BATCH)
 
 
 @dataclass
@@ -169,8 +176,9 @@ class _Best:
     candidate: tuple[int, int, int] | None = None
 
 
-def _corners(half: int) -> list[tuple[int, int, int]]:
-    return [(0, 0, 0), (0, half, 0), (0, 0, half), (0, half, half)]
+def _corners(half: int) -> Indices:
+    """From a cell of a level to those of the next finer one that it covers."""
+    return np.array([(0, 0, 0), (0, half, 0), (0, 0, half), (0, half, half)], dtype=np.int64)
 
 
 def search_points(points: Array) -> Array:

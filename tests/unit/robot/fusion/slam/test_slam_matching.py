@@ -56,7 +56,7 @@ def test_what_walls_leave_open_odometry_decides():
 
 def test_the_search_finds_the_best_of_all_poses_of_its_window():
     patch = _patch()
-    raster = Raster(patch.points, levels=4)
+    raster = Raster(patch.points, levels=4, reach_m=1.0)
     seen = buildings.scan(buildings.room(), np.array([2.2, 1.9, 0.5]), seed=5)
     points = seen.points[::6]
     center = np.array([2.0, 2.0, 0.4])
@@ -79,7 +79,7 @@ def test_the_search_finds_the_best_of_all_poses_of_its_window():
 def test_a_search_from_afar_finds_the_pose():
     true = np.array([3.6, 2.4, 1.2])
     seen = buildings.scan(buildings.room(), true, seed=5)
-    raster = Raster(_patch().filled(0.1), levels=6)
+    raster = Raster(_patch().filled(0.1), levels=6, reach_m=4.0)
     found = raster.search(
         seen.points, np.array([2.0, 1.5, 0.4]), reach_m=3.0, reach_rad=1.0, step_rad=0.03, least=0.5
     )
@@ -113,5 +113,5 @@ def test_a_person_in_front_of_a_wall_is_left_out():
 
 
 def test_beams_without_a_return_are_no_points():
-    ranges = np.array([1.0, np.nan, np.inf, 0.0, -1.0, 1.05, 30.0, 81.83, 1.1, 1.2])
+    ranges = np.array([1.0, np.nan, np.inf, 0.0, -1.0, 30.0, 81.83, 1.1, 1.2, 1.3])
     assert len(scan_of(ranges, 0.0, 0.01, range_max_m=30.0).points) == 4
