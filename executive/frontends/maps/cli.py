@@ -69,3 +69,30 @@ def show(
     from executive.frontends.maps import commands
 
     raise typer.Exit(commands.show(map_file, snapshot=snapshot, as_json=as_json))
+
+
+@app.command(no_args_is_help=True)
+def locate(
+    map_file: Annotated[Path, typer.Argument(metavar="MAP", help="A map of `map build`.")],
+    *,
+    log: Log,
+    trajectory: Annotated[
+        Path | None,
+        typer.Option("--trajectory", "-t", help="The text file to write; nan where it is lost."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find where in a map a lidar was, without a word about where it began.
+
+    A place counts when several sweeps along a way agree on it and no other looks like it; until
+    then the robot is lost, and says so. Exit status 1 if it is lost at the end.
+
+    [bold]Examples[/bold]
+
+      humanoid map locate hall.map.npz --log visit.npz
+
+      humanoid map locate hall.map.npz --log visit.npz --trajectory visit.txt
+    """
+    from executive.frontends.maps import commands
+
+    raise typer.Exit(commands.locate(map_file, log=log, trajectory=trajectory, as_json=as_json))

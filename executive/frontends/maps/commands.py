@@ -13,6 +13,7 @@ from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.fusion.slam import building, map_file, picture, recording
 from robot.fusion.slam.recording import Recording
+from robot.fusion.slam.relocalising import Relocaliser
 from robot.ordinary_files import write_ordinary
 from robot.se3 import Array
 
@@ -86,6 +87,49 @@ def show(path: Path, *, snapshot: Path | None, as_json: bool) -> int:
     if snapshot is not None:
         say(f"Done: {snapshot}")
     return ExitStatus.DONE
+
+
+def locate(path: Path, *, log: Path, trajectory: Path | None, as_json: bool) -> int:
+    """Follow a recording through a map; returns the exit status.
+
+    Raises:
+        ConfigError: a file cannot be read or written.
+    """
+    relocaliser = Relocaliser(map_file.load(path))
+    taken = recording.read(log)
+    progress = _Progress(taken, silent=as_json)
+    way = np.full((len(taken), 4), np.nan)
+    way[:, 0] = taken.stamps_s
+    for index in range(len(taken)):
+        pose = relocaliser.locate(taken.scan(index), taken.odometry[index])
+        if pose is not None:
+            way[index, 1:] = pose
+        progress(index + 1)
+    if trajectory is not None:
+        _put(trajectory, _rows(way).encode())
+    known = np.isfinite(way[:, 1])
+    first = int(np.argmax(known)) if known.any() else None
+    pose = relocaliser.pose
+    status = ExitStatus.FAILED if pose is None else ExitStatus.DONE
+    if as_json:
+        write_json(
+            {
+                "sweeps": len(taken),
+                "located": int(known.sum()),
+                "first": first,
+                "pose": None if pose is None else [float(value) for value in pose],
+            }
+        )
+        return status
+    if first is None:
+        say(f"Lost: no place of the map is sure after {len(taken)} sweeps")
+        return status
+    say(f"Found at sweep {first + 1}; located at {int(known.sum())} of {len(taken)} sweeps")
+    if pose is None:
+        say("Lost at the end")
+    else:
+        say(f"At the end: x {pose[0]:.2f} m, y {pose[1]:.2f} m, {np.degrees(pose[2]):.0f} degrees")
+    return status
 
 
 class _Progress:

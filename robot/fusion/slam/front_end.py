@@ -166,7 +166,7 @@ class FrontEnd:
             step_rad=np.radians(1.5),
             least=0.2,
         )
-        if searched is None:
+        if searched is None or not searched.complete:
             return found
         other = match(self._patch, scan.points, scan.normals, searched.pose)
         return other if other.fit > found.fit + BETTER else found
@@ -174,7 +174,7 @@ class FrontEnd:
     def _keep(self, scan: Scan, information: Array) -> Tracked:
         self._recent.append((scan, self.pose))
         scans, poses = zip(*self._recent, strict=True)
-        self._patch = Patch(scans, poses)
+        self._patch = Patch.of(scans, poses)
         self._raster = None
         blind, self._blind = self._blind, np.zeros(3)
         return Tracked(self.pose, key=True, information=information, blind=blind)

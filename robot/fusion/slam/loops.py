@@ -89,7 +89,7 @@ class Places:
         kept = self._kept.get((center, 0.0))
         if not isinstance(kept, Patch):
             around = self._around(center, poses)
-            kept = Patch(
+            kept = Patch.of(
                 [self._scans[k] for k in around],
                 [between(poses[center], poses[k]) for k in around],
             )
@@ -225,7 +225,7 @@ def close(
             step_rad=STEP_RAD if raster.cell_m == FINE[0] else 1.5 * STEP_RAD,
             least=SCORE,
         )
-        if found is None:
+        if found is None or not found.complete:
             return None
         start, gates = found.pose, (0.5, 0.4, 0.25, 0.15)
     matched = match(patch, scan.points, scan.normals, start, gates_m=gates)

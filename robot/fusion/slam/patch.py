@@ -23,17 +23,30 @@ class Patch:
         normals: unit vectors; zero where a point lies on no surface.
         spans_m: how much of its surface each point stands for, to either side.
         tree: to find the nearest.
-        scans: what it was laid together from, with their poses in the frame.
+        scans: what it was laid together from, if that is known.
+        poses: theirs in the frame.
     """
 
-    def __init__(self, scans: Sequence[Scan], poses: Sequence[Array]) -> None:
-        self.scans = list(scans)
-        self.poses = list(poses)
+    def __init__(self, points: Array, normals: Array, spans_m: Array) -> None:
+        """Hold points, each (n, 2), with their normals and spans."""
+        self.points = points
+        self.normals = normals
+        self.spans_m = spans_m
+        self.tree = Tree(points)
+        self.scans: list[Scan] = []
+        self.poses: list[Array] = []
+
+    @classmethod
+    def of(cls, scans: Sequence[Scan], poses: Sequence[Array]) -> Patch:
+        """Scans laid together at poses of the patch's frame."""
         pairs = list(zip(scans, poses, strict=True))
-        self.points = np.concatenate([placed(pose, scan.points) for scan, pose in pairs])
-        self.normals = np.concatenate([scan.normals @ turn(float(pose[2])) for scan, pose in pairs])
-        self.spans_m = np.concatenate([scan.spans_m for scan in self.scans])
-        self.tree = Tree(self.points)
+        patch = cls(
+            np.concatenate([placed(pose, scan.points) for scan, pose in pairs]),
+            np.concatenate([scan.normals @ turn(float(pose[2])) for scan, pose in pairs]),
+            np.concatenate([scan.spans_m for scan in scans]),
+        )
+        patch.scans, patch.poses = list(scans), list(poses)
+        return patch
 
     def filled(self, step_m: float) -> Array:
         """The points, and others between those of one surface, no farther apart than a step."""

@@ -33,6 +33,8 @@ MOST = 60_000
 """Poses that are looked at before a search is given up: a place that is so much like itself, or so
 empty, that bounds do not help."""
 
+ASIDE_M = 1.5
+"""Another place is at least this far away."""
 Places: TypeAlias = NDArray[np.int32]
 
 
@@ -43,10 +45,12 @@ class Found:
     Attributes:
         pose: x, y [m], heading [rad] in the raster's frame.
         score: mean value of the grid under the points, 0 to 1.
+        complete: whether the whole window was searched; if not, there may be a better one.
     """
 
     pose: Array
     score: float
+    complete: bool
 
 
 class Raster:
@@ -58,13 +62,19 @@ class Raster:
     """
 
     def __init__(
-        self, points: Array, *, levels: int, reach_m: float, cell_m: float = CELL_M
+        self,
+        points: Array,
+        *,
+        levels: int,
+        reach_m: float,
+        cell_m: float = CELL_M,
+        largest_m: float = LARGEST_M,
     ) -> None:
         """Draw points (n, 2) [m]."""
         self.cell_m = cell_m
         self.reach_m = reach_m
         middle = np.median(points, axis=0)
-        near = points[np.all(np.abs(points - middle) < 0.5 * LARGEST_M, axis=1)]
+        near = points[np.all(np.abs(points - middle) < 0.5 * largest_m, axis=1)]
         # Whatever point of a scan, wherever it is moved to within reach, has a cell: those that are
         # farther out than the empty margin of the map are taken to stand at its edge.
         self._reach = int(np.ceil(reach_m / cell_m)) + 1
@@ -99,8 +109,21 @@ class Raster:
         reach_rad: float,
         step_rad: float,
         least: float,
+        most: int = MOST,
+        but: Array | None = None,
     ) -> Found | None:
-        """The pose with the best score within a window about `center`, if it is above `least`."""
+        """The pose with the best score within a window.
+
+        Args:
+            points: (n, 2), in their own frame [m].
+            center: the middle of the window.
+            reach_m: from there along x and y.
+            reach_rad: from there to either side.
+            step_rad: between two headings that are tried.
+            least: None if no pose has a better score.
+            most: poses that are looked at before the search is given up.
+            but: nothing nearer than `ASIDE_M` to this pose, whatever its heading.
+        """
         turns = max(0, int(np.ceil(reach_rad / step_rad)))
         headings = center[2] + step_rad * np.arange(-turns, turns + 1)
         reach = min(int(np.ceil(reach_m / self.cell_m)), self._reach)
@@ -117,10 +140,14 @@ class Raster:
         starts: Indices = np.arange(-reach, reach + 1, 2**top, dtype=np.int64)
         candidates = combinations(np.arange(len(headings)), starts, starts)
         # Of equal scores the one nearest the middle wins: last resort in a bare corridor.
-        best = _Best(score=least, left=MOST)
+        best = _Best(score=least, left=most)
+        if but is not None:
+            best.but = np.round((but[:2] - center[:2]) / self.cell_m)
+            best.aside = ASIDE_M / self.cell_m
         self._descend(flat, candidates, top, reach, best)
-        if best.candidate is None or best.left <= 0:
-            return None
+        complete = best.left > 0
+        if best.candidate is None:
+            return None if complete else Found(center, least, complete=False)
         index, x, y = best.candidate
         pose = np.array(
             [
@@ -129,7 +156,7 @@ class Raster:
                 headings[index],
             ]
         )
-        return Found(pose=pose, score=best.score)
+        return Found(pose, best.score, complete)
 
     def _scores(self, flat: Places, candidates: Indices, level: int) -> Array:
         moved = candidates[:, 1] * int(self._size[1]) + candidates[:, 2]
@@ -149,6 +176,10 @@ class Raster:
         )
         order = np.argsort(-scores, kind="stable")
         if level == 0:
+            if best.but is not None:
+                near = np.hypot(*(candidates[:, 1:] - best.but).T) < best.aside
+                scores[near] = 0.0
+                order = np.argsort(-scores, kind="stable")
             if scores[order[0]] > best.score:
                 best.score = float(scores[order[0]])
                 angle, x, y = (int(value) for value in candidates[order[0]])
@@ -174,6 +205,8 @@ class _Best:
     score: float
     left: int
     candidate: tuple[int, int, int] | None = None
+    but: Array | None = None
+    aside: float = 0.0
 
 
 def _corners(half: int) -> Indices:

@@ -18,7 +18,7 @@ POSES = np.array([[1.5, 1.0, 0.3], [1.8, 2.5, 0.0], [4.0, 2.8, 3.0]])
 
 def _patch() -> Patch:
     walls = buildings.room()
-    return Patch([buildings.scan(walls, pose, seed=k) for k, pose in enumerate(POSES)], POSES)
+    return Patch.of([buildings.scan(walls, pose, seed=k) for k, pose in enumerate(POSES)], POSES)
 
 
 def test_poses_form_a_group():
@@ -44,7 +44,9 @@ def test_a_known_pose_is_found_from_odometrys_guess(seed: int):
 
 def test_what_walls_leave_open_odometry_decides():
     walls = np.array([(-50, 0, 50, 0), (-50, 2, 50, 2)], dtype=float)
-    patch = Patch([buildings.scan(walls, np.array([0.0, 1.0, 0.0]))], [np.array([0.0, 1.0, 0.0])])
+    patch = Patch.of(
+        [buildings.scan(walls, np.array([0.0, 1.0, 0.0]))], [np.array([0.0, 1.0, 0.0])]
+    )
     seen = buildings.scan(walls, np.array([0.4, 1.1, 0.02]), seed=1)
     prior = np.diag([1 / 0.05**2, 1 / 0.05**2, 1 / 0.05**2])
     found = match(patch, seen.points, seen.normals, np.array([0.37, 1.0, 0.0]), prior=prior)
