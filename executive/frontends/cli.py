@@ -17,6 +17,7 @@ from executive.frontends.exit import ended_by
 from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
+from executive.frontends.maps import cli as maps
 from executive.frontends.missions import cli as missions
 from executive.frontends.options import (
     AsJson,
@@ -248,6 +249,7 @@ def export(
 # After the commands above, so that `--help` lists first what people use first.
 worlds.register(app)
 missions.register(app)
+maps.register(app)
 history.register(app)
 dumps.register(app)
 sensing.register(app)

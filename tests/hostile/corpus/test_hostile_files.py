@@ -20,6 +20,8 @@ TAKERS: dict[str, tuple[str, tuple[str, ...]]] = {
     "mission-export": ("m.yaml", ("mission", "export", "m.yaml")),
     "mission-import-xml": ("t.xml", ("mission", "import", "t.xml")),
     "mission-import-yaml": ("p.yaml", ("mission", "import", "p.yaml")),
+    "map-build": ("l.npz", ("map", "build", "--log", "l.npz", "--trajectory", "t.txt")),
+    "map-show": ("m.npz", ("map", "show", "m.npz")),
     "parse-vocabulary": ("v.json", ("parse", "--vocabulary", "v.json", "wave")),
     "parse-file": ("s.txt", ("parse", "--file", "s.txt")),
     "parse-model": ("m.toml", ("parse", "--model", "m.toml", "wave and then hop")),

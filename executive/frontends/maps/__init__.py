@@ -1,0 +1,1 @@
+"""`humanoid map`: maps of buildings from recordings of a lidar."""
