@@ -31,6 +31,7 @@ from executive.frontends.options import (
 )
 from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
+from executive.frontends.sensors import cli as sensors
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
@@ -247,6 +248,7 @@ worlds.register(app)
 missions.register(app)
 history.register(app)
 dumps.register(app)
+sensors.register(app)
 
 
 @app.command(name="eval")
