@@ -103,7 +103,8 @@ class ContactFilter:
         self._diagonal[:3] = k.tilt_rad**2
         self._diagonal[2] = 1e-8  # heading and place are told by nothing: N is where it begins
         self._diagonal[3:6] = k.velocity_m_s**2
-        self._diagonal[6:9] = 1e-8
+        self._diagonal[6:8] = 1e-8
+        self._diagonal[8] = (2.0 * k.height_m) ** 2
         for side in (0, 1):
             self.feet[side] = position
             self.turns[side] = rotation
@@ -271,8 +272,10 @@ class ContactFilter:
         H[row + 2, 0], H[row + 2, 1], H[row + 2, foot + 2] = y, -x, 1.0
         z[row + 2] = -height
         repeats = max(1.0, 2.0 * k.flat_time_s / (LEVEL_EVERY * dt_s))
-        self._noise[row] = self._noise[row + 1] = repeats * k.flat_rad**2
-        self._noise[row + 2] = repeats * k.height_m**2
+        tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
+        raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
+        self._noise[row] = self._noise[row + 1] = tilted * repeats * k.flat_rad**2
+        self._noise[row + 2] = raised * tilted * repeats * k.height_m**2
         return row + 3
 
     # --- the update ----------------------------------------------------------------------------

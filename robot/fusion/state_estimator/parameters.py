@@ -57,6 +57,6 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     landing_s: float = 0.05
     landing_factor: float = 11.0
     light_factor: float = 21.0
-    planted_s: float = 0.5
+    planted_s: float = 0.25
     planted_factor: float = 0.05
     slip_gate: float = 35.0
