@@ -29,7 +29,17 @@ SIZE = 27
 FOOT, FOOT_TURN = (LEFT, RIGHT), (LEFT_TURN, RIGHT_TURN)
 LEVEL_EVERY = 10
 """Flatness and height of the soles are told once in so many updates: they change slowly."""
-_Q_FEET = np.r_[0:6]
+
+
+def _leg_rows(foot: slice, turn: slice) -> Array:
+    """What a leg sees of the errors: its sole's less the base's, shape (6, 27)."""
+    rows = np.zeros((6, SIZE))
+    rows[:3, P], rows[:3, foot] = -np.eye(3), np.eye(3)
+    rows[3:, R], rows[3:, turn] = -np.eye(3), np.eye(3)
+    return rows
+
+
+LEG_ROWS = [_leg_rows(foot, turn) for foot, turn in zip(FOOT, FOOT_TURN, strict=True)]
 
 
 class ContactFilter:
@@ -116,18 +126,19 @@ class ContactFilter:
 
         A reading that is no number is left out.
         """
-        if not math.isfinite(float(gyro_rad_s.sum() + accel_m_s2.sum())):
+        gx, gy, gz = gyro_rad_s.tolist()
+        ax, ay, az = accel_m_s2.tolist()
+        if not math.isfinite(gx + gy + gz + ax + ay + az):
             return
         rotation, v, p = self.rotation, self.v, self.p
         bx, by, bz = self.gyro_bias.tolist()
-        gx, gy, gz = gyro_rad_s.tolist()
         force = rotation @ (accel_m_s2 - self.accel_bias)
         force[2] -= GRAVITY_M_S2
         self._propagate_errors(dt_s)
         p += dt_s * v + (0.5 * dt_s * dt_s) * force
         v += dt_s * force
         turn = exponential(dt_s * (gx - bx), dt_s * (gy - by), dt_s * (gz - bz))
-        self.rotation = orthogonal(rotation @ turn)
+        self.rotation = rotation @ turn
 
     def _propagate_errors(self, dt_s: float) -> None:
         k, transition, levers = self.parameters, self._F, self._levers
@@ -186,8 +197,7 @@ class ContactFilter:
                 row = self._leg(row, side, positions[side], rotations[side])
         legs = row
         if self._updates % LEVEL_EVERY == 0:
-            self.covariance += self.covariance.T
-            self.covariance *= 0.5
+            self._round_off()
             for side in (0, 1):
                 if self.standing[side]:
                     row = self._floor(row, side, dt_s)
@@ -195,6 +205,14 @@ class ContactFilter:
             return True
         self._set_anew(legs, positions, rotations)
         return False
+
+    def _round_off(self) -> None:
+        """Take back what rounding did: rotations are orthogonal, a covariance is symmetric."""
+        self.rotation = orthogonal(self.rotation)
+        for side in (0, 1):
+            self.turns[side] = orthogonal(self.turns[side])
+        self.covariance += self.covariance.T
+        self.covariance *= 0.5
 
     def _set_anew(self, rows: int, positions: Array, rotations: Array) -> None:
         """Let the foot that disagrees most with the base stand where it is now."""
@@ -243,13 +261,8 @@ class ContactFilter:
 
     def _leg(self, row: int, side: int, position: Array, rotation: Array) -> int:
         """What a leg measures: the sole from the base; returns the next free row."""
-        k, H, z = self.parameters, self._H, self._z
-        block = H[row : row + 6]
-        block[:] = 0.0
-        foot, turn = 9 + 3 * side, 15 + 3 * side
-        for i in range(3):
-            block[i, 6 + i], block[i, foot + i] = -1.0, 1.0
-            block[3 + i, i], block[3 + i, turn + i] = -1.0, 1.0
+        k, z = self.parameters, self._z
+        self._H[row : row + 6] = LEG_ROWS[side]
         seen = self.rotation @ position
         seen += self.p
         seen -= self.feet[side]
@@ -301,7 +314,7 @@ class ContactFilter:
         """Apply an error: ``Exp(step) state_hat``."""
         rx, ry, rz = step[:3].tolist()
         turn = exponential(rx, ry, rz)
-        self.rotation = orthogonal(turn @ self.rotation)
+        self.rotation = turn @ self.rotation
         self.v = turn @ self.v + step[V]
         self.p = turn @ self.p + step[P]
         self.feet = self.feet @ turn.T

@@ -146,3 +146,32 @@ def test_a_foot_put_down_elsewhere_becomes_a_new_anchor_without_a_jump(body):
     for _ in range(100):
         bench.tick(load=(0.5, 0.5))
     assert np.abs(bench.estimator.p[:2] - before[:2]).max() < 0.01
+
+
+def test_lying_it_turns_with_gyro_and_gravity_and_stays_where_it_is(body):
+    """Its gyro's bias, learnt on its feet, stays known, and is taken off."""
+    bench = Bench(body, SE3((0.0, 0.0, 0.6)))
+    bias = (0.004, -0.006, 0.005)
+    for _ in range(2000):
+        bench.tick(gyro_bias=bias)
+    known = bench.estimator.imu_bias
+    assert known.gyro_rad_s == pytest.approx(bias, abs=1e-3)
+    bench.estimator.lying = True
+    for _ in range(2000):
+        bench.tick(load=(0.0, 0.0), gyro_bias=bias)
+    assert bench.tilt_error_rad() < math.radians(1.0)
+    assert bench.estimator.imu_bias == known
+    assert np.abs(bench.estimator.v).max() < 0.02
+    assert bench.error_m() < 0.02
+
+
+def test_the_next_one_begins_with_what_is_known(body):
+    bench = Bench(body, SE3((0.0, 0.0, 0.6)))
+    for _ in range(1000):
+        bench.tick(gyro_bias=(0.0, 0.01, 0.0))
+    known = bench.estimator.imu_bias
+    after = BaseStateEstimator(body, bench.X_NB, known=known)
+    assert after.imu_bias.gyro_rad_s == pytest.approx(known.gyro_rad_s)
+    assert after.imu_bias.gyro_sigma_rad_s == pytest.approx(known.gyro_sigma_rad_s)
+    fresh = BaseStateEstimator(body, bench.X_NB)
+    assert max(known.gyro_sigma_rad_s) < 0.5 * max(fresh.imu_bias.gyro_sigma_rad_s)
