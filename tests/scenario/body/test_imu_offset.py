@@ -1,4 +1,4 @@
-"""An IMU that is off: found out while it stands and walks, remembered when it falls or is killed."""
+"""An IMU that is off: found out while it walks, known still after a fall or another start."""
 
 import math
 
