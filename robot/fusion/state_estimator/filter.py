@@ -252,12 +252,19 @@ class ContactFilter:
         k = self.parameters
         self._since_s[side] += dt_s
         factor = 1.0 + (k.light_factor - 1.0) * (1.0 - min(1.0, load))
+        planted = self._planted_s > k.planted_s
         if self._since_s[side] < k.landing_s:
-            factor = max(factor, k.landing_factor)
-        elif self._planted_s > k.planted_s:
-            factor *= k.planted_factor
-        self._diagonal[FOOT[side]] += (factor * k.slip_m_rts) ** 2 * dt_s
-        self._diagonal[FOOT_TURN[side]] += (factor * k.twist_rad_rts) ** 2 * dt_s
+            factor, planted = max(factor, k.landing_factor), False
+        slip = (factor * k.slip_m_rts) ** 2 * dt_s
+        roll = (factor * k.roll_rad_rts) ** 2 * dt_s
+        twist = (factor * k.twist_rad_rts) ** 2 * dt_s
+        if planted:  # load that shifts tilts a sole on the softest of floors, but does not turn it
+            slip, twist = k.planted_factor**2 * slip, k.planted_factor**2 * twist
+        diagonal, turn = self._diagonal, 15 + 3 * side
+        diagonal[FOOT[side]] += slip
+        diagonal[turn] += roll
+        diagonal[turn + 1] += roll
+        diagonal[turn + 2] += twist
 
     def _leg(self, row: int, side: int, position: Array, rotation: Array) -> int:
         """What a leg measures: the sole from the base; returns the next free row."""

@@ -21,7 +21,8 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
         gyro_bias_walk_rad_s_rts: how fast the gyro's bias wanders.
         accel_bias_walk_m_s2_rts: the same of the accelerometer.
         slip_m_rts: how a standing foot creeps.
-        twist_rad_rts: how it turns about any axis.
+        roll_rad_rts: how it tilts, on a floor that gives.
+        twist_rad_rts: how it turns about the vertical.
         foot_m: error of a sole's position seen from the base: encoders, flexible legs.
         foot_rad: the same of its orientation.
         flat_rad: how far from level a sole stands that bears weight.
@@ -34,7 +35,8 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
         landing_s: how long a foot that has taken load still settles.
         landing_factor: how much more it creeps and turns meanwhile.
         light_factor: how much more a foot does that hardly bears anything.
-        planted_s: after how long on both feet, firmly, neither is taken to creep much.
+        planted_s: after how long on both feet, firmly, neither is taken to creep or
+            twist much.
         planted_factor: how much less it does then.
         slip_gate: squared Mahalanobis distance (6 degrees of freedom) past which a foot slipped.
     """
@@ -43,7 +45,8 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     accel_m_s2_rthz: float = 0.03
     gyro_bias_walk_rad_s_rts: float = 0.003 * DEG
     accel_bias_walk_m_s2_rts: float = 1e-3
-    slip_m_rts: float = 0.02
+    slip_m_rts: float = 0.01
+    roll_rad_rts: float = 1.0 * DEG
     twist_rad_rts: float = 1.0 * DEG
     foot_m: float = 0.003
     foot_rad: float = 0.2 * DEG
