@@ -46,7 +46,7 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     gyro_bias_walk_rad_s_rts: float = 0.003 * DEG
     accel_bias_walk_m_s2_rts: float = 1e-3
     slip_m_rts: float = 0.01
-    roll_rad_rts: float = 1.0 * DEG
+    roll_rad_rts: float = 3.0 * DEG
     twist_rad_rts: float = 1.0 * DEG
     foot_m: float = 0.003
     foot_rad: float = 0.2 * DEG
