@@ -12,12 +12,14 @@ from robot.fusion.state_estimator.contacts import Contacts
 from robot.fusion.state_estimator.filter import ACCEL_BIAS, GYRO_BIAS, ContactFilter
 from robot.fusion.state_estimator.legged_body import LeggedBody
 from robot.fusion.state_estimator.legged_log import LeggedLog
-from robot.fusion.state_estimator.parameters import Parameters
+from robot.fusion.state_estimator.parameters import DEG, Parameters
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array
 
 REPORT_EVERY = 500
 AT_START = 20
+OF_STRANGERS = Parameters(slip_m_rts=0.03, roll_rad_rts=1.0 * DEG)
+"""What is believed of a robot that nobody knows: legs that give, encoders that are off."""
 LEAST_DT_S = 1e-5
 MOST_DT_S = 0.5
 
@@ -53,12 +55,12 @@ def estimate(
     Args:
         log: what was recorded.
         body: where soles and IMU were.
-        parameters: what to believe.
+        parameters: what to believe; `OF_STRANGERS` if None.
         causal: use of each moment only what was known then. Else a second pass begins with the
             biases that the first one found.
         progress: told the share that is done.
     """
-    parameters = parameters or Parameters()
+    parameters = parameters or OF_STRANGERS
     state = _begin(log, body, parameters)
     if not causal:
         _pass(log, body, state, _told(progress, 0.0, 0.5))
