@@ -180,12 +180,22 @@ class HandState(msgspec.Struct, frozen=True, kw_only=True):
     pulls: int = 0
 
 
+class ImuBias(msgspec.Struct, frozen=True, kw_only=True):
+    """What is known of an IMU, in its own frame: its offsets, and how sure they are (1 sigma)."""
+
+    gyro_rad_s: Vector3
+    accel_m_s2: Vector3
+    gyro_sigma_rad_s: Vector3
+    accel_sigma_m_s2: Vector3
+
+
 class BodyState(Message, frozen=True, kw_only=True):
     """The body as the controller believes it to be; estimated, not true.
 
     `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
     `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m]. `since_s` is when
-    this controller took the motors over: another value, another controller, with an N of its own.
+    this controller took the motors over: another value, another controller, with an N of its own;
+    what it knows of the IMU goes over to that.
     """
 
     mode: Mode
@@ -210,6 +220,7 @@ class BodyState(Message, frozen=True, kw_only=True):
     temperature_c: tuple[float, ...] = ()
     failure: Failure | None = None
     since_s: float = 0.0
+    imu: ImuBias | None = None
 
 
 class LoopTiming(Message, frozen=True, kw_only=True):

@@ -94,6 +94,9 @@ Load: TypeAlias = Annotated[float, _between(0.001, 50.0, "kg")]
 
 Impulse: TypeAlias = Annotated[float, _between(-1000.0, 1000.0, "N s")]
 Strength: TypeAlias = Annotated[float, _between(0.0, 1000.0, "N s")]  # 1000: a car at 70 km/h
+GyroOffset: TypeAlias = Annotated[float, _between(-20.0, 20.0, "deg/s")]
+AccelerationOffset: TypeAlias = Annotated[float, _between(-5.0, 5.0, "m/s²")]
+Askew: TypeAlias = Annotated[float, _between(-45.0, 45.0, "degrees")]
 Heat: TypeAlias = Annotated[float, _between(-50.0, 500.0, "°C")]
 Span: TypeAlias = Annotated[float, Meta(ge=0.01, extra={"unit": "s"})]  # for ever, left out
 Moment: TypeAlias = Annotated[float, _between(0.0, 1e6, "s")]

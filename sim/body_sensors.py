@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +13,7 @@ from robot.drivers.motor_bus import MotorState
 from robot.errors import DescriptionError, Problem
 from robot.model.body import SIDES
 from robot.model.description import RobotDescription
-from robot.se3 import Array
+from robot.se3 import Array, Quaternion, Vector3, quat_to_matrix
 from sim.motors import Motors
 
 # 1 sigma, where the description has no figure. Velocity: encoder difference over 20 ms, averaged.
@@ -21,6 +23,14 @@ TORQUE_SHARE = 0.005
 FORCE_N = 0.3
 TORQUE_NM = 0.01
 NOISE_BLOCK = 256
+
+
+class ImuFlaws(NamedTuple):
+    """What is wrong with an IMU besides noise, in its own frame; `askew` turns what it feels."""
+
+    gyro_rad_s: Vector3 = (0.0, 0.0, 0.0)
+    accel_m_s2: Vector3 = (0.0, 0.0, 0.0)
+    askew: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
 class BodySensors:
@@ -55,6 +65,12 @@ class BodySensors:
         self._at_once: Array = np.zeros(n)
         self._noise: Array = np.empty((0, len(self._sigma)))
         self._drawn = 0
+        self._flaws: tuple[Array, Array] | None = None
+
+    def spoil_imu(self, flaws: ImuFlaws) -> None:
+        """From now on the IMU is off by that."""
+        offset = np.array((*flaws.gyro_rad_s, *flaws.accel_m_s2))
+        self._flaws = quat_to_matrix(flaws.askew).T, offset
 
     def measure(self, stamp_s: float) -> BodySample:
         """Measure everything; forces and accelerations are those of the last physics step."""
@@ -79,6 +95,10 @@ class BodySensors:
             watchdog=motors.watchdog,
             command_stamp_s=motors.command_stamp_s,
         )
+        if self._flaws is not None:
+            turn, offset = self._flaws
+            rest[:3], rest[3:6] = turn @ rest[:3], turn @ rest[3:6]
+            rest[:6] += offset
         imu = ImuReading(stamp_s, rest[:3], rest[3:6])
         force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), wrists)
         return BodySample(state, imu, force)

@@ -19,6 +19,7 @@ from robot.reality.faults import (
     MotorOff,
     Move,
     Occupy,
+    OffsetImu,
     Push,
     Remove,
     Shove,
@@ -28,6 +29,7 @@ from robot.reality.faults import (
 )
 from robot.se3 import SE3, Vector3
 from sim import atlas, furniture
+from sim.body_sensors import ImuFlaws
 from sim.world_schema import World
 
 if TYPE_CHECKING:
@@ -95,6 +97,11 @@ def apply(plant: Plant, fault: Fault) -> None:
         case Mislead():
             X = SE3.from_xy_yaw(*fault.by_m, math.radians(fault.by_deg))
             plant.oracle.mislead(X, until_s=plant.time_s + fault.duration_s)
+        case OffsetImu():
+            roll, pitch, yaw = (math.radians(angle) for angle in fault.askew_deg)
+            x, y, z = (math.radians(rate) for rate in fault.gyro_deg_s)
+            askew = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).quat_wxyz
+            plant.spoil_imu(ImuFlaws((x, y, z), fault.accel_m_s2, askew))
         case Heat() | MotorOff():
             names = list(plant.robot.motor_names)
             check_name(fault.motor, names, "motor")

@@ -22,7 +22,7 @@ from sim import atlas
 from sim.assembly import compile_scene
 from sim.atlas import start_pose
 from sim.battery import Battery
-from sim.body_sensors import BodySensors
+from sim.body_sensors import BodySensors, ImuFlaws
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.people import People
@@ -182,6 +182,10 @@ class Plant:
         self.people.hear(text)
         if self.people.busy and self._people_ms == NEVER:
             self._people_ms = self._now_ms + self._ms(PEOPLE_PERIOD_S)
+
+    def spoil_imu(self, flaws: ImuFlaws) -> None:
+        """From now on the IMU is off by that, besides its noise."""
+        self._body.spoil_imu(flaws)
 
     def step(self, count: int = 1) -> None:
         """Advance `count` milliseconds, a multiple of the physics' time step.

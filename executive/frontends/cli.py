@@ -35,6 +35,7 @@ from executive.frontends.options import (
 from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
 from executive.frontends.sensing import cli as sensing
+from executive.frontends.sensors import cli as sensors
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
@@ -255,6 +256,7 @@ dumps.register(app)
 sensing.register(app)
 consoles.register(app)
 films.register(app)
+sensors.register(app)
 
 
 @app.command(name="eval")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from robot.bringup.lockstep import Lockstep
+from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.control.loop import NEEDS, ControlLoop
 from robot.drivers.body_devices import BodyDevices
 from robot.drivers.wiring import Wiring
+from robot.messages import BodyState
 from robot.model import description
+from robot.model.description import RobotDescription
 from robot.perception.node import PerceptionNode
 from robot.reality.contract import World
 
@@ -42,11 +45,19 @@ class FastRuntime(Lockstep):
         plant = world.plant(body, seed=seed, physics_ms=PHYSICS_MS)
         clock = SimulatedClock()
         wiring = Wiring(robot=body, clock=clock, bus=bus, plant=plant)
+        states = bus.subscribe(topics.BODY_STATE)
         super().__init__(
             plant,
-            lambda: ControlLoop(body),
+            lambda: _controller(body, states.latest),
             PerceptionNode(wiring),
             body=BodyDevices(wiring, needs=NEEDS),
             bus=bus,
             clock=clock,
         )
+
+
+def _controller(body: RobotDescription, before: BodyState | None) -> ControlLoop:
+    """A controller that knows what the one before it said last."""
+    loop = ControlLoop(body)
+    loop.recall(before)
+    return loop

@@ -36,6 +36,7 @@ from robot.messages import (
     Grip,
     HandState,
     HoldArm,
+    ImuBias,
     Look,
     Mode,
     MoveArm,
@@ -82,6 +83,11 @@ class ControlLoop:
         self._failure: Failure | None = None
         self._getting_up: GettingUp | None = None
         self._payloads = Payloads(self.body)
+        self._known: ImuBias | None = None
+
+    def recall(self, state: BodyState | None) -> None:
+        """Begin with what the controller before this one knew of the IMU, if it said so."""
+        self._known = None if state is None else state.imu
 
     # --- start ---------------------------------------------------------------------------------
 
@@ -89,7 +95,9 @@ class ControlLoop:
         """Find the robot, and begin as it is; `taking_over`: another controller moved it."""
         body, data, state = self.body, self.dynamics.data, sample.motors
         X_NB, left, right = starting.find(self.dynamics, sample, taking_over=taking_over)
-        self.estimator = BaseStateEstimator(body, X_NB)
+        if self._started:
+            self._known = self.estimator.imu_bias
+        self.estimator = BaseStateEstimator(body, X_NB, known=self._known)
         self.posture = Posture(self.estimator, self.dynamics)
         self.legs = Legs(body, self.whole, left, right, X_NB.p[2])
         self.arms: dict[Side, Arm] = {
@@ -249,6 +257,8 @@ class ControlLoop:
         dt_s, state = BUS_PERIOD_S * self._samples, sample.motors
         dynamics, body, data = self.dynamics, self.body, self.dynamics.data
         estimator = self.estimator
+        # Lying, no foot bears anything that would hold a drift.
+        estimator.lying = self.mode == "fallen" or self._getting_up is not None
         estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
         self._gyro[:] = 0.0
         self._accel[:] = 0.0
@@ -259,12 +269,11 @@ class ControlLoop:
         body.write_joints(data, state.q, state.qd)
         dynamics.kinematics()
         bearing_n = sample.force.ankle_wrench[:, 2]
-        shift_v = estimator.correct(dt_s, dynamics.sole_position, dynamics.sole_velocity, bearing_n)
+        soles, rotations = dynamics.sole_position, dynamics.sole_rotation
+        shift_v = estimator.correct(dt_s, soles, rotations, bearing_n)
         dynamics.shift_base_velocity(shift_v)
         dynamics.dynamics()
         self._update_mode()
-        if self.mode == "fallen" or self._getting_up is not None:
-            estimator.v[:] = 0.0  # no foot bears anything that would hold a drift
         if self._getting_up is not None:
             self._command = self._rise(self._getting_up, dt_s, sample)
         elif self.mode in ("damping", "fallen"):
@@ -384,6 +393,7 @@ class ControlLoop:
             temperature_c=tuple(state.temperature_c.tolist()),
             failure=self._failure,
             since_s=self._since_s,
+            imu=self.estimator.imu_bias,
         )
 
     def _activities(self) -> dict[Channel, Activity]:

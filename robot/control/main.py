@@ -60,10 +60,12 @@ def main(run_file: str, parent_pid: str) -> None:
         with BodyDevices(wiring, needs=NEEDS) as body:
             if not body.claim():
                 ControlLoop(robot).tick(body.read())  # the first tick of a process is a slow one
+            states = bus.subscribe(topics.BODY_STATE)  # of the controller that this one replaces
             ask_for_real_time()
             gc.freeze()  # what start-up made stays: the collector need not look at it every period
             while not stop and not body.claim():
                 clock.sleep_until(clock.now_s() + TURN_POLL_S)
+            loop.recall(states.latest)
             serve(loop, body, bus, clock=clock, stop=stop)
 
 

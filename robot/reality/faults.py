@@ -122,6 +122,19 @@ class Mislead(FaultRecord, frozen=True, kw_only=True):
     duration_s: q.Span = math.inf
 
 
+class OffsetImu(FaultRecord, frozen=True, kw_only=True):
+    """From now on the IMU is off, in its own axes, besides its noise; all zero: as it was.
+
+    `askew_deg` (roll, pitch, yaw) is how it is mounted against where it is said to be.
+    """
+
+    gyro_deg_s: tuple[q.GyroOffset, q.GyroOffset, q.GyroOffset] = (0.0, 0.0, 0.0)
+    accel_m_s2: tuple[q.AccelerationOffset, q.AccelerationOffset, q.AccelerationOffset] = (
+        0.0, 0.0, 0.0,
+    )  # fmt: skip
+    askew_deg: tuple[q.Askew, q.Askew, q.Askew] = (0.0, 0.0, 0.0)
+
+
 class Heat(FaultRecord, frozen=True, kw_only=True):
     """A motor's winding is suddenly that hot; it cools down as it does."""
 
@@ -149,8 +162,8 @@ class Kill(FaultRecord, frozen=True, kw_only=True):
 
 
 Fault = (
-    Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead | Heat
-    | Discharge | MotorOff | Kill
+    Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead
+    | OffsetImu | Heat | Discharge | MotorOff | Kill
 )  # fmt: skip
 KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""

@@ -27,6 +27,10 @@ TAKERS: dict[str, tuple[str, tuple[str, ...]]] = {
     "parse-model": ("m.toml", ("parse", "--model", "m.toml", "wave and then hop")),
     "do-model": ("m.toml", ("do", "--fast", "--model", "m.toml", "hop and fly")),
     "listen-file": ("a.wav", ("listen", "--parse-only", "--file", "a.wav")),
+    "estimate-log": (
+        "l.npz",
+        ("sensors", "estimate", "--urdf", "gone.urdf", "--log", "l.npz", "--out", "o.txt"),
+    ),
     "eval-faults": ("c.yaml", ("eval", "--faults", "c.yaml", "--seeds", "1")),
     "eval-mission": ("m.yaml", ("eval", "m.yaml", "--seeds", "1")),
     "do-voice-model": ("v.onnx", ("do", "--fast", "--voice-model", "v.onnx", "fly away")),

@@ -132,6 +132,21 @@ def test_fixes_mislead_for_a_while(plant):
     assert plant.oracle.fix(1.1).X_WB.p[0] == pytest.approx(true.p[0], abs=0.02)
 
 
+def test_an_imu_that_is_off_says_so_in_its_own_axes(plant):
+    plant.step(100)
+    still = plant.read().imu
+    offset = faults.OffsetImu(gyro_deg_s=(0.0, 0.0, 20.0), accel_m_s2=(1.0, 0, 0))
+    apply(plant, offset)
+    off = plant.read().imu
+    assert off.gyro_rad_s[2] - still.gyro_rad_s[2] == pytest.approx(math.radians(20), abs=0.05)
+    assert off.accel_m_s2[0] - still.accel_m_s2[0] == pytest.approx(1.0, abs=0.5)
+    askew = SE3.from_rpy(0.0, math.radians(30.0), 0.0, (0.0, 0.0, 0.0)).rotation()
+    apply(plant, faults.OffsetImu(askew_deg=(0.0, 30.0, 0.0)))
+    assert plant.read().imu.accel_m_s2 == pytest.approx(askew.T @ still.accel_m_s2, abs=0.5)
+    apply(plant, faults.OffsetImu())
+    assert plant.read().imu.accel_m_s2 == pytest.approx(still.accel_m_s2, abs=0.5)
+
+
 def test_a_hot_motor_and_an_empty_battery(plant, robot):
     apply(plant, faults.Heat(motor="left_knee", temperature_c=90.0))
     assert plant.motors.temperature_c[robot.motor_names.index("left_knee")] == 90.0

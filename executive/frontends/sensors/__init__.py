@@ -1,0 +1,1 @@
+"""Commands that work on recordings of sensors: they move no robot and need none."""

@@ -1,0 +1,251 @@
+"""Recordings of a legged robot's own senses: joints, IMU and the force under each foot.
+
+An `.npz` of arrays, one row a sample: `t` [s], `joint_names`, `joint_pos` [rad], `imu_acc` [m/s²]
+(specific force), `imu_gyro` [rad/s], `l_foot_fz` and `r_foot_fz` [N] (or wrenches whose third
+column is the vertical force), and where the base began: `gt_base_pos0`, `gt_base_rpy0`, or the
+first row of `gt_base_pos`, `gt_base_rpy`. What else there is, is not looked at.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.lib import format as npy
+from numpy.typing import NDArray
+
+from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
+from robot.se3 import SE3, Array
+
+MOST_BYTES = 200_000_000
+MOST_SAMPLES = 5_000_000
+MOST_FIELDS = 1000
+LEFT = ("l_foot_fz", "left_foot_fz", "l_foot_force", "left_foot_force", "fz_left", "left_fz")
+RIGHT = ("r_foot_fz", "right_foot_fz", "r_foot_force", "right_foot_force", "fz_right", "right_fz")
+CURE = "docs/state_estimation.md shows the fields of a recording"
+BURST_SHARE, BURST_OF_PERIOD = 0.05, 0.25
+BACKLOG_S = 1.0
+"""Samples that waited in a queue for longer than this are not put back to where they belong."""
+
+
+@dataclass(frozen=True)
+class LeggedLog:
+    """One recording of n samples; what was no number is filled in, and `gaps` says where.
+
+    Attributes:
+        t: stamps as recorded [s], shape (n,).
+        taken_s: when the samples were taken [s], never decreasing, shape (n,).
+        joints: positions by name [rad, m], shape (n,) each.
+        gyro_rad_s, accel_m_s2: in the IMU's frame, shape (n, 3).
+        force_n: upward force on the left and the right foot, shape (n, 2).
+        blind: whether a sample's joints were no numbers, shape (n,).
+        X_WB: first pose of the base, None where the recording does not say.
+        filled: samples in which anything was no number.
+        bursts: whether the stamps are of when samples arrived, many at once.
+    """
+
+    t: Array
+    taken_s: Array
+    joints: dict[str, Array]
+    gyro_rad_s: Array
+    accel_m_s2: Array
+    force_n: Array
+    blind: NDArray[np.bool_]
+    X_WB: SE3 | None
+    filled: int
+    bursts: bool
+
+    def __len__(self) -> int:
+        """How many samples."""
+        return len(self.t)
+
+
+def load(path: Path) -> LeggedLog:
+    """Read a recording.
+
+    Raises:
+        ConfigError: it cannot be read, is no such file, or lacks a field, with the field's name.
+    """
+    fields = _Fields(path, _arrays(path))
+    t = fields.rows("t", 1)
+    fields.count = n = len(t)
+    if n < 2:
+        raise fields.wrong("t", "holds fewer than two samples")
+    names, positions = fields.names("joint_names"), fields.rows("joint_pos", 2)
+    if positions.shape[1] != len(names):
+        text = f"has {positions.shape[1]} columns for {len(names)} joint_names"
+        raise fields.wrong("joint_pos", text)
+    gyro, accel = fields.rows("imu_gyro", 2, width=3), fields.rows("imu_acc", 2, width=3)
+    force = np.stack([fields.force(LEFT), fields.force(RIGHT)], axis=1)
+    blind = np.asarray(~np.isfinite(positions).all(axis=1))
+    everything = np.column_stack([t, positions, gyro, accel, force])
+    unknown = ~np.isfinite(everything).all(axis=1)
+    stamps = _filled(fields, "t", t[:, None])[:, 0]
+    taken_s, bursts = _taken(stamps)
+    positions = _filled(fields, "joint_pos", positions)
+    force = _filled(fields, "foot forces", force)
+    if float(np.median(force.sum(axis=1))) < 0.0:
+        force = -force  # as the foot presses on the floor
+    return LeggedLog(
+        t=stamps,
+        taken_s=taken_s,
+        joints={name: positions[:, k] for k, name in enumerate(names)},
+        gyro_rad_s=_filled(fields, "imu_gyro", gyro),
+        accel_m_s2=_filled(fields, "imu_acc", accel),
+        force_n=force,
+        blind=blind,
+        X_WB=fields.first_pose(),
+        filled=int(unknown.sum()),
+        bursts=bursts,
+    )
+
+
+class _Fields:
+    """The arrays of one file, and complaints that name it."""
+
+    def __init__(self, path: Path, arrays: dict[str, Any]) -> None:
+        self.path, self.arrays = path, arrays
+        self.count = 0
+
+    def wrong(self, name: str, what: str) -> ConfigError:
+        return ConfigError([Problem(f"{name} {what}", str(self.path), suggestion=CURE)])
+
+    def get(self, name: str) -> Any:
+        if name not in self.arrays:
+            there = ", ".join(sorted(self.arrays)[:20]) or "nothing"
+            raise self.wrong(f"the field {name!r}", f"is missing; there are {there}")
+        return self.arrays[name]
+
+    def rows(self, name: str, dimensions: int, *, width: int = 0) -> Array:
+        """A field of numbers, a row a sample."""
+        values = self.get(name)
+        if values.dtype.kind not in "fiu":
+            raise self.wrong(name, f"holds no numbers but {values.dtype}")
+        values = values.astype(np.float64)
+        if values.ndim != dimensions or (width and values.shape[1] != width):
+            wanted = f"(n, {width})" if width else "(n,)" if dimensions == 1 else "(n, joints)"
+            raise self.wrong(name, f"has the shape {values.shape}, not {wanted}")
+        if self.count and len(values) != self.count:
+            raise self.wrong(name, f"has {len(values)} rows, t has {self.count}")
+        if not self.count and len(values) > MOST_SAMPLES:
+            raise self.wrong(name, f"has more than {MOST_SAMPLES} rows")
+        return values
+
+    def names(self, name: str) -> list[str]:
+        """A field of names, each one once."""
+        values = self.get(name)
+        if values.dtype.kind == "S":
+            values = np.char.decode(values, "utf-8", "replace")
+        if values.dtype.kind != "U" or values.ndim != 1:
+            raise self.wrong(name, "is no list of names")
+        names = [str(value) for value in values]
+        if len(set(names)) < len(names):
+            raise self.wrong(name, "holds a name twice")
+        return names
+
+    def force(self, keys: tuple[str, ...]) -> Array:
+        """The vertical force under a foot, by the first of these names that is there."""
+        name = next((key for key in keys if key in self.arrays), keys[0])
+        values = self.get(name)
+        if values.ndim == 2 and values.shape[1] in (3, 6):
+            return self.rows(name, 2)[:, 2]
+        return self.rows(name, 1)
+
+    def first_pose(self) -> SE3 | None:
+        """Where the base began, if the file says."""
+        pairs = (("gt_base_pos0", "gt_base_rpy0"), ("gt_base_pos", "gt_base_rpy"))
+        for place, angles in pairs:
+            if place in self.arrays and angles in self.arrays:
+                p, rpy = (np.atleast_2d(self.arrays[name])[0] for name in (place, angles))
+                if p.shape != (3,) or rpy.shape != (3,) or p.dtype.kind not in "fiu":
+                    raise self.wrong(place, "and its angles are not three numbers each")
+                if np.isfinite(p).all() and np.isfinite(rpy).all():
+                    roll, pitch, yaw = rpy.tolist()
+                    x, y, z = p.tolist()
+                    return SE3.from_rpy(roll, pitch, yaw, (x, y, z))
+        return None
+
+
+def _arrays(path: Path) -> dict[str, Any]:
+    """All arrays of an `.npz`, none of them pickled, none larger than it may be."""
+    try:
+        data = read_ordinary(path, limit=MOST_BYTES)
+    except OSError as error:
+        raise _unread(path, f"it cannot be read: {error.strerror}") from None
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            entries = archive.infolist()[:MOST_FIELDS]
+            if sum(entry.file_size for entry in entries) > MOST_BYTES:
+                raise _unread(path, "unpacked it is larger than 200 MB")
+            return {
+                entry.filename.removesuffix(".npy"): _array(archive.read(entry))
+                for entry in entries
+            }
+    except ConfigError:
+        raise
+    except Exception:  # a broken archive ends in any of a dozen errors
+        raise _unread(path, "it is no whole .npz of plain arrays") from None
+
+
+def _array(data: bytes) -> Any:
+    """One `.npy`; its header may not claim more than follows, as room is made for what it claims.
+
+    Raises:
+        ValueError: it does, or holds objects.
+    """
+    stream = io.BytesIO(data)
+    old = npy.read_magic(stream) == (1, 0)
+    shape, _, dtype = (npy.read_array_header_1_0 if old else npy.read_array_header_2_0)(stream)
+    if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
+        raise ValueError
+    return npy.read_array(io.BytesIO(data), allow_pickle=False)
+
+
+def _unread(path: Path, why: str) -> ConfigError:
+    return ConfigError([Problem(why, str(path), suggestion=CURE)])
+
+
+def _filled(fields: _Fields, name: str, values: Array) -> Array:
+    """What is no number, between its neighbours in the same column."""
+    known = np.isfinite(values)
+    if known.all():
+        return values
+    if not known.any(axis=0).all():
+        raise fields.wrong(name, "holds a column without any number")
+    values, rows = values.copy(), np.arange(len(values))
+    for k in range(values.shape[1]):
+        good = known[:, k]
+        values[~good, k] = np.interp(rows[~good], rows[good], values[good, k])
+    return values
+
+
+def _taken(t: Array) -> tuple[Array, bool]:
+    """When samples were taken that are stamped as they arrive, and whether they came in bursts.
+
+    A sensor samples steadily; a queue on the way lets its samples wait, then come all at once. A
+    sample is never stamped early, so the lower envelope of the stamps less a steady clock tells
+    when that clock ticked, and a step that stays tells of samples that were lost.
+    """
+    steps = np.diff(t)
+    period_s = float(np.median(steps))
+    bursts = period_s > 0.0 and bool(np.mean(steps < BURST_OF_PERIOD * period_s) > BURST_SHARE)
+    if not bursts:
+        return np.maximum.accumulate(t), False
+    index = np.arange(len(t), dtype=np.float64)
+    period_s = float((t[-1] - t[0]) / index[-1])
+    late = t - period_s * index
+    window = max(1, round(BACKLOG_S / period_s))
+    envelope = np.maximum(_least_ahead(late, window), _least_ahead(late[::-1], window)[::-1])
+    return np.maximum.accumulate(period_s * index + envelope), True
+
+
+def _least_ahead(values: Array, window: int) -> Array:
+    """The least of each value and the `window` after it."""
+    padded = np.concatenate([values, np.full(window, np.inf)])
+    return np.lib.stride_tricks.sliding_window_view(padded, window + 1).min(axis=1)

@@ -1,0 +1,193 @@
+"""Where links are from joint angles, read from a URDF: frames only, no shapes, no masses needed.
+
+Meshes, colours and transmissions are not looked at, so that a file that was taken away from its
+meshes is as good as a whole one. The format: https://wiki.ros.org/urdf/XML.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from robot.errors import ConfigError, Problem
+from robot.ordinary_files import read_ordinary
+from robot.se3 import SE3, Array
+
+MOST_BYTES = 50_000_000
+MOVING = frozenset({"revolute", "continuous", "prismatic"})
+CURE = "give the URDF of the robot that recorded the log"
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One joint: the child's frame in the parent's at zero, and how it moves."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    rotation: Array
+    position: Array
+    axis: Array
+    follows: tuple[str, float, float] | None
+    """Of a mimic: the joint it follows, the factor, the offset."""
+
+
+@dataclass(frozen=True)
+class Chains:
+    """The tree of a robot.
+
+    Attributes:
+        file: it was read from.
+        links: names, in the file's order.
+        base: the trunk that everything hangs on: the root, past links without mass that are fixed
+            one to the next.
+        mass_kg: of all links; 0 where the file has none.
+    """
+
+    file: str
+    links: tuple[str, ...]
+    base: str
+    mass_kg: float
+    above: Mapping[str, Joint]
+    """The joint over each link."""
+
+    def path(self, link: str) -> list[Joint]:
+        """The joints from the base to a link, or towards the root where that lies above."""
+        joints: list[Joint] = []
+        while link != self.base and link in self.above:
+            joints.append(self.above[link])
+            link = joints[-1].parent
+        return joints[::-1] if link == self.base else []
+
+    def moving(self, link: str) -> list[str]:
+        """Names of the joints between the base and a link whose readings place it."""
+        moving = [joint for joint in self.path(link) if joint.kind in MOVING]
+        return [joint.follows[0] if joint.follows else joint.name for joint in moving]
+
+    def poses(self, link: str, readings: Mapping[str, Array]) -> tuple[Array, Array]:
+        """A link in the base, for many samples at once.
+
+        Args:
+            link: its name.
+            readings: joint positions [rad, m] by name, shape (n,) each.
+
+        Returns:
+            Rotations, shape (n, 3, 3), and positions [m], shape (n, 3).
+        """
+        n = len(next(iter(readings.values()))) if readings else 1
+        rotations = np.broadcast_to(np.eye(3), (n, 3, 3)).copy()
+        positions = np.zeros((n, 3))
+        for joint in self.path(link):
+            positions += rotations @ joint.position
+            rotations = rotations @ joint.rotation
+            if joint.kind not in MOVING:
+                continue
+            name, gain, offset = joint.follows or (joint.name, 1.0, 0.0)
+            values = gain * readings[name] + offset
+            if joint.kind == "prismatic":
+                positions += values[:, None] * (rotations @ joint.axis)
+            else:
+                rotations = rotations @ _turns(joint.axis, values)
+        return rotations, positions
+
+
+def load(path: Path) -> Chains:
+    """Read a robot's tree.
+
+    Raises:
+        ConfigError: the file cannot be read, is no URDF, or its links are no tree.
+    """
+    try:
+        data = read_ordinary(path, limit=MOST_BYTES)
+    except OSError as error:
+        raise _refused(path, f"it cannot be read: {error.strerror}") from None
+    if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
+        raise _refused(path, "a URDF has no document type")
+    try:
+        root = ET.fromstring(data)
+    except (ET.ParseError, ValueError, LookupError) as error:
+        raise _refused(path, f"it is no XML: {error}") from None
+    if root.tag != "robot":
+        raise _refused(path, f"it describes no <robot> but <{root.tag}>")
+    try:
+        joints = [
+            _joint(element) for element in root.iter("joint") if element.find("parent") is not None
+        ]
+        masses = {link.get("name", ""): _mass(link) for link in root.findall("link")}
+    except (ValueError, TypeError) as error:
+        raise _refused(path, str(error)) from None
+    return _tree(path, joints, masses)
+
+
+def _tree(path: Path, joints: list[Joint], masses: dict[str, float]) -> Chains:
+    above = {joint.child: joint for joint in joints}
+    if len(above) < len(joints):
+        raise _refused(path, "a link hangs on two joints")
+    roots = [name for name in masses if name not in above]
+    if len(roots) != 1:
+        raise _refused(path, f"its links make {len(roots)} trees, not one")
+    below: dict[str, list[Joint]] = {}
+    for joint in joints:
+        below.setdefault(joint.parent, []).append(joint)
+    base = roots[0]
+    while masses.get(base, 0.0) == 0.0 and len(below.get(base, [])) == 1:
+        if below[base][0].kind != "fixed":
+            break
+        base = below[base][0].child
+    return Chains(str(path), tuple(masses), base, sum(masses.values()), above)
+
+
+def _joint(element: ET.Element) -> Joint:
+    name, kind = element.get("name", ""), element.get("type", "")
+    parent, child = element.find("parent"), element.find("child")
+    if parent is None or child is None:
+        raise ValueError(f"the joint {name!r} has no parent or no child")
+    if kind not in {*MOVING, "fixed"}:
+        raise ValueError(f"the joint {name!r} is of the kind {kind!r}, which no reading places")
+    origin, axis, mimic = element.find("origin"), element.find("axis"), element.find("mimic")
+    xyz = _numbers(origin, "xyz", "0 0 0")
+    roll, pitch, yaw = _numbers(origin, "rpy", "0 0 0")
+    direction = np.array(_numbers(axis, "xyz", "1 0 0"))
+    length = float(np.linalg.norm(direction))
+    if kind in MOVING and length < 1e-9:
+        raise ValueError(f"the joint {name!r} has no axis")
+    follows = None
+    if mimic is not None:
+        gain, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
+        follows = (mimic.get("joint", ""), gain, offset)
+    rotation = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).rotation()
+    return Joint(
+        name, kind, parent.get("link", ""), child.get("link", ""), rotation, np.array(xyz),
+        direction / max(length, 1e-9), follows,
+    )  # fmt: skip
+
+
+def _mass(link: ET.Element) -> float:
+    mass = link.find("inertial/mass")
+    return 0.0 if mass is None else float(mass.get("value", "0"))
+
+
+def _numbers(element: ET.Element | None, key: str, otherwise: str) -> tuple[float, float, float]:
+    text = otherwise if element is None else element.get(key, otherwise)
+    values = [float(word) for word in text.split()]
+    if len(values) != 3 or not all(math.isfinite(value) for value in values):
+        raise ValueError(f"{key}={text[:60]!r} are not three numbers")
+    return values[0], values[1], values[2]
+
+
+def _turns(axis: Array, angles: Array) -> Array:
+    """Rotation matrices about one axis, shape (n, 3, 3) (Rodrigues)."""
+    x, y, z = axis.tolist()
+    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+    sines, cosines = np.sin(angles)[:, None, None], np.cos(angles)[:, None, None]
+    return np.eye(3) + sines * cross + (1.0 - cosines) * (cross @ cross)
+
+
+def _refused(path: Path, why: str) -> ConfigError:
+    return ConfigError([Problem(why, str(path), suggestion=CURE)])
