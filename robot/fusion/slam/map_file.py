@@ -9,9 +9,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from robot.archives import Archive, Plain, packed
 from robot.errors import ConfigError, Problem
-from robot.fusion.slam import arrays
-from robot.fusion.slam.arrays import Plain
 from robot.fusion.slam.grid import Grid
 from robot.fusion.slam.planar import turn
 from robot.fusion.slam.scan import Scan
@@ -19,6 +18,8 @@ from robot.ordinary_files import write_ordinary
 from robot.se3 import Array
 
 FORMAT = "humanoid map 1"
+MOST_BYTES = 400_000_000
+"""Of one array."""
 WHAT = "a map"
 CURE = "make one with: humanoid map build --log LOG.npz --trajectory OUT.txt --out MAP.npz"
 NAMES = {
@@ -69,7 +70,7 @@ def save(path: Path, saved: SavedMap) -> None:
         ConfigError: it cannot be written.
     """
     names = sorted(saved.places)
-    data = arrays.packed(
+    data = packed(
         {
             "format": np.array(FORMAT),
             "cell_m": np.array(saved.grid.cell_m),
@@ -100,7 +101,7 @@ def load(path: Path) -> SavedMap:
     Raises:
         ConfigError: it is none, of another version, or what it holds cannot be meant.
     """
-    found = arrays.read(path, NAMES, what=WHAT, cure=CURE)
+    found = Archive(path, limit=MOST_BYTES, cure=CURE).arrays(NAMES, what=WHAT)
     wrong = _mistake(found)
     if wrong:
         raise ConfigError([Problem(wrong, str(path), suggestion=CURE)])

@@ -8,12 +8,13 @@ from typing import cast
 
 import numpy as np
 
+from robot.archives import Archive, Plain
 from robot.errors import ConfigError, Problem
-from robot.fusion.slam import arrays
-from robot.fusion.slam.arrays import Plain
 from robot.fusion.slam.scan import Scan, scan_of
 from robot.se3 import Array
 
+MOST_BYTES = 400_000_000
+"""Of one array: 5 hours of a lidar with 360 beams, 30 times a second, in 2 bytes a beam."""
 WHAT = "a lidar recording"
 CURE = "docs/localisation.md says what a recording holds"
 NAMES = {
@@ -71,7 +72,7 @@ def read(path: Path) -> Recording:
     Raises:
         ConfigError: it is none, or what it holds cannot be meant.
     """
-    found = arrays.read(path, NAMES, what=WHAT, cure=CURE)
+    found = Archive(path, limit=MOST_BYTES, cure=CURE).arrays(NAMES, what=WHAT)
     wrong = _mistake(found)
     if wrong:
         raise ConfigError([Problem(wrong, str(path), suggestion=CURE)])

@@ -8,24 +8,19 @@ first row of `gt_base_pos`, `gt_base_rpy`. What else there is, is not looked at.
 
 from __future__ import annotations
 
-import io
-import math
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.lib import format as npy
 from numpy.typing import NDArray
 
+from robot.archives import Archive
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_ordinary
 from robot.se3 import SE3, Array
 
 MOST_BYTES = 200_000_000
 MOST_SAMPLES = 5_000_000
-MOST_FIELDS = 1000
 LEFT = ("l_foot_fz", "left_foot_fz", "l_foot_force", "left_foot_force", "fz_left", "left_fz")
 RIGHT = ("r_foot_fz", "right_foot_fz", "r_foot_force", "right_foot_force", "fz_right", "right_fz")
 CURE = "docs/state_estimation.md shows the fields of a recording"
@@ -72,7 +67,7 @@ def load(path: Path) -> LeggedLog:
     Raises:
         ConfigError: it cannot be read, is no such file, or lacks a field, with the field's name.
     """
-    fields = _Fields(path, _arrays(path))
+    fields = _Fields(path)
     t = fields.rows("t", 1)
     fields.count = n = len(t)
     if n < 2:
@@ -109,18 +104,19 @@ def load(path: Path) -> LeggedLog:
 class _Fields:
     """The arrays of one file, and complaints that name it."""
 
-    def __init__(self, path: Path, arrays: dict[str, Any]) -> None:
-        self.path, self.arrays = path, arrays
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.archive = Archive(path, limit=MOST_BYTES, cure=CURE)
         self.count = 0
 
     def wrong(self, name: str, what: str) -> ConfigError:
         return ConfigError([Problem(f"{name} {what}", str(self.path), suggestion=CURE)])
 
     def get(self, name: str) -> Any:
-        if name not in self.arrays:
-            there = ", ".join(sorted(self.arrays)[:20]) or "nothing"
+        if name not in self.archive.names:
+            there = ", ".join(sorted(self.archive.names)[:20]) or "nothing"
             raise self.wrong(f"the field {name!r}", f"is missing; there are {there}")
-        return self.arrays[name]
+        return self.archive.array(name)
 
     def rows(self, name: str, dimensions: int, *, width: int = 0) -> Array:
         """A field of numbers, a row a sample."""
@@ -151,7 +147,7 @@ class _Fields:
 
     def force(self, keys: tuple[str, ...]) -> Array:
         """The vertical force under a foot, by the first of these names that is there."""
-        name = next((key for key in keys if key in self.arrays), keys[0])
+        name = next((key for key in keys if key in self.archive.names), keys[0])
         values = self.get(name)
         if values.ndim == 2 and values.shape[1] in (3, 6):
             return self.rows(name, 2)[:, 2]
@@ -161,8 +157,8 @@ class _Fields:
         """Where the base began, if the file says."""
         pairs = (("gt_base_pos0", "gt_base_rpy0"), ("gt_base_pos", "gt_base_rpy"))
         for place, angles in pairs:
-            if place in self.arrays and angles in self.arrays:
-                p, rpy = (np.atleast_2d(self.arrays[name])[0] for name in (place, angles))
+            if {place, angles} <= self.archive.names:
+                p, rpy = (np.atleast_2d(self.archive.array(name))[0] for name in (place, angles))
                 if p.shape != (3,) or rpy.shape != (3,) or p.dtype.kind not in "fiu":
                     raise self.wrong(place, "and its angles are not three numbers each")
                 if np.isfinite(p).all() and np.isfinite(rpy).all():
@@ -170,45 +166,6 @@ class _Fields:
                     x, y, z = p.tolist()
                     return SE3.from_rpy(roll, pitch, yaw, (x, y, z))
         return None
-
-
-def _arrays(path: Path) -> dict[str, Any]:
-    """All arrays of an `.npz`, none of them pickled, none larger than it may be."""
-    try:
-        data = read_ordinary(path, limit=MOST_BYTES)
-    except OSError as error:
-        raise _unread(path, f"it cannot be read: {error.strerror}") from None
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            entries = archive.infolist()[:MOST_FIELDS]
-            if sum(entry.file_size for entry in entries) > MOST_BYTES:
-                raise _unread(path, "unpacked it is larger than 200 MB")
-            return {
-                entry.filename.removesuffix(".npy"): _array(archive.read(entry))
-                for entry in entries
-            }
-    except ConfigError:
-        raise
-    except Exception:  # a broken archive ends in any of a dozen errors
-        raise _unread(path, "it is no whole .npz of plain arrays") from None
-
-
-def _array(data: bytes) -> Any:
-    """One `.npy`; its header may not claim more than follows, as room is made for what it claims.
-
-    Raises:
-        ValueError: it does, or holds objects.
-    """
-    stream = io.BytesIO(data)
-    old = npy.read_magic(stream) == (1, 0)
-    shape, _, dtype = (npy.read_array_header_1_0 if old else npy.read_array_header_2_0)(stream)
-    if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - stream.tell():
-        raise ValueError
-    return npy.read_array(io.BytesIO(data), allow_pickle=False)
-
-
-def _unread(path: Path, why: str) -> ConfigError:
-    return ConfigError([Problem(why, str(path), suggestion=CURE)])
 
 
 def _filled(fields: _Fields, name: str, values: Array) -> Array:

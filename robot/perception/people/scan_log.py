@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from robot.archives import Archive
 from robot.errors import ConfigError, Problem
-from robot.perception.arrays import Archive
 from robot.perception.people.scan import PlanarScan
 
 MOST_SCANS, MOST_BEAMS = 200_000, 10_000
