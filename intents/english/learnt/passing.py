@@ -56,7 +56,8 @@ def remainders(text: str, index: NameIndex) -> list[Remainder]:
 
 def _limits(text: str, span: Passed) -> bool:
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
-    return bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words)
+    denied = "not" in [word for word in words if word[0].isalnum()][:2]  # "but not before noon"
+    return denied or (bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words))
 
 
 def _is_sure(text: str, span: Passed, index: NameIndex) -> bool:
