@@ -118,7 +118,7 @@ def test_a_stop_is_told_while_the_talk_goes_on():
 
 def test_a_halt_comes_first_and_what_is_asked_after():
     found = listened(Told("wait"))
-    assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), ("sentence", "wait")]
+    assert [(kind, text) for _, kind, text in found] == [("halt", "wait"), ("halted", "wait")]
     assert found[0][0] < 3.0 < found[1][0]
 
 
