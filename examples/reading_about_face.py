@@ -1,4 +1,4 @@
-"""A reading of English: "about face", and "about turn", is to turn round on the spot.
+"""A reading of English: "about face", and "face about", is to turn round on the spot.
 
 The function would stand in `intents/english/readings/movements.py`, its row in
 `intents/english/order.py` beside `movements.out_of_the_way`: both are set phrases that no verb
@@ -14,7 +14,7 @@ from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.goals import Displacement, GoTo
 
-_ABOUT_FACE = lexicon.phrases("about face,about turn")
+_ABOUT_FACE = lexicon.phrases("about face,face about")
 
 
 def about_face(sentence: Sentence, at: int) -> Found | None:

@@ -95,7 +95,13 @@ class Shell:
         self._stops_before: int | None = None
         self._one_line = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
-        self.brake = Brake(robot, self.dialogue, out=out, speech=self.speech, model=model)
+        self.brake = Brake(
+            robot,
+            self.dialogue,
+            out=self._to_people,
+            speech=self.speech,
+            model=model,
+        )
         self._model = model
         if model is not None:
             model.unable = self._unable
@@ -192,6 +198,10 @@ class Shell:
             return ""
         cure = failures.suggestion(lost.code, lost.suggestion)
         return f"The robot is gone: {lost.cause}; {cure}."
+
+    def _to_people(self, text: str) -> None:
+        """Say a line by what `out` is by then: pages join after the start."""
+        self.out(text)
 
     def answer(self, text: str) -> None:
         """Say a line to people, and aloud."""

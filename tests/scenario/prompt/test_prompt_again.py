@@ -41,7 +41,9 @@ def test_resume_gives_the_prompt_back_with_what_was_open(
     at_the_prompt(monkeypatch, "go to the table", "history")
     status, text = humanoid("resume", "runs/b")
     assert status == 0, text
-    assert "going on: with a new robot" in text
+    assert "going on with “squat for 2 seconds, then bow”: with a new robot" in " ".join(
+        text.split()
+    )
     done = [event.data["step"] for event in newest() if event.event == "done"]
     assert done == ["bow", "go to the table"]
 
