@@ -49,7 +49,7 @@ def test_it_may_be_written_again(files):
     ("changed", "says"),
     [
         ({"log": "gone.npz"}, "gone.npz"),
-        ({"log": "robot.urdf"}, "no whole .npz"),
+        ({"log": "robot.urdf"}, "no NumPy archive"),
         ({"urdf": "gone.urdf"}, "gone.urdf"),
         ({"urdf": "log.npz"}, "no XML"),
         ({"out": "no/such/folder.txt"}, "cannot be written"),
