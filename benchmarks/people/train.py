@@ -1,6 +1,6 @@
 """`python -m benchmarks.people.train`: make scans, train the forest of legs, write its file.
 
-Needs scikit-learn (`pip install scikit-learn`), which nothing else does.
+Needs scikit-learn (`pip install -e .[train]`), which nothing else does.
 """
 
 from __future__ import annotations

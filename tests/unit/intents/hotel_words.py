@@ -1,6 +1,6 @@
 """A made-up hotel, whose names the tests of words and phrases share."""
 
-from intents.outcomes import Outcome
+from intents.outcomes import Goals, Outcome
 from intents.parser import parse
 from intents.vocabulary import Thing, Vocabulary
 
@@ -25,3 +25,11 @@ HOTEL = Vocabulary.of(
 def heard(said: str) -> Outcome:
     """What is understood in the hotel."""
     return parse(said, HOTEL)
+
+
+def assert_means_the_same(said: str, plainly: str) -> None:
+    """Both are understood, and ask for the same."""
+    one, other = heard(said), heard(plainly)
+    assert isinstance(other, Goals), plainly
+    assert isinstance(one, Goals), one
+    assert one.goals == other.goals

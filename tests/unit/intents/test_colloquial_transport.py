@@ -1,7 +1,7 @@
 """Things are lobbed, plonked, flicked on and schlepped; what nobody knows is asked about."""
 
 import pytest
-from hotel_words import heard
+from hotel_words import assert_means_the_same, heard
 
 from intents.outcomes import Goals, Question, Refusal
 
@@ -37,10 +37,7 @@ from intents.outcomes import Goals, Question, Refusal
     ],
 )
 def test_it_is_moved_or_switched(said: str, plainly: str) -> None:
-    one, other = heard(said), heard(plainly)
-    assert isinstance(other, Goals), plainly
-    assert isinstance(one, Goals), one
-    assert one.goals == other.goals
+    assert_means_the_same(said, plainly)
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,7 @@
 """Other little words, other orders: dialects, learners, and what a home is called elsewhere."""
 
 import pytest
-from hotel_words import heard
-
-from intents.outcomes import Goals
+from hotel_words import assert_means_the_same
 
 
 @pytest.mark.parametrize(
@@ -21,10 +19,7 @@ from intents.outcomes import Goals
     ],
 )
 def test_dialects(said: str, plainly: str) -> None:
-    one, other = heard(said), heard(plainly)
-    assert isinstance(other, Goals), plainly
-    assert isinstance(one, Goals), one
-    assert one.goals == other.goals
+    assert_means_the_same(said, plainly)
 
 
 @pytest.mark.parametrize(
@@ -67,7 +62,4 @@ def test_dialects(said: str, plainly: str) -> None:
     ],
 )
 def test_learners(said: str, plainly: str) -> None:
-    one, other = heard(said), heard(plainly)
-    assert isinstance(other, Goals), plainly
-    assert isinstance(one, Goals), one
-    assert one.goals == other.goals
+    assert_means_the_same(said, plainly)

@@ -1,7 +1,7 @@
 """Whose it is, how many, of which, and to whom something is said."""
 
 import pytest
-from hotel_words import heard
+from hotel_words import assert_means_the_same, heard
 
 from intents.goals import Bring, ObjectQuery, Person, Say, Stop
 from intents.outcomes import Goals
@@ -65,10 +65,7 @@ from intents.outcomes import Goals
     ],
 )
 def test_it_is_read_as_what_is_said_plainly(said: str, plainly: str) -> None:
-    one, other = heard(said), heard(plainly)
-    assert isinstance(other, Goals), plainly
-    assert isinstance(one, Goals), one
-    assert one.goals == other.goals
+    assert_means_the_same(said, plainly)
 
 
 @pytest.mark.parametrize(

@@ -96,8 +96,9 @@ def test_every_text_has_looks_and_none_raises(text: str) -> None:
     reworded(text, INDEX)
 
 
-def test_what_was_not_understood_whole_is_asked_with_all_that_would_be_done() -> None:
-    outcome = parse("blah Marit wubble the rope quux cellar", LIGHTHOUSE)
-    assert not isinstance(outcome, Goals)
-    if isinstance(outcome, Question) and outcome.goals:
-        assert outcome.kind == "confirmation"
+def test_what_is_in_doubt_is_asked_with_all_that_would_be_done() -> None:
+    said = "shut the locker pronto my ears are ringing like the bells of hell"
+    outcome = parse(said, LIGHTHOUSE)
+    assert isinstance(outcome, Question), outcome
+    assert outcome.kind == "confirmation"
+    assert to_builtins(outcome.goals) == goals_of("close the locker")
