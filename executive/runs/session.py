@@ -27,6 +27,7 @@ from executive.engine.motion import MotionWatch
 from executive.engine.recorder import Recorder
 from executive.journal import motion
 from executive.journal.files import BackgroundFile, LineFile, Lines, Nowhere
+from executive.journal.journal import FILE as JOURNAL_FILE
 from executive.journal.journal import Journal
 from executive.meaning.request import Understood
 from executive.missions.fault_plans import FaultPlan
@@ -196,6 +197,18 @@ class Session(Closing):
         self.faults.tick(self.now_s)
         for listener in self._listeners:
             listener()
+
+    def unwritten(self) -> tuple[str, ...]:
+        """What the run's folder lacks because the disk did not take it, a line a file."""
+        kept = (
+            (JOURNAL_FILE, "what happened", self.journal.problem, self.journal.dropped),
+            (motion.FILE, "how everything moved", self._motion.problem, self._motion.dropped),
+        )
+        return tuple(
+            f"{file} ({what}) {f'is cut: {problem}' if problem else f'lacks {dropped} lines'}"
+            for file, what, problem, dropped in kept
+            if problem or dropped
+        )
 
     def close(self) -> None:
         """Undo the faults that last, and close the journal."""

@@ -22,6 +22,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     """How a run ended (`summary.json`); wall times stand only here and in `wall.jsonl`.
 
     `placed` says where things are believed to be; nothing here is the simulator's truth.
+    `unwritten` says what the disk did not take, a line a file.
     """
 
     status: str
@@ -38,6 +39,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     expected: tuple[Expected, ...] = ()
     late: tuple[str, ...] = ()
     folder: str = ""
+    unwritten: tuple[str, ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -165,4 +167,7 @@ def last_lines(summary: Summary) -> list[str]:
     lines += [f"  {late}" for late in summary.late]
     if summary.folder:
         lines.append(f"  journal: {summary.folder}/journal.jsonl")
+    if summary.unwritten:
+        lines += [f"  NOT KEPT     {what}" for what in summary.unwritten]
+        lines.append("  make room on the disk before the next run, or choose another --run-dir")
     return lines + failures.advice(summary.suggestion)

@@ -91,8 +91,10 @@ def see_through(
         wall_s = wall.now_s() - begun_s
         found = summary(session, assignment.understood.task, since_s=since_s, wall_s=wall_s)
         found = replace(found, expected=tuple(expected))
+    found = replace(found, unwritten=session.unwritten())
     if session.setup.folder is not None:
-        run_folder.save(session.setup.folder, "summary.json", found)
+        problem = run_folder.save(session.setup.folder, "summary.json", found)
+        found = replace(found, unwritten=(*found.unwritten, *([problem] if problem else [])))
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import resource
 from contextlib import contextmanager
 
 import pytest
@@ -40,6 +41,22 @@ def runtime(monkeypatch):
     monkeypatch.setattr(request, "setting", mapped)
     made.opened = None
     return made
+
+
+@pytest.fixture
+def small_files():
+    """Within it no file grows beyond so many bytes, as on a disk that is full."""
+
+    @contextmanager
+    def limited(most_bytes):
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, before[1]))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+    return limited
 
 
 def test_the_main_job_is_done_and_summed_up(runtime, humanoid, tmp_path):
@@ -348,6 +365,15 @@ def test_model_export_writes_a_urdf(humanoid, tmp_path):
     assert (tmp_path / "juno.urdf").read_text().startswith("<?xml")
     status, text = humanoid("model", "export", "--urdf", "nowhere/juno.urdf")
     assert (status, "cannot be written" in text) == (2, True)
+
+
+def test_what_a_full_disk_did_not_take_is_said_at_the_end(runtime, humanoid, small_files):
+    with small_files(2000):  # the journal of this takes more
+        status, text = humanoid("do", "pick up the red cup and put it on the table", "--fast")
+    assert status == 0, text
+    assert re.search(r"NOT KEPT +journal.jsonl \(what happened\) is cut: File too large", text)
+    assert "make room on the disk" in text
+    assert "NOT KEPT" not in humanoid("do", "pick up the red cup", "--fast")[1]
 
 
 def test_view_without_a_display_says_so(humanoid, monkeypatch):
