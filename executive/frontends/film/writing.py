@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib.util
 import io
+import itertools
 from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
-from PIL import Image
+from PIL import Image, ImageColor
 
 from executive.frontends.film.pictures import Frame
 from robot.errors import ConfigError, Problem
@@ -36,8 +37,10 @@ FORMATS: tuple[Kind, ...] = (
     ),
     Kind(suffix=".gif", codec="", rate_hz=10, most_frames=900),
 )  # fmt: skip
-COLOURS = 128
+COLOURS = 256
 """Of a GIF."""
+HUES, VALUES = 12, (40, 65, 90)
+"""Of the colours that a GIF can show from its beginning, whatever its first picture shows."""
 
 
 def best() -> str:
@@ -85,12 +88,34 @@ def write(path: Path, kind: Kind, frames: Iterator[Frame], *, width: int, height
 
 
 def _gif(kind: Kind, frames: Iterator[Frame]) -> bytes:
-    """All pictures with the colours of the first: what stands still costs nothing then."""
-    first = next(frames).quantize(COLOURS, dither=Image.Dither.NONE)
-    rest = (frame.quantize(palette=first, dither=Image.Dither.NONE) for frame in frames)
+    """All pictures in the same few colours: what stands still costs nothing then."""
+    first = next(frames)
+    palette = _palette(first)
+    pictures = (
+        frame.quantize(palette=palette, dither=Image.Dither.NONE)
+        for frame in itertools.chain([first], frames)
+    )
     file = io.BytesIO()
-    first.save(
-        file, "GIF", save_all=True, append_images=rest, duration=1000 // kind.rate_hz, loop=0,
+    next(pictures).save(
+        file, "GIF", save_all=True, append_images=pictures, duration=1000 // kind.rate_hz, loop=0,
         optimize=False,
     )  # fmt: skip
     return file.getvalue()
+
+
+def _palette(first: Frame) -> Frame:
+    """Colours of the first picture, and of what may come into view later: of each hue some.
+
+    An octree keeps those that are rare (a red cup in a grey room); a median cut gives them up.
+    """
+    width, height = first.size
+    strip = max(1, height // 10)
+    sample = Image.new("RGB", (width, height + strip))
+    sample.paste(first, (0, 0))
+    for column in range(HUES):
+        for row, value in enumerate(VALUES):
+            colour = ImageColor.getrgb(f"hsv({360 * column // HUES}, 85%, {value}%)")
+            left, right = (width * edge // HUES for edge in (column, column + 1))
+            top, bottom = (height + strip * edge // len(VALUES) for edge in (row, row + 1))
+            sample.paste(colour, (left, top, right, bottom))
+    return sample.quantize(COLOURS, method=Image.Quantize.FASTOCTREE)

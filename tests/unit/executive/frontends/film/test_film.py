@@ -92,6 +92,19 @@ def test_a_gif_has_every_picture_and_needs_nothing_else(run, studio, capsys):
     assert "Done" in capsys.readouterr().out
 
 
+def test_a_gif_shows_colours_that_come_into_view_later(tmp_path):
+    grey, red = Image.new("RGB", (320, 180), "#a0a0a0"), (200, 30, 25)
+    later = grey.copy()
+    later.paste(red, (100, 50, 110, 60))
+    path = tmp_path / "it.gif"
+    writing.write(path, writing.kind_of(path), iter([grey, later]), width=320, height=180)
+    with Image.open(path) as made:
+        made.seek(1)
+        shown = made.convert("RGB")
+    assert shown.getpixel((10, 10)) == pytest.approx((160, 160, 160), abs=6)
+    assert shown.getpixel((105, 55)) == pytest.approx(red, abs=40)
+
+
 @pytest.mark.parametrize("suffix", [".webm", ".mp4"])
 def test_films_for_browsers(run, studio, suffix):
     av = pytest.importorskip("av", reason="the extra `film` is not installed")
