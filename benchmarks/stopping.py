@@ -15,6 +15,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.meaning import request
@@ -53,7 +54,7 @@ def _once(robot: Robot, rng: random.Random) -> float:
             sent_s.append(time.perf_counter())
         send(command)
 
-    shell = Shell(robot, lambda _text: None, folder=Path())
+    shell = Shell(robot, lambda _text: None, table=table.commands, folder=Path())
     shell.line("walk 0.6 m forward" if rng.random() < 0.5 else "walk 0.6 m back")
     until_s = time.monotonic() + GIVE_UP_S
     while robot.view.mode != "walk" and time.monotonic() < until_s:

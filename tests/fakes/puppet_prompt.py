@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import speaking, streams
-from executive.frontends.prompt import cli, commands
+from executive.frontends.prompt import cli
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.terminal import Terminal
@@ -79,7 +80,7 @@ def main(folder: Path, told: int, heard: int) -> None:
         threading.Thread(target=obey, daemon=True).start()
         robot.session.on_tick(tell)
         robot.session.journal.listen(cli._tell)
-        shell = Shell(robot, cli.say, table=commands.table, folder=folder)
+        shell = Shell(robot, cli.say, table=table.commands, folder=folder)
         shell.speech = speaking.Speech()
         Terminal(shell, history=folder / "history").run()
     os.write(told, b"left\n")

@@ -7,7 +7,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
-from executive.frontends.prompt import commands
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.reality import REALITY
@@ -34,6 +34,6 @@ def puppet_shell(folder: Path, said: list[str], *, world: str = "kitchen") -> Ge
     try:
         setup = Setup(where=where, kind="live", folder=folder)
         with Robot(setup, wall=WallClock(), time_of_day=time.time) as robot:
-            yield Shell(robot, said.append, table=commands.table, folder=folder)
+            yield Shell(robot, said.append, table=table.commands, folder=folder)
     finally:
         runtimes.opened = before

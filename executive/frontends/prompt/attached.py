@@ -14,7 +14,7 @@ from typing import Any
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNLIMITED, Limits
 from executive.frontends.console.attending import attended
-from executive.frontends.prompt import commands
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import low_base_m
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.view import Observer, View
@@ -105,6 +105,6 @@ def attached(
         yield
         return
     robot = Attached(session, wall=WallClock())
-    shell = Shell(robot, out, table=commands.table, folder=folder)
+    shell = Shell(robot, out, table=table.commands, folder=folder)
     with attended(shell, folder, handle):
         yield

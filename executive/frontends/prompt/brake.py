@@ -9,10 +9,10 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.robot import AtWork
 from executive.frontends.prompt.stance import standing
-from executive.frontends.speaking import Speech
 from intents.dialogue import Dialogue
 from intents.stopping import is_stay, is_stop
 
@@ -26,7 +26,7 @@ class Brake:
     Attributes:
         halt: whether it has halted for a cry, and waits to be told more.
         stops: how often it was told to stop; a line from before the last one comes to nothing.
-        speech: falls silent with a stop.
+        stops_before: what `stops` was when the line that is being done was entered (None: as now).
     """
 
     def __init__(
@@ -34,8 +34,7 @@ class Brake:
         robot: AtWork,
         dialogue: Dialogue,
         *,
-        out: Callable[[str], None],
-        speech: Speech,
+        people: Answering,
         model: LanguageModel | None,
     ) -> None:
         """Nobody has said stop yet.
@@ -43,16 +42,15 @@ class Brake:
         Args:
             robot: that is stopped.
             dialogue: is forgotten with a stop.
-            out: says a line to people.
-            speech: falls silent.
+            people: are answered; a stop silences what is said to them.
             model: is waited for no longer.
         """
         self.halt = Halt(robot.executive)
         self.stops = 0
+        self.stops_before: int | None = None
         self._robot = robot
         self._dialogue = dialogue
-        self._out = out
-        self.speech = speech
+        self._people = people
         self._model = model
         self._lock = threading.Lock()
 
@@ -64,7 +62,7 @@ class Brake:
         """Bring the robot to a stand and end all jobs, be silent, and say so."""
         busy = self._robot.busy
         self.stop_unsaid(why)
-        self._out("Stopping." if busy else self.standing())
+        self._people.out("Stopping." if busy else self.standing())
 
     def stop_unsaid(self, why: str) -> None:
         """Stop without a word; first the robot, then what only is in the way of hearing."""
@@ -73,19 +71,19 @@ class Brake:
             self._robot.executive.stop(why)
             self.halt.forget()
         self._ask_model_no_more()
-        self.speech.hush()
+        self._people.speech.hush()
         self._dialogue.forget()
 
     def press(self) -> None:
         """Press the emergency stop."""
-        self.speech.hush()
+        self._people.speech.hush()
         self._robot.executive.press_estop("the operator pressed the emergency stop")
 
     def halt_robot(self) -> None:
         """Come to a stand at once and keep the jobs, until it is known what is wanted."""
         with self._lock:
             self.halt.begin()
-        self.speech.hush()
+        self._people.speech.hush()
 
     def settle_halt(self) -> None:
         """It was said what is to become of the jobs that were halted; it is asked no more."""
@@ -103,7 +101,7 @@ class Brake:
         if self._dialogue.question is None:
             return False
         self._dialogue.forget()
-        self._out("I ask no more.")
+        self._people.out("I ask no more.")
         return True
 
     def leave(self) -> None:
@@ -118,10 +116,15 @@ class Brake:
         """Whether there was a stop since there had been so many (None: since now)."""
         return stops not in (None, self.stops)
 
-    def unless_stopped(self, stops: int | None, begin: Callable[[], int]) -> int | None:
-        """What `begin` returns; None, and it is not called, if there was a stop since `stops`."""
+    @property
+    def stopped(self) -> bool:
+        """Whether there was a stop since the line that is being done was entered."""
+        return self.stopped_since(self.stops_before)
+
+    def unless_stopped(self, begin: Callable[[], int]) -> int | None:
+        """What `begin` returns; None, and it is not called, if this line was `stopped`."""
         with self._lock:
-            return None if self.stopped_since(stops) else begin()
+            return None if self.stopped else begin()
 
     def standing(self) -> str:
         """What is true of a robot that has nothing to stop."""

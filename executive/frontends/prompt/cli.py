@@ -25,7 +25,7 @@ from executive.frontends.launching import (
 from executive.frontends.options import Prompt
 from executive.frontends.output import Screen, say
 from executive.frontends.progress import sentence
-from executive.frontends.prompt import commands
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
@@ -160,7 +160,7 @@ def conversation(
             with Screen(err=True).status("starting the robot"):
                 stack.enter_context(robot)
             stack.enter_context(robot.interrupts.listen())
-        shell = Shell(robot, say, table=commands.table, folder=folder, model=model, speech=speech)
+        shell = Shell(robot, say, table=table.commands, folder=folder, model=model, speech=speech)
         shell.dialogue.agreed = options.yes
         tell_what_goes_on(robot.session.journal)
         if robot.halted_before:

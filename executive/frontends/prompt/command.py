@@ -23,6 +23,16 @@ def anything(_rest: str) -> bool:
     return True
 
 
+def one_of(*words: str) -> Callable[[str], bool]:
+    """Whether what follows is one of the words."""
+    return lambda rest: rest in words
+
+
+def begins(*words: str, bare: bool = True) -> Callable[[str], bool]:
+    """Whether what follows begins with one of the words (or, if `bare`, is nothing)."""
+    return lambda rest: rest.split(" ")[0] in words if rest else bare
+
+
 @dataclass(frozen=True, kw_only=True)
 class Command:
     """One command.

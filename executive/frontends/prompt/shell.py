@@ -9,61 +9,45 @@ same parts of the body.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from msgspec.structs import replace
-
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
-from executive.behaviours.breakpoints import fits
-from executive.blackboard import HELD, WORLD
-from executive.engine.executive import JobError
-from executive.engine.jobs import OVER, UNDER_WAY, Job
-from executive.frontends.prompt import foresight
+from executive.frontends.prompt.answering import Answering, Out
 from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
+from executive.frontends.prompt.queueing import Queueing
 from executive.frontends.prompt.robot import AtWork
-from executive.frontends.prompt.state import robot_state
+from executive.frontends.prompt.understanding import Understanding
 from executive.frontends.speaking import Speech
 from executive.journal import failures
-from executive.meaning.request import Refused, Understood, meant, unable
-from executive.trees.parts import errands
+from executive.meaning.request import Understood
 from intents.context import Context, verdict_of
 from intents.dialogue import Dialogue
-from intents.goals import Cancel, Goal, Pause, Resume, Stop
-from intents.halting import besides, is_halt
+from intents.halting import is_halt
 from intents.letters import bare, seen, without_sequences
-from intents.outcomes import Goals, Question, Refusal, Reply, Turn
+from intents.outcomes import Question, Refusal
 from intents.parser import hear
-from intents.plans import numbered
-from intents.state import RobotState
-from intents.wording import in_words
 from robot.errors import RobotError
-from robot.misfits import listed, shown
-from robot.se3 import SE3
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
 
-Out = Callable[[str], None]
-MOST_DIGITS = 9
-"""Of a job's number; a run has a few hundred."""
 
-
-class Shell:
+class Shell(Answering):
     """Takes lines and says what comes of them.
 
     Attributes:
         robot: what is spoken to.
         brake: brings it to a stand.
-        out: says a line to people.
-        speech: says aloud what it answers.
+        queue: what was asked for.
+        dialogue: what was said.
         folder: of this run.
         leaving: whether the person wants to go.
-        refused: how many lines led to nothing, because they could not be meant.
     """
 
     def __init__(
@@ -81,33 +65,28 @@ class Shell:
         Args:
             robot: what is spoken to.
             out: says a line to people.
-            table: makes the commands (`executive.frontends.prompt.commands`).
+            table: makes the commands (`executive.frontends.prompt.commands.table`).
             folder: of this run.
             model: is asked what the grammar does not understand.
             speech: says aloud what it answers.
         """
+        super().__init__(out, speech)
         self.robot = robot
-        self.out = out
-        self.speech = speech or Speech()
         self.folder = folder
         self.leaving = False
-        self.refused = 0
-        self._stops_before: int | None = None
         self._one_line = threading.Lock()
         self.dialogue = Dialogue(robot.where.knowledge.vocabulary(), fallback=model)
-        self.brake = Brake(
+        self.brake = Brake(robot, self.dialogue, people=self, model=model)
+        self.queue = Queueing(robot, self.brake, people=self)
+        self._understanding = Understanding(
             robot,
             self.dialogue,
-            out=self._to_people,
-            speech=self.speech,
+            brake=self.brake,
+            queue=self.queue,
+            people=self,
+            steer=self.command,
             model=model,
         )
-        self._model = model
-        if model is not None:
-            model.unable = self._unable
-        self._holds: tuple[str, ...] = ()
-        self._asked: dict[int, tuple[Understood, SE3 | None]] = {}
-        self._corrects = False
         self._slip = "", 0
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
@@ -199,15 +178,6 @@ class Shell:
         cure = failures.suggestion(lost.code, lost.suggestion)
         return f"The robot is gone: {lost.cause}; {cure}."
 
-    def _to_people(self, text: str) -> None:
-        """Say a line by what `out` is by then: pages join after the start."""
-        self.out(text)
-
-    def answer(self, text: str) -> None:
-        """Say a line to people, and aloud."""
-        self.out(text)
-        self.speech.say(text)
-
     def leave(self) -> None:
         """Let nothing begin any more, and bring the robot to a stand."""
         self.leaving = True
@@ -224,28 +194,18 @@ class Shell:
             if self.stop_at_once(text):
                 return
         except RobotError as error:
-            self._refuse(f"Not done: {error}")
+            self.refuse(f"Not done: {error}")
             self.ask_to_go_on()
             return
-        with self._one_line:  # people at the terminal and at pages take turns
-            self._line(text, stops=stops)
-
-    def _line(self, text: str, *, stops: int | None) -> None:
-        self._stops_before = stops
-        try:
+        with self._turn(stops):
             halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
-            if self._stopped:
-                self._refuse_stopped(text)
+            if self.brake.stopped:
+                self.refuse_stopped(text)
             elif halted:
                 self._take_halted(text)
             elif text:
                 self._take(text)
-        except RobotError as error:
-            self._refuse(f"Not done: {error}")
-        finally:
-            self._stops_before = None
-        self.ask_to_go_on()
 
     def ask_again(self) -> None:
         """Ask what was asked by an executive before this one: whether to go on after a halt."""
@@ -254,21 +214,24 @@ class Shell:
 
     def hear(self, text: str, *, stops: int) -> None:
         """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
-        with self._one_line:
-            self._hear(text, stops=stops)
-
-    def _hear(self, text: str, *, stops: int) -> None:
-        self._stops_before = stops
-        try:
+        with self._turn(stops):
             if self.halt_at_once(text, spoken=True):
                 self._take_halted(text)
             else:
                 self.sentence(text)
-        except RobotError as error:
-            self._refuse(f"Not done: {error}")
-        finally:
-            self._stops_before = None
-        self.ask_to_go_on()
+
+    @contextmanager
+    def _turn(self, stops: int | None) -> Generator[None]:
+        """One line: people at the terminal and at pages take turns."""
+        with self._one_line:
+            self.brake.stops_before = stops
+            try:
+                yield
+            except RobotError as error:
+                self.refuse(f"Not done: {error}")
+            finally:
+                self.brake.stops_before = None
+            self.ask_to_go_on()
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:
         """Understand a sentence in the conversation so far, and do it."""
@@ -277,146 +240,15 @@ class Shell:
             self.submit(understood, urgent=urgent)
 
     def understand(self, text: str, *, steers: bool = True) -> Understood | None:
-        """What a sentence asks for; None when something else was said about it already.
-
-        One that only steers the jobs ("pause") does so at once, if `steers`.
-        """
-        robot = self.robot
-        state = self._state()
-        if self._model is not None:
-            self._model.trouble = ""
-            if not robot.busy:
-                self._model.begin_mission()
-        answers = self.dialogue.question is not None
-        turn = self.dialogue.hear(text, state)
-        if self._stopped:  # it may have taken as long as a language model does
-            self.dialogue.forget()
-            self._refuse_stopped(text)
-            return None
-        if self.dialogue.dropped and not self.brake.halt.on:
-            self.out(f"I ask no more: {self.dialogue.dropped}")
-        understood = self._heed(text, turn, state, answers=answers, steers=steers)
-        still = self.dialogue.question
-        if still is not None and not isinstance(turn, Question):
-            about = f"“{still.text}”: " if still.text else ""
-            self.answer(f"Still open: {about}{still.question}")
-        return understood
-
-    def _state(self) -> RobotState:
-        """What the robot knows of itself, now."""
-        robot = self.robot
-        state = robot_state(robot.executive, robot.session.runtime.link, robot.where.knowledge)
-        world = robot.executive.board.read(WORLD)
-        X_WS = on_the_floor(world.X_WB) if world is not None else None
-        under_way = self.under_way()
-        asked = self._asked.get(under_way[0].number) if under_way else None
-        return replace(
-            state,
-            examples=lambda: foresight.examples(robot.where, X_WS),
-            foresee_s=lambda: foresight.takes_s(asked[0], robot.where, asked[1]) if asked else None,
-        )
-
-    def _tell_trouble(self) -> None:
-        if self._model is not None and self._model.trouble:
-            self.out(f"The language model was of no help: {self._model.trouble}.")
-
-    def _unable(self, goals: tuple[Goal, ...]) -> str:
-        """Why goals that a language model makes cannot be done."""
-        return unable(goals, self.robot.where, held=self._held(), state=self._state())
-
-    def _heed(
-        self, text: str, turn: Turn, state: RobotState, *, answers: bool, steers: bool
-    ) -> Understood | None:
-        """Say what a turn of the conversation leads to, steer the jobs, or return what is asked."""
-        asks_or_not = isinstance(turn, Question | Refusal) and not answers
-        if asks_or_not and is_halt(text) and not besides(text):
-            self.dialogue.unask()
-            self.answer(self.brake.standing())  # to a robot that moves it would have been a cry
-        elif isinstance(turn, Reply):
-            self.answer(turn.text)
-        elif isinstance(turn, Question):
-            self.answer(turn.question)
-            self._tell_trouble()
-        elif isinstance(turn, Refusal):
-            self._refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")
-            self._tell_trouble()
-        else:
-            # an answer ("no, the blue one") says nothing by itself: the job is called what it means
-            steering = all(isinstance(goal, Stop | Pause | Resume | Cancel) for goal in turn.goals)
-            if not steering:
-                if turn.parser == "model" and not answers:
-                    self.answer(f"I shall do this:\n{numbered(turn.goals)}")
-                by_itself = not (answers or turn.instead or turn.elliptic)
-                return self._settle(text if by_itself else in_words(turn.goals), turn, state)
-            if steers:
-                self._steer(turn.goals)
-            else:
-                self.answer(f"I would {in_words(turn.goals)} at once.")
-        return None
+        """What a sentence asks for, as `Understanding` says it."""
+        return self._understanding.understand(text, steers=steers)
 
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
         """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
         if self.gone:
-            self._refuse(self.gone)
-            return
-        self._make_room(understood.text, urgent=urgent)
-        number = self.brake.unless_stopped(
-            self._stops_before, lambda: self.robot.submit(understood, urgent=urgent, **how)
-        )
-        if number is None:
-            self._refuse_stopped(understood.text)
-            return
-        self._holds = understood.holds
-        world = self.robot.executive.board.read(WORLD)
-        self._asked[number] = understood, on_the_floor(world.X_WB) if world is not None else None
-        live = {job.number: job for job in self.robot.executive.jobs if job.state not in OVER}
-        mine = live.pop(number, None)
-        self._tell_of_breaks(understood)
-        before = [
-            job
-            for job in live.values()
-            if mine and job.resources & mine.resources and not self.brake.halt.gave_up(job)
-        ]
-        if before and not urgent:
-            self.answer(f"Queued as {number}, with {len(before)} before it.")
-        if self.robot.executive.pause_wanted and not self.brake.halt.on:
-            self.answer("The robot is paused: `resume` lets it begin.")
-
-    def steps_to_do(self) -> list[str]:
-        """The names of the steps of all that is to be done, as far as it was asked for here."""
-        jobs = [job for job in self.robot.executive.jobs if job.state not in OVER]
-        asked = [self._asked[job.number][0] for job in jobs if job.number in self._asked]
-        return list(dict.fromkeys(step.name for one in asked for step in errands(one.task)))
-
-    def _tell_of_breaks(self, understood: Understood) -> None:
-        """Say that a job will not be held, where breakpoints were set to hold something."""
-        breaks = self.robot.executive.breaks
-        names = list(dict.fromkeys(step.name for step in errands(understood.task)))
-        if breaks and names and not any(fits(one, name) for one in breaks for name in names):
-            self.out(f"  No breakpoint ({listed(breaks)}) holds a step of it: {listed(names)}.")
-
-    def _make_room(self, text: str, *, urgent: bool) -> None:
-        """End what a task takes the place of: what was halted for it, or what it corrects."""
-        corrects, self._corrects = self._corrects, False
-        last = max(self._asked, default=0)
-        jobs = [job for job in self.robot.executive.jobs if job.state not in OVER]
-        replaced = [job for job in jobs if corrects and job.number == last]
-        comes_first = urgent or "first" in text.casefold().split()
-        if self.brake.halt.on and not replaced and not comes_first:
-            replaced = self.brake.halt.kept
-        if replaced:
-            self.brake.halt.give_up(replaced, "something else was asked for instead")
-            self.answer(f"Instead of “{replaced[0].text}”.")
-        if self.brake.halt.on and (comes_first or not self._still_under_way()):
-            self.brake.halt.end()
-
-    def _still_under_way(self) -> list[Job]:
-        """The jobs under way that were not given up."""
-        return [job for job in self.brake.halt.kept if job.state in UNDER_WAY]
-
-    def under_way(self) -> list[Job]:
-        """The jobs that have begun and are not over."""
-        return [job for job in self.robot.executive.jobs if job.state in UNDER_WAY]
+            self.refuse(self.gone)
+        else:
+            self.queue.submit(understood, urgent=urgent, **how)
 
     def _is_command(self, text: str) -> bool:
         """Whether a line is a command, which says itself what is to be halted: `break off`."""
@@ -440,11 +272,11 @@ class Shell:
             command.run("")
         elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
             self._slip = slip, self.brake.stops
-            self._refuse(f"Did you mean `{slip}`?")
+            self.refuse(f"Did you mean `{slip}`?")
         elif self.help(text):
             pass
         elif command is not None and self._is_no_sentence(text):
-            self._refuse(f"Not done: {command.misfit(rest)}", f"Use: {command.usage}")
+            self.refuse(f"Not done: {command.misfit(rest)}", f"Use: {command.usage}")
         else:
             self.sentence(text)
 
@@ -466,7 +298,7 @@ class Shell:
             self.out(self.brake.standing())
             return
         self.out("Halting.")
-        said = self.dialogue.besides(text, self._state())
+        said = self.dialogue.besides(text, self._understanding.state())
         if said:
             self.sentence(said)
 
@@ -480,56 +312,6 @@ class Shell:
             return
         self.dialogue.ask(question)
         self.answer(question.question)
-
-    def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
-        """What the goals mean here."""
-        self._corrects = turn.instead
-        expected = self.robot.busy and not (self.brake.halt.on or turn.instead)
-        held = self._holds if expected else self._held()
-        understood = meant(text, turn.goals, self.robot.where, held=held, state=state)
-        if isinstance(understood, Refused):
-            self._refuse(f"Not done: {understood.reason}", understood.suggestion)
-            return None
-        return understood
-
-    @property
-    def _stopped(self) -> bool:
-        """Whether there was a stop since the line that is being done was entered."""
-        return self.brake.stopped_since(self._stops_before)
-
-    def _refuse_stopped(self, text: str) -> None:
-        self._refuse(f"Not done: “{text}” was there when you said stop")
-
-    def _refuse(self, why: str, cure: str = "") -> None:
-        self.refused += 1
-        self.answer(why)
-        if cure:
-            self.out(f"  {cure}")
-
-    def _held(self) -> tuple[str, ...]:
-        return tuple(self.robot.executive.board.read(HELD).values())
-
-    def _steer(self, goals: tuple[Goal, ...]) -> None:
-        """Steer the jobs as commands would."""
-        for goal in goals:
-            self.commands[type(goal).__name__.casefold()].run("")
-
-
-def on_the_floor(X_WB: SE3) -> SE3:
-    """Where the robot stands: its base, on the floor and upright."""
-    x_m, y_m, _ = X_WB.p
-    return SE3.from_xy_yaw(x_m, y_m, X_WB.yaw_rad)
-
-
-def number_of(text: str) -> int:
-    """A job's number as typed.
-
-    Raises:
-        JobError: if it is none.
-    """
-    if not (text.isdecimal() and len(text) <= MOST_DIGITS):
-        raise JobError(f"{shown(text)} is no job's number; `goals` shows them")
-    return int(text)
 
 
 def _plain(text: str) -> str:

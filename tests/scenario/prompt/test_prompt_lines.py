@@ -15,8 +15,8 @@ from prompt_toolkit.keys import Keys
 
 from benchmarks.intents.endpoint import Reply, Server, serving
 from executive.frontends.listening.obeying import Conversation
-from executive.frontends.prompt import commands
 from executive.frontends.prompt.cli import words
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
@@ -42,7 +42,7 @@ def shell_in(
     where = request.setting(REALITY, world, robot="juno")
     robot = Robot(Setup(where=where, folder=folder), wall=WallClock(), time_of_day=lambda: 0.0)
     with robot:
-        yield Shell(robot, Said(), table=commands.table, folder=folder, model=model)
+        yield Shell(robot, Said(), table=table.commands, folder=folder, model=model)
 
 
 class Said(list[str]):
@@ -196,7 +196,7 @@ def test_two_open_questions_are_both_answered(shell: Shell):
 def test_counting_waits_for_the_walk_before_it(shell: Shell):
     shell.line("walk half a metre forward")
     shell.line("count the cups")
-    assert eventually(shell.under_way)
+    assert eventually(shell.queue.under_way)
     assert eventually(lambda: shell.robot.view.goal == "walk half a metre forward")
     shell.line("why")
     assert "Asked for: walk half a metre forward" in shell.out.text
@@ -355,7 +355,7 @@ def test_what_is_asked_of_a_paused_robot_is_told_to_wait(shell: Shell):
     shell.line("squat for 30 seconds")
     shell.line("pause")
     shell.line("cancel")
-    eventually(lambda: not shell.under_way())
+    eventually(lambda: not shell.queue.under_way())
     shell.line("squat for one second")
     assert "paused: `resume` lets it begin" in shell.out.text
     shell.line("resume")
@@ -419,7 +419,7 @@ def test_who_goes_on_where_nothing_is_paused_is_told_so(shell: Shell, line: str)
     assert "Nothing is paused, and nothing is to be done." in shell.out.text
     assert "say hello" in shell.out.text
     shell.line("squat for 20 seconds")
-    assert eventually(shell.under_way)
+    assert eventually(shell.queue.under_way)
     shell.line(line)
     assert "Nothing is paused: “squat for 20 seconds” is under way." in shell.out.text
     shell.out.clear()
@@ -503,7 +503,7 @@ def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
         endpoint = Endpoint(base_url=server.url, model="local", deadline_s=MAX_DEADLINE_S)
         with shell_in(folder, "empty", LanguageModel(endpoint)) as shell:
             shell.line("squat for 60 seconds")
-            assert eventually(shell.under_way)
+            assert eventually(shell.queue.under_way)
             yield shell, server
 
 
@@ -545,7 +545,7 @@ def test_a_stop_is_heard_while_a_language_model_is_asked(tmp_path: Path):
 
 def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
     voice = Loudspeaker()
-    shell.speech = shell.brake.speech = Speech(voice)
+    shell.speech = Speech(voice)
     try:
         for line in ("what are you holding?", "status", "help", "blah blah", "pick up the cup"):
             shell.line(line)
@@ -556,7 +556,7 @@ def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
         shell.line("stop")
         assert voice.told[-1] == "(hush)"
     finally:
-        shell.speech = shell.brake.speech = Speech()
+        shell.speech = Speech()
 
 
 def test_a_robot_that_is_gone_is_said_to_be_and_takes_no_more_jobs(tmp_path: Path):
@@ -587,7 +587,7 @@ def test_a_step_that_a_breakpoint_holds_is_told(shell: Shell):
 
 def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
     voice = Loudspeaker()
-    shell.speech = shell.brake.speech = Speech(voice)
+    shell.speech = Speech(voice)
     try:
         terminal = Terminal(shell, history=None)
         (ctrl_c,) = terminal._keys().get_bindings_for_keys((Keys.ControlC,))
@@ -597,7 +597,7 @@ def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
         ctrl_c.handler(SimpleNamespace(app=app, current_buffer=line))
         assert voice.told == ["(hush)"]
     finally:
-        shell.speech = shell.brake.speech = Speech()
+        shell.speech = Speech()
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from executive.engine.executive import JobError
 from executive.frontends import cli
 from executive.frontends.exit import ended_by
-from executive.frontends.prompt.shell import number_of
+from executive.frontends.prompt.commands.job_words import number_of
 from robot.errors import ConfigError
 
 

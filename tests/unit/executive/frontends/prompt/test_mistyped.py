@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from executive.frontends.prompt import commands
+from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.mistyped import meant, polite
 
 SHELL = SimpleNamespace(commands={})
-TABLE = {one.name: one for one in commands.table(SHELL)}  # type: ignore[arg-type]
+TABLE = {one.name: one for one in table.commands(SHELL)}  # type: ignore[arg-type]
 SHELL.commands = TABLE
 
 

@@ -1,0 +1,1 @@
+"""The commands of the prompt: `table`, and what they do."""
