@@ -17,7 +17,6 @@ from executive.missions.load import Mission, load
 from executive.missions.names import Names
 from executive.missions.problems import Enough, Problems
 from executive.missions.values import Bound
-from executive.skills.motions.path_follower import LEAST_SPEED_M_S
 from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
 from robot.config import nearest
@@ -206,13 +205,12 @@ def _typed(name: str, text: str) -> Node:
 def _check_speed(mission: Mission, where: Setting, problems: Problems) -> None:
     """Note a limit that the robot cannot keep, or that is none for it."""
     speed_m_s = mission.record.limits.speed_m_s
-    most = where.description.walking.max_forward_m_s
-    if speed_m_s is not None and not LEAST_SPEED_M_S <= speed_m_s <= most:
+    walking = where.description.walking
+    least, most = walking.following.least_m_s, walking.max_forward_m_s
+    if speed_m_s is not None and not least <= speed_m_s <= most:
         limits = mission.node.get("limits")
         node = limits.get("speed_m_s") if limits is not None else None
-        text = (
-            f"speed_m_s {speed_m_s:g}: {where.robot_name} walks {LEAST_SPEED_M_S:g} to {most:g} m/s"
-        )
+        text = f"speed_m_s {speed_m_s:g}: {where.robot_name} walks {least:g} to {most:g} m/s"
         problems.add(node or mission.node, text, "a speed in that range, or no limit")
 
 

@@ -14,11 +14,11 @@ from executive.missions.hands import Hands
 from executive.skills.forecast import Forecast
 from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.pacing import BEGIN_S, straight_s, walking_s
-from executive.skills.motions.standpoints import ROOM_M, stances_at
-from executive.skills.motions.walk import CLEARANCE_M
+from executive.skills.motions.standpoints import stances_at
 from robot.failures import Failure
 from robot.messages import Place, Side, WorldMap
 from robot.model.description import RobotDescription
+from robot.model.gait import Room
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
@@ -80,7 +80,9 @@ class Rehearsal:
 
     def walk_to_place(self, place: Place | None) -> Forecast:
         """Walk to a place; None: it is not known where to, which takes no time."""
-        return Forecast(0.0) if place is None else self.walk(stances_at(place, self.X_WS))
+        if place is None:
+            return Forecast(0.0)
+        return self.walk(stances_at(place, self.X_WS, before_edge_m=self._room.before_edge_m))
 
     def pick(self, object_id: str, *, side: Side | None) -> Forecast:
         """Walk to where the planner would stand to take a thing, and have it in the hand."""
@@ -113,7 +115,12 @@ class Rehearsal:
         return (round(x_m, 3), round(y_m, 3), round(self.X_WS.yaw_rad, 3))
 
     def _is_narrow(self, stance: Stance) -> bool:
-        return any(clearance_m(stance[:2], thing) < ROOM_M for thing in self.map.obstacles)
+        room_m = self._room.turning_m
+        return any(clearance_m(stance[:2], thing) < room_m for thing in self.map.obstacles)
+
+    @property
+    def _room(self) -> Room:
+        return self._where.description.walking.room
 
     def _way(self, start: Stance, goal: Stance) -> float | Failure:
         """How long the way takes [s], or why there is none."""
@@ -124,7 +131,10 @@ class Rehearsal:
         if len(self._ways) >= MAX_PATHS:
             return straight_s(start, goal)
         request = BasePathRequest(
-            start=start, goal=goal, around=self._hands.around(), clearance_m=CLEARANCE_M
+            start=start,
+            goal=goal,
+            around=self._hands.around(),
+            clearance_m=self._room.beside_m,
         )
         way = self._hands.solver.solve(request)
         assert isinstance(way, BasePath | Failure)

@@ -23,7 +23,7 @@ from robot.se3 import SE3
 
 FACE_M = 1.5
 SETTLE_S = 0.6
-PULL_N, PULLED_M, PULL_S = 3.0, 0.02, 0.15
+PULL_S = 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
 CLEAR_S = 0.8
 GIVE_S = 5.2
@@ -146,6 +146,7 @@ def pulled(body: Body, side: Side, *, ask_again: str) -> Script[bool]:
     A pull shows as a change of the wrist's load, as the hand giving way, or as fingers that meet.
     """
     rest_n, X_NG_rest = body.hand(side).load_n, body.hand(side).X_NG
+    giving = body.description.handy.giving
     begin_s, since_s, asked = body.now_s, math.inf, False
     while body.now_s - begin_s < TAKE_S:
         yield
@@ -153,7 +154,7 @@ def pulled(body: Body, side: Side, *, ask_again: str) -> Script[bool]:
         given_way_m = math.dist(hand.X_NG.p, X_NG_rest.p)
         if closed_on_air(body, hand.opening_m):
             return True
-        if abs(hand.load_n - rest_n) < PULL_N and given_way_m < PULLED_M:
+        if abs(hand.load_n - rest_n) < giving.pull_n and given_way_m < giving.pulled_m:
             since_s = math.inf
         elif math.isinf(since_s):
             since_s = body.now_s

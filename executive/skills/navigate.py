@@ -138,7 +138,9 @@ class Navigate(ScriptedSkill[NavigateParams]):
         elif wanted.place_id is not None:
             place = body.place(wanted.place_id)
             body.phase = f"walking to the {place.name}"
-            yield from walk_to_any(body, stances_at(place, body.X_WS), name=place.name)
+            edge_m = body.description.walking.room.before_edge_m
+            stances = stances_at(place, body.X_WS, before_edge_m=edge_m)
+            yield from walk_to_any(body, stances, name=place.name)
         elif wanted.person_id is not None:
             yield from self._to_person(wanted.person_id)
 

@@ -36,11 +36,6 @@ from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, PickPlan, PickRequest
 from robot.se3 import SE3
 
-APPROACH_M_S = 0.12
-LIFT_M_S = 0.12
-LOWER_M_S = 0.06
-OPEN_MARGIN_M = 0.045
-FINGER_MARGIN_M = 0.01
 GRASPS = 2
 REACH_CORRECTIONS = 2
 MOVE_OVER_COST_PER_M = 0.5
@@ -81,7 +76,9 @@ class Pick(ScriptedSkill[PickParams]):
             text = f"there is no object {wanted.object_id!r} in this world"
             return failure("unknown_object", text)
         width_m = min(info.shape.size_m[:2])
-        opening_m = max(hand.max_opening_m for hand in robot.hands.values()) - FINGER_MARGIN_M
+        opening_m = (
+            max(hand.max_opening_m for hand in robot.hands.values()) - robot.handy.gripping.spare_m
+        )
         if width_m > opening_m:
             text = f"{info.full_name} is {width_m * 100:.0f} cm wide, the hand opens to hold "
             return failure("no_grasp", f"{text}{opening_m * 100:.0f} cm", width_m=width_m)
@@ -192,7 +189,7 @@ class Pick(ScriptedSkill[PickParams]):
             body,
             side,
             lambda: aim(plan, info, followed(body, info, X_WO)),
-            speed_m_s=APPROACH_M_S,
+            speed_m_s=body.description.handy.speeds.approach_m_s,
             near_rad=plan.over and plan.over.at_rad,
         )
         body.phase = f"closing the {side} fingers"
@@ -227,7 +224,7 @@ class Pick(ScriptedSkill[PickParams]):
                 plan = yield from self._move_over(info, attempt=attempt + 1)
                 continue
             body.phase = f"reaching for the {info.name}"
-            opening_m = plan.opening_m + OPEN_MARGIN_M
+            opening_m = plan.opening_m + body.description.handy.gripping.open_to_take_m
             yield from open_fingers(body, plan.side, opening_m=opening_m)
             X_WG_pre = aim(plan, info, X_WO) @ (plan.X_WG_grasp.inverse() @ plan.X_WG_pre)
             try:
@@ -264,7 +261,11 @@ class Pick(ScriptedSkill[PickParams]):
             X_WG_closed = self._X_WG_closed  # never let go above nothing
             near_rad = plan.over and plan.over.at_rad
             yield from move_hand(
-                body, side, lambda: X_WG_closed, speed_m_s=LOWER_M_S, near_rad=near_rad
+                body,
+                side,
+                lambda: X_WG_closed,
+                speed_m_s=body.description.handy.speeds.give_back_m_s,
+                near_rad=near_rad,
             )
             self._X_WG_closed = None
         yield from open_fingers(body, side)
@@ -272,7 +273,11 @@ class Pick(ScriptedSkill[PickParams]):
             X_WG_pre = self._X_WG_pre
             near_rad = plan.over and plan.over.back_rad
             yield from move_hand(
-                body, side, lambda: X_WG_pre, speed_m_s=APPROACH_M_S, near_rad=near_rad
+                body,
+                side,
+                lambda: X_WG_pre,
+                speed_m_s=body.description.handy.speeds.approach_m_s,
+                near_rad=near_rad,
             )
 
     def _lift(self, info: ObjectInfo, plan: PickPlan) -> Script[None]:
@@ -284,7 +289,13 @@ class Pick(ScriptedSkill[PickParams]):
         p_W = tuple(a + b for a, b in zip(X_WG_grasp.p, rise, strict=True))
         X_WG_lift = SE3((p_W[0], p_W[1], p_W[2]), X_WG_grasp.quat_wxyz)
         near_rad = plan.over and plan.over.up_rad
-        yield from move_hand(body, side, lambda: X_WG_lift, speed_m_s=LIFT_M_S, near_rad=near_rad)
+        yield from move_hand(
+            body,
+            side,
+            lambda: X_WG_lift,
+            speed_m_s=body.description.handy.speeds.lift_m_s,
+            near_rad=near_rad,
+        )
         yield from body.wait(0.4)
         check_grips(body)
         load_n = body.hand(side).load_n - self._tare_n

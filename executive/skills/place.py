@@ -29,9 +29,6 @@ from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, Joints, PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
-LOWER_M_S = 0.05
-MOVE_M_S = 0.12
-RETREAT_M_S = 0.12
 PRESS_M = 0.012
 CONTACT = 0.5
 LEAST_CONTACT_N = 0.6
@@ -42,7 +39,6 @@ REPLANS = 1
 ELSEWHERE = ("goal_in_collision", "out_of_reach", "no_path", "planner_timeout")
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the place."""
-OPEN_MARGIN_M = 0.035
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
@@ -246,7 +242,11 @@ class PutDown(ScriptedSkill[PlaceParams]):
         yield from self._reach_over(place, plan)
         near_rad = plan.over and plan.over.up_rad
         yield from move_hand(
-            body, side, lambda: plan.X_WG_pre, speed_m_s=MOVE_M_S, near_rad=near_rad
+            body,
+            side,
+            lambda: plan.X_WG_pre,
+            speed_m_s=body.description.handy.speeds.carry_m_s,
+            near_rad=near_rad,
         )
         check_grips(body)
         _check_free(body, info, place, plan)
@@ -259,7 +259,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
                     body,
                     side,
                     lambda: below,
-                    speed_m_s=LOWER_M_S,
+                    speed_m_s=body.description.handy.speeds.lower_m_s,
                     stop_load_n=contact_n,
                     near_rad=plan.over and plan.over.at_rad,
                 )
@@ -284,7 +284,11 @@ class PutDown(ScriptedSkill[PlaceParams]):
                 X_WG_up = _shifted(body.X_WG(side), plan.X_WG_pre.p[2] - body.X_WG(side).p[2])
                 near_rad = plan.over and plan.over.up_rad
                 yield from move_hand(
-                    body, side, lambda: X_WG_up, speed_m_s=MOVE_M_S, near_rad=near_rad
+                    body,
+                    side,
+                    lambda: X_WG_up,
+                    speed_m_s=body.description.handy.speeds.carry_m_s,
+                    near_rad=near_rad,
                 )
             arm_rad = held.carry_rad if holding else posture_rad(body, side, HOME)
             yield from withdraw(body, plan, arm_rad, what=place.name)
@@ -299,7 +303,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
         set_payload(body, side, 0.0)
         self._release = Release(
             side=side,
-            opening_m=held.gap_m + OPEN_MARGIN_M,
+            opening_m=held.gap_m + body.description.handy.gripping.open_to_leave_m,
             X_WG_back=body.X_WG(side) @ plan.X_WG_release.inverse() @ plan.X_WG_retreat,
             near_rad=plan.over and plan.over.back_rad,
         )
@@ -315,7 +319,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             self.body,
             release.side,
             lambda: back,
-            speed_m_s=RETREAT_M_S,
+            speed_m_s=self.body.description.handy.speeds.approach_m_s,
             near_rad=release.near_rad,
         )
 

@@ -21,8 +21,6 @@ DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
 MAX_ERROR_M = 0.05  # what is further off is approached at this error's speed
 POSITION_DONE_M = 0.006  # half of what a grasp forgives
 ROTATION_DONE_RAD = 0.04
-ELBOW_RATE_1_S = 3.0  # how fast the elbow goes where it should: there before a line is half done
-ELBOW_SPEED_RAD_S = 0.8
 GIVE_UP_S = 1.5
 GIVE_UP_ERROR_M = 0.02
 JOINT_DONE_RAD = 0.06  # more than the servos sag under what a hand carries
@@ -199,9 +197,9 @@ class Arm:
 
     def _elbow_rate(self, jac: Array, damped: Array, near_rad: Array) -> Array:
         """Joint rates, shape (joints,), to the joints near, of what leaves the hand alone."""
-        wanted = ELBOW_RATE_1_S * (near_rad - self.q)
+        wanted = self.limits.elbow_1_s * (near_rad - self.q)
         free = wanted - jac.T @ np.linalg.solve(damped, jac @ wanted)
-        return free * min(1.0, ELBOW_SPEED_RAD_S / max(1e-9, float(np.abs(free).max())))
+        return free * min(1.0, self.limits.elbow_rad_s / max(1e-9, float(np.abs(free).max())))
 
     def _report(self, line: Line, distance_m: float, angle_rad: float) -> None:
         if self.activity.status != "running" or self._time_s < line.duration_s:

@@ -16,6 +16,8 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         line_rate_1_s: how fast an error of the hand on a line is taken back.
         line_speed_rad_s: most of a joint on a line.
         line_lead_rad: most that a joint's target runs ahead of the joint.
+        elbow_1_s, elbow_rad_s: on a line, how fast what leaves the hand alone goes where it should:
+            gain of the error, and most of a joint.
         max_lift_kg: heaviest thing to pick up.
         max_payload_kg: heaviest that the controller believes to be in a hand.
     """
@@ -27,6 +29,8 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     line_rate_1_s: q.Rate
     line_speed_rad_s: q.TurnRate
     line_lead_rad: q.Turn
+    elbow_1_s: q.Rate
+    elbow_rad_s: q.TurnRate
     max_lift_kg: q.Mass
     max_payload_kg: q.Mass
 
@@ -44,6 +48,10 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         hold_depth_m: most that the grasp point is behind the near face of an object.
         slack_m: by how much the opened hand is wider than what it takes.
         half_width_m: of the opened hand, along its closing direction.
+        lowest_m: least height of the grasp point above what an object stands on, level.
+        spare_m: by how much the widest thing to take is narrower than the opened hand.
+        open_to_take_m, open_to_leave_m: how far beyond an object's width the fingers open before
+            they take it, and to let it go.
     """
 
     closing_m_s: q.Speed
@@ -55,6 +63,10 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     hold_depth_m: q.Margin
     slack_m: q.Margin
     half_width_m: q.Length
+    lowest_m: q.Margin
+    spare_m: q.Margin
+    open_to_take_m: q.Margin
+    open_to_leave_m: q.Margin
 
 
 class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -107,6 +119,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         raised_hand_m: grasp point of a hand held out level, in S, of the left hand.
         step_in_m: lengths of the last straight steps before a stance, in the order of trying.
         arm_room_m: clearance of a standing place at which an arm can be raised freely.
+        raise_within_m: how near the standoff the hand begins to be raised while the feet go on.
+        steps_back_m: straight back, to get a hand out from among things: the first that is free.
         narrow_m, roomy_m: least clearance of a stance's middle, and that which costs nothing.
         over: names of postures with the arm up and over an edge: where the inverse kinematics
             begins in the leans that are tried last.
@@ -127,6 +141,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     raised_hand_m: tuple[q.Offset, q.Offset, q.Offset]
     step_in_m: q.Several[q.Length]
     arm_room_m: q.Margin
+    raise_within_m: q.Length
+    steps_back_m: q.Several[q.Length]
     narrow_m: q.Margin
     roomy_m: q.Margin
     over: q.Several[str] = ()
@@ -135,16 +151,36 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     surfaces_m: tuple[q.Offset, q.Offset] | None = None
 
 
+class HandSpeeds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of the hand on straight lines, see executive/skills/pick.py and place.py.
+
+    Attributes:
+        approach_m_s: to an object, and back from it with open fingers.
+        lift_m_s, carry_m_s: with it: up, and over its place.
+        lower_m_s: with it down onto its place: what it is met with.
+        give_back_m_s: the same after a lift that failed.
+    """
+
+    approach_m_s: q.Speed
+    lift_m_s: q.Speed
+    carry_m_s: q.Speed
+    lower_m_s: q.Speed
+    give_back_m_s: q.Speed
+
+
 class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Handing things over.
 
     Attributes:
         before_person_m: from the person's middle to the feet; the hand comes half of the way.
         held_out_m: grasp points to hold something out at, in S, of the left hand, best first.
+        pull_n, pulled_m: a change of the wrist's load, or a way of the hand, that is a pull.
     """
 
     before_person_m: q.Length
     held_out_m: q.Several[tuple[q.Offset, q.Offset, q.Offset]]
+    pull_n: q.Force
+    pulled_m: q.Length
 
 
 class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -152,6 +188,7 @@ class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
     gripping: Gripping
     reaching: Reaching
+    speeds: HandSpeeds
     giving: Giving
 
 

@@ -36,7 +36,7 @@ OVER_TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0)
 """Over an edge: the trunk stands up lower than it reached out, so the hand is raised more, and may
 turn about the vertical."""
 STEP_M = 0.05
-SWAY_M, SWAY_CLEARANCE_M = 0.06, 0.005
+SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
 
@@ -159,12 +159,13 @@ class Checker:
 
     def swaying(self, q_ready: Array, q_leaving: Array) -> str | None:
         """What arm or body touch as the steps in and out sway the body; the hand is left out."""
+        sway_m = self.body.description.walking.sway_m
         for q, (scene, finger) in ((q_ready, self._before()), (q_leaving, self._after())):
             hand = self.body.description.hands[self.side]
             hands = {hand.body, *hand.finger_bodies, HELD}
             links = ~scene.solid_geoms & np.array([name not in hands for name in scene.names])
             scene.set_clearance(SWAY_CLEARANCE_M)
-            for X_WS in self._on_the_way_in(aside_m=(-SWAY_M, SWAY_M)):
+            for X_WS in self._on_the_way_in(aside_m=(-sway_m, sway_m)):
                 self._pose(scene, q, finger, X_WS=X_WS, share=0.0)
                 touches = scene.touches(links, solids_only=True)
                 if touches:

@@ -23,8 +23,6 @@ RETREAT_CLEARANCE_M = 0.035
 """The same where the hand is drawn back to after letting go. As the robot then steps back its
 weight shifts, and the opened fingers sway: with the 22 mm of the pre-grasp they brushed the cup now
 and then, and moved it by up to 23 mm (`python -m benchmarks --only mission`, seed 25)."""
-MIN_HEIGHT_M = 0.035
-"""Of the grasp point above what the object stands on, approaching level (half a hand, and air)."""
 TILTS_RAD = (0.0, 0.35, 0.70)
 TILT_COST = (0.0, 0.12, 0.35)
 LYING_TILTS_RAD = (1.2, 0.9, 1.45)
@@ -141,9 +139,9 @@ def _option(
     )
 
 
-def _lifts(height_m: float) -> list[tuple[float, float]]:
+def _lifts(height_m: float, gripping: Gripping) -> list[tuple[float, float]]:
     """Grasp heights relative to the middle of a standing object, with their costs."""
-    lowest = MIN_HEIGHT_M - 0.5 * height_m
+    lowest = gripping.lowest_m - 0.5 * height_m
     highest = 0.5 * height_m - 0.015
     if highest < lowest:
         return [(min(highest, 0.0) if highest > -0.5 * height_m else 0.0, 0.1)]
@@ -170,7 +168,7 @@ def _standing_cylinder(
             cost=tilt_cost + lift_cost,
         )
         for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True)
-        for lift, lift_cost in _lifts(height)
+        for lift, lift_cost in _lifts(height, gripping)
     ]
 
 
@@ -215,7 +213,7 @@ def _box(
         yaw = math.atan2(direction[1], direction[0])
         for turn in (0.0, math.pi):
             for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True):
-                for lift, lift_cost in _lifts(height):
+                for lift, lift_cost in _lifts(height, gripping):
                     result.append(
                         _option(
                             X_WO,

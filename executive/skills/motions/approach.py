@@ -21,13 +21,9 @@ from robot.failures import Failure
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
-RAISE_M = 0.45
-"""How near the standoff the hand begins to be raised, if there is room for the arm all the way."""
 TURNED_RAD = 0.35
 """Nearer to the standoff's heading the hand comes up about where it was planned to; before that it
 may be anywhere around the body."""
-SWAY_M = 0.06
-"""Of a body that steps."""
 BRING_IN_WITHIN = (0.12, 0.2)
 IN_LINE_M, IN_LINE_RAD = 0.05, 0.12
 """Off the line to the stance: what the step in corrects on its first half."""
@@ -79,10 +75,11 @@ def _may_raise(body: Body, X_WS_goal: SE3) -> bool:
 
     While the body has yet to turn it is wanted all around.
     """
-    if not _is_within(body, X_WS_goal, RAISE_M, math.pi):
+    within_m = body.description.handy.reaching.raise_within_m
+    if not _is_within(body, X_WS_goal, within_m, math.pi):
         return False
-    turned = _is_within(body, X_WS_goal, RAISE_M, TURNED_RAD)
-    room_m = None if turned else _raised_m(body) + SWAY_M
+    turned = _is_within(body, X_WS_goal, within_m, TURNED_RAD)
+    room_m = None if turned else _raised_m(body) + body.description.walking.sway_m
     ends = (body.X_WS, X_WS_goal)
     return all(_has_room(body, stance_of(X_WS), room_m=room_m) for X_WS in ends)
 

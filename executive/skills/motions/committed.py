@@ -14,9 +14,6 @@ from executive.skills.motions.path_follower import Velocity
 from robot.model.gait import Walking
 from robot.se3 import SE3
 
-LAG_STEPS = 1.2
-"""Of Juno, walking at random twists: 0.65 s ahead, 0.8 s turning; a step takes 0.55 s."""
-
 
 class Committed:
     """Where the steps that are decided already lead to."""
@@ -24,7 +21,8 @@ class Committed:
     def __init__(self, walking: Walking) -> None:
         """Begin with none."""
         self._walking = walking
-        self._lag_s = LAG_STEPS * (walking.single_support_s + walking.double_support_s)
+        step_s = walking.single_support_s + walking.double_support_s
+        self._lag_s = walking.lag_steps * step_s
         self._told: deque[tuple[float, Velocity]] = deque()
 
     def told(self, twist: Velocity, *, now_s: float) -> None:

@@ -16,25 +16,15 @@ from robot.model.gait import Walking
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
-AHEAD_M = 0.12
-TURN_AHEAD_M = 0.20
-BEND_AHEAD_M = 0.50
 SLOW_IN_BENDS_1_RAD = 1.0
 """On four ways with bends and turns the pelvis is up to 11 cm off the way with this, of which 5 are
 its sway, as with 2.5, where the ways take 13 % longer; with 0.6 they take 1 % less."""
-SLOW_AHEAD_M = 0.2
-"""Before a stretch that is to be walked slower: what braking takes at the gait's acceleration."""
-PULL_1_S = 0.7
-MOST_PULL_M_S = 0.12
 SEARCH_M = 0.60
 RUN_DONE_M = 0.12
 SAME_PLACE_M = 0.02
 TURN_DONE_RAD = 0.40
 TURN_FIRST_RAD = 0.60
 SIDEWAYS = 0.7
-TURN_GAIN_1_S = 1.8
-LEAST_SPEED_M_S = 0.10
-SLOW_DOWN_1_S = 0.8
 METRES_PER_RADIAN = 0.3
 
 
@@ -161,14 +151,16 @@ class Follower:
         leg = self._legs[0]
         if isinstance(leg, Turn):
             return turn_towards(wrap_angle(leg.to_rad - X_WS.yaw_rad), self.walking)
-        off_rad = wrap_angle(leg.stance(self._along_m + TURN_AHEAD_M)[2] - X_WS.yaw_rad)
+        does = self.walking.following
+        off_rad = wrap_angle(leg.stance(self._along_m + does.turn_ahead_m)[2] - X_WS.yaw_rad)
         self._turning = abs(off_rad) > (TURN_DONE_RAD if self._turning else TURN_FIRST_RAD)
         if self._turning:
             return turn_towards(off_rad, self.walking)
         left_over_m = leg.length_m - self._along_m
-        bend_rad = abs(wrap_angle(leg.stance(self._along_m + BEND_AHEAD_M)[2] - X_WS.yaw_rad))
-        cruise_m_s = leg.speed_m_s(self._along_m, self._along_m + SLOW_AHEAD_M)
-        speed_m_s = min(cruise_m_s, LEAST_SPEED_M_S + SLOW_DOWN_1_S * left_over_m)
+        bend = leg.stance(self._along_m + does.bend_ahead_m)
+        bend_rad = abs(wrap_angle(bend[2] - X_WS.yaw_rad))
+        cruise_m_s = leg.speed_m_s(self._along_m, self._along_m + does.slow_ahead_m)
+        speed_m_s = min(cruise_m_s, does.least_m_s + does.slow_down_1_s * left_over_m)
         speed_m_s /= 1.0 + SLOW_IN_BENDS_1_RAD * max(bend_rad, abs(off_rad))
         vx, vy = self._velocity(leg, x_m, y_m, speed_m_s)
         c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
@@ -176,12 +168,13 @@ class Follower:
 
     def _velocity(self, leg: Run, x_m: float, y_m: float, speed_m_s: float) -> tuple[float, float]:
         """Velocity in W: along the run, and back onto it [m/s]."""
+        does = self.walking.following
         here_x, here_y, _ = leg.stance(self._along_m)
         ahead_x, ahead_y = self._ahead(leg)
         ahead_m = max(math.hypot(ahead_x, ahead_y), 1e-9)
         pull_x, pull_y = here_x - x_m, here_y - y_m
-        pull_m_s = PULL_1_S * math.hypot(pull_x, pull_y)
-        pull = PULL_1_S * min(1.0, MOST_PULL_M_S / max(pull_m_s, 1e-9))
+        pull_m_s = does.pull_1_s * math.hypot(pull_x, pull_y)
+        pull = does.pull_1_s * min(1.0, does.pull_m_s / max(pull_m_s, 1e-9))
         along = speed_m_s / ahead_m
         return along * ahead_x + pull * pull_x, along * ahead_y + pull * pull_y
 
@@ -190,10 +183,11 @@ class Follower:
 
         A way begins behind a body that went on while it was planned, and doubles back there.
         """
-        from_x, from_y, _ = leg.stance(min(self._along_m, leg.length_m - AHEAD_M))
-        for span_m in (AHEAD_M, 2.0 * AHEAD_M):
+        ahead_m = self.walking.following.ahead_m
+        from_x, from_y, _ = leg.stance(min(self._along_m, leg.length_m - ahead_m))
+        for span_m in (ahead_m, 2.0 * ahead_m):
             to_x, to_y, _ = leg.stance(self._along_m + span_m)
-            if math.hypot(to_x - from_x, to_y - from_y) > 0.5 * AHEAD_M:
+            if math.hypot(to_x - from_x, to_y - from_y) > 0.5 * ahead_m:
                 break
         return to_x - from_x, to_y - from_y
 
@@ -222,13 +216,14 @@ class Follower:
         most_m_s = gait.max_forward_m_s if forward_m_s > 0.0 else gait.max_backward_m_s
         aside_m_s = SIDEWAYS * gait.max_sideways_m_s
         scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / aside_m_s)
-        turn_rad_s = _clamp(TURN_GAIN_1_S * off_rad, gait.max_turn_rad_s)
+        turn_rad_s = _clamp(gait.following.turn_1_s * off_rad, gait.max_turn_rad_s)
         return Velocity(forward_m_s / scale, left_m_s / scale, turn_rad_s)
 
 
 def turn_towards(yaw_error_rad: float, walking: Walking) -> Velocity:
     """The twist that turns on the spot by an angle."""
-    return Velocity(0.0, 0.0, _clamp(TURN_GAIN_1_S * yaw_error_rad, walking.max_turn_rad_s))
+    turn_rad_s = walking.following.turn_1_s * yaw_error_rad
+    return Velocity(0.0, 0.0, _clamp(turn_rad_s, walking.max_turn_rad_s))
 
 
 def _legs(

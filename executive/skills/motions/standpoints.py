@@ -14,33 +14,28 @@ from robot.messages import PersonInfo, Place
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3
 
-BEFORE_EDGE_M = 0.40
 AT_PERSON_M = 1.0
 HAND_M = 0.95
 """Of hands that meet, and of the line of sight of one who sits: over tables, not through walls."""
 SPOT_GRID_M = 0.6
 DIRECTIONS = 8
-ROOM_M = 0.36
-WIDE_M = 0.32
-"""Half of a gap that the body goes through without touching: its elbows at 0.22 m, 6 cm of sway to
-either side, and what the feet are off the way."""
 TRIES, ELSEWHERE_M = 9, 1.2
 """So many places are tried at most; beside one that only a narrow way leads to, the next is not."""
 BAD_GOAL = ("goal_in_collision", "no_path")
 
 
-def stances_at(place: Place, X_WS: SE3) -> list[Stance]:
+def stances_at(place: Place, X_WS: SE3, *, before_edge_m: float) -> list[Stance]:
     """Stances from which one is at a place, best first, from where the robot stands.
 
     On a floor place: its middle, then spots around it, keeping the heading of arrival. At a
-    surface: before the middle of each side, facing it, the nearest side first.
+    surface: so far before the middle of each side, facing it, the nearest side first.
     """
     if place.floor:
         return _on_floor(place, X_WS)
     stances: list[Stance] = []
     half_x, half_y = 0.5 * place.size_m[0], 0.5 * place.size_m[1]
     for ux, uy, half_m in ((1, 0, half_x), (-1, 0, half_x), (0, 1, half_y), (0, -1, half_y)):
-        out_m = half_m + BEFORE_EDGE_M
+        out_m = half_m + before_edge_m
         x_m, y_m, _ = place.X_WP.apply((ux * out_m, uy * out_m, 0.0))
         yaw_rad = math.atan2(place.X_WP.p[1] - y_m, place.X_WP.p[0] - x_m)
         stances.append((float(x_m), float(y_m), yaw_rad))
@@ -90,7 +85,7 @@ def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[S
                 raise
             reasons.append(end)
             continue
-        if _between_ends_m(path) >= WIDE_M:
+        if _between_ends_m(path) >= body.description.walking.room.passing_m:
             chosen = stance
             break
         squeezed.append(stance)
@@ -114,7 +109,7 @@ def _between_ends_m(path: BasePath) -> float:
 
 def has_room(body: Body, stance: Stance) -> bool:
     """Whether the body can turn there without its arms touching anything."""
-    return _room_m(body, stance) >= ROOM_M
+    return _room_m(body, stance) >= body.description.walking.room.turning_m
 
 
 def _room_m(body: Body, stance: Stance) -> float:
@@ -155,7 +150,7 @@ def _roomy_first(body: Body, stances: Sequence[Stance]) -> Iterator[Stance]:
     narrow: list[tuple[float, Stance]] = []
     for stance in stances:
         room_m = _room_m(body, stance)
-        if room_m >= ROOM_M:
+        if room_m >= body.description.walking.room.turning_m:
             yield stance
         else:
             narrow.append((room_m, stance))

@@ -13,8 +13,6 @@ from robot.messages import Side
 from robot.se3 import SE3
 
 HOME = "nominal"
-STEPS_BACK_M = (0.30, 0.20, 0.10)
-"""The first that is free: the hand comes out from among things by it."""
 
 
 def stow_arms(body: Body) -> Script[None]:
@@ -42,7 +40,8 @@ def stow_arm(body: Body, side: Side) -> Script[None]:
     except GaveUp as end:
         if end.failure.code not in ("no_path", "start_in_collision", "planner_timeout"):
             raise
-        back = next((back for back_m in STEPS_BACK_M if (back := _free_behind(body, back_m))), None)
+        steps_m = body.description.handy.reaching.steps_back_m
+        back = next((back for back_m in steps_m if (back := _free_behind(body, back_m))), None)
         if back is None:
             raise
         yield from step_to(body, stance_of(back))

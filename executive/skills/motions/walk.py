@@ -26,16 +26,6 @@ from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3, wrap_angle
 
 REPLANS = 3
-CRUISE = 0.95
-CRUISE_CARRYING = 0.85
-CRUISE_NARROW = 0.6
-CLEARANCE_M = 0.16
-NARROW_M = 0.40
-"""Half of a doorway of 0.8 m: 13 cm are free beside the arms there, and the body sways by 6."""
-HAND_OVER_M = 0.35
-HAND_OVER_ASIDE_M = 0.08
-HAND_OVER_RAD = 1.2
-"""Exact steps turn while they go: a walk that ends with a turn of 0.8 rad is 2 s shorter so."""
 NEAR_RAD = 0.25
 SIDESTEP_M = 0.6
 FACING_RAD = 0.35
@@ -107,7 +97,7 @@ def path_request(body: Body, goal: Stance) -> BasePathRequest:
         start=stance_of(body.X_WS),
         goal=goal,
         around=surroundings(body),
-        clearance_m=CLEARANCE_M,
+        clearance_m=body.description.walking.room.beside_m,
     )
 
 
@@ -269,27 +259,28 @@ class _Watch:
 def _is_near(body: Body, goal: Stance) -> bool:
     """Whether a few exact steps will do."""
     off_m, off_rad = miss(body.X_WS, pose_of(goal))
-    return off_m < HAND_OVER_M and off_rad < NEAR_RAD
+    return off_m < body.description.walking.last_steps.within_m and off_rad < NEAR_RAD
 
 
 def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> list[float]:
     """How fast a path is walked to each of its waypoints where it is straight."""
-    part = CRUISE_CARRYING if carrying else CRUISE
+    cruise = gait.cruise
+    part = cruise.carrying if carrying else cruise.clear
     clearances_m = path.clearances_m or (path.clearance_m,) * len(path.waypoints)
     return [
-        (CRUISE_NARROW if clear_m < NARROW_M else part) * gait.max_forward_m_s
+        (cruise.narrow if clear_m < gait.room.slow_m else part) * gait.max_forward_m_s
         for clear_m in clearances_m
     ]
 
 
 def is_there(X_WS: SE3, follower: Follower, goal: Stance) -> bool:
     """Whether exact steps should take over: the goal is near, ahead, and does not face away."""
-    X_WS_goal = pose_of(goal)
+    X_WS_goal, last = pose_of(goal), follower.walking.last_steps
     off_m, off_rad = miss(X_WS, X_WS_goal)
-    if off_m > HAND_OVER_M or off_rad > HAND_OVER_RAD:
+    if off_m > last.within_m or off_rad > last.turn_rad:
         return False
     aside_m = abs((X_WS.inverse() @ X_WS_goal).p[1])
-    return follower.done or (follower.way_left_m < HAND_OVER_M and aside_m < HAND_OVER_ASIDE_M)
+    return follower.done or (follower.way_left_m < last.within_m and aside_m < last.aside_m)
 
 
 def _walk(body: Body, twist: Velocity) -> Velocity:

@@ -11,17 +11,18 @@ from collections.abc import Callable
 
 from robot.control.walking.dcm import Point
 
-DCM_GAIN_1_S = 4.0
 TIMES = 9
 
 
-def error_at_end(error: float, correction: float, left_s: float, omega_1_s: float) -> float:
+def error_at_end(
+    error: float, correction: float, left_s: float, *, omega_1_s: float, gain_1_s: float
+) -> float:
     """DCM error [m] along one axis after `left_s`.
 
     While the ZMP is inside the foot the error decays with the feedback, exp(-k t). With the ZMP at
     the edge, `correction` [m] from its reference, what that cannot hold grows with exp(omega t).
     """
-    decayed = error * math.exp(-DCM_GAIN_1_S * left_s)
+    decayed = error * math.exp(-gain_1_s * left_s)
     grown = correction + (error - correction) * math.exp(omega_1_s * left_s)
     return max(decayed, grown) if error > 0.0 else min(decayed, grown)
 

@@ -27,6 +27,7 @@ class Catch:
         planned_s: how long the step was to take.
         past_s: how long it has been under way.
         omega_1_s: the pendulum's frequency.
+        gain_1_s: of the DCM's feedback.
         xi: the measured DCM [m].
         zmp: where the ZMP is until the foot lands [m].
         planned: where the foot was to land.
@@ -39,6 +40,7 @@ class Catch:
     planned_s: float
     past_s: float
     omega_1_s: float
+    gain_1_s: float
     xi: Point
     zmp: Point
     planned: Sole
@@ -49,9 +51,10 @@ class Catch:
     def error(self, xi_ref: Point, zmp_ref: Point, left_s: float) -> Point:
         """How far off the DCM will be at the planned end, which is `left_s` away [m]."""
         (x, y), (zx, zy) = self.xi, self.zmp
+        rates = {"omega_1_s": self.omega_1_s, "gain_1_s": self.gain_1_s}
         return (
-            error_at_end(x - xi_ref[0], zx - zmp_ref[0], left_s, self.omega_1_s),
-            error_at_end(y - xi_ref[1], zy - zmp_ref[1], left_s, self.omega_1_s),
+            error_at_end(x - xi_ref[0], zx - zmp_ref[0], left_s, **rates),
+            error_at_end(y - xi_ref[1], zy - zmp_ref[1], left_s, **rates),
         )
 
     def shift(self, duration_s: float) -> Point:

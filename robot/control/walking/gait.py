@@ -11,7 +11,6 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
-from robot.control.walking.adaptation import DCM_GAIN_1_S
 from robot.control.walking.catching import FREEZE_S, Catch
 from robot.control.walking.dcm import DcmPlan, Point, Segment
 from robot.control.walking.footsteps import (
@@ -40,8 +39,6 @@ ESCAPE_MARGIN_M = 0.0
 LATE_S = 0.25
 TIMING_DEADBAND_M = 0.03
 TIMING_FILTER_S = 0.03
-INTEGRAL_GAIN = 0.8
-INTEGRAL_LIMIT_M = 0.05
 URGENT_DOUBLE_S = 0.05
 URGENT_M = 0.03
 # Above what a sole gives when the weight comes onto it (3 mm), below what the margin of the
@@ -360,6 +357,7 @@ class Gait:
             planned_s=self._nominal_s,
             past_s=self.phase_s,
             omega_1_s=self.omega_1_s,
+            gain_1_s=self.description.balance.dcm_1_s,
             xi=xi,
             zmp=self._command(xi, xi_ref, zmp_ref),
             planned=self._landings[0],
@@ -394,7 +392,7 @@ class Gait:
 
     def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
         """The ZMP that brings the DCM back, clipped to the support (walking: or just beyond)."""
-        gain = 1.0 + DCM_GAIN_1_S / self.omega_1_s
+        gain = 1.0 + self.description.balance.dcm_1_s / self.omega_1_s
         x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
         y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
         beyond_m = 0.0 if self.phase == "stand" else self.description.balance.trunk_zmp_m
@@ -403,9 +401,11 @@ class Gait:
     def _reference(self, dt_s: float, xi: Point) -> Reference:
         xi_ref, zmp_ref = self._plan.at(self._plan_time())
         if self.phase == "stand":
+            balance = self.description.balance
+            most_m = balance.dcm_integral_m
             for k in (0, 1):
-                step = self._integral[k] + INTEGRAL_GAIN * dt_s * (xi[k] - xi_ref[k])
-                self._integral[k] = max(-INTEGRAL_LIMIT_M, min(INTEGRAL_LIMIT_M, step))
+                step = self._integral[k] + balance.dcm_integral_1_s * dt_s * (xi[k] - xi_ref[k])
+                self._integral[k] = max(-most_m, min(most_m, step))
         elif self.phase == "single":
             self._integral = [0.0, 0.0]
         command = self._command(xi, xi_ref, zmp_ref)

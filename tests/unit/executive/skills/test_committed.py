@@ -4,13 +4,13 @@ import math
 
 import pytest
 
-from executive.skills.motions.committed import LAG_STEPS, Committed
+from executive.skills.motions.committed import Committed
 from executive.skills.motions.path_follower import Velocity, turn_towards
 from robot.model.description import load
 from robot.se3 import SE3, wrap_angle
 
 GAIT = load("juno").walking
-LAG_S = LAG_STEPS * (GAIT.single_support_s + GAIT.double_support_s)
+LAG_S = GAIT.lag_steps * (GAIT.single_support_s + GAIT.double_support_s)
 DT_S = 0.05
 
 

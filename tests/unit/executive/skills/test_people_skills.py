@@ -6,13 +6,15 @@ import pytest
 
 from executive.skills.follow import FollowParams
 from executive.skills.gesture import TIMES, GestureParams
-from executive.skills.give import PULL_N, GiveParams
+from executive.skills.give import GiveParams
 from executive.skills.look import LookParams
 from executive.skills.pick import PickParams
 from robot.messages import Grip, Look, MoveArm, Stand, Walk, WalkTo
 from robot.planning.requests import ArmRequest
 from robot.se3 import SE3
-from tests.fakes.stage import Stage
+from tests.fakes.stage import DESCRIPTION, Stage
+
+PULL_N = DESCRIPTION.handy.giving.pull_n
 
 GIVE = GiveParams(object_id="cup", person_id="ann")
 

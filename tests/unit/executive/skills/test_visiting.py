@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.standpoints import (
-    BEFORE_EDGE_M,
     has_room,
     stances_around,
     stances_at,
@@ -29,12 +28,12 @@ angle = st.floats(-math.pi, math.pi)
 def test_at_a_surface_one_stands_before_an_edge_and_faces_it(x, y, yaw, size_x, size_y):
     X_WP = SE3.from_xy_yaw(x, y, yaw, z_m=0.7)
     place = Place(id="desk", name="desk", X_WP=X_WP, size_m=(size_x, size_y))
-    stances = stances_at(place, SE3())
+    stances = stances_at(place, SE3(), before_edge_m=0.4)
     assert len(stances) == 4
     for stance in stances:
         px, py, _ = X_WP.inverse().apply((stance[0], stance[1], 0.7))
         outside = (abs(px) - size_x / 2, abs(py) - size_y / 2)
-        assert max(outside) == pytest.approx(BEFORE_EDGE_M)
+        assert max(outside) == pytest.approx(0.4)
         bearing = math.atan2(y - stance[1], x - stance[0])
         assert abs(wrap_angle(bearing - stance[2])) < 1e-6
     away = [math.dist(stance[:2], (0.0, 0.0)) for stance in stances]

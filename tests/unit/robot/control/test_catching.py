@@ -28,6 +28,7 @@ def catch(juno):
         x, y = plan.at(past_s)[0]
         return Catch(
             plan=plan, planned_s=PLANNED_S, past_s=past_s, omega_1_s=OMEGA_1_S,
+            gain_1_s=juno.balance.dcm_1_s,
             xi=(x + dx_m, y + dy_m), zmp=stance, planned=planned, support=support, side="left",
             planner=FootstepPlanner(juno.walking, juno.feet["left"]),
         )  # fmt: skip

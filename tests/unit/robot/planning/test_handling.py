@@ -7,7 +7,6 @@ import pytest
 
 from robot.failures import Failure
 from robot.messages import Shape, Side
-from robot.planning.checks import SWAY_M
 from robot.planning.floor import Floor
 from robot.planning.requests import (
     BodyPosture,
@@ -239,7 +238,7 @@ def test_arm_and_body_may_sway_on_the_steps_to_a_shelf(
     X_WS = SE3.from_xy_yaw(*plan.stance)
     step_m = math.dist(plan.stance[:2], plan.standoff[:2])
     for back_m in (0.0, 0.5 * step_m, step_m):
-        for aside_m in (-SWAY_M, SWAY_M):
+        for aside_m in (-body.description.walking.sway_m, body.description.walking.sway_m):
             scene.pose(X_WS @ SE3((-back_m, aside_m, 0.0)) @ standing.X_SB, q)
             scene.update()
             assert not scene.touches(links, solids_only=True)
