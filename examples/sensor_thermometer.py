@@ -1,6 +1,9 @@
 """A new kind of sensor: the temperature of the computer's processor, once a second.
 
-Every piece says in which file it would stand; docs/extending.md has the list.
+It would stand as it is in robot/drivers/thermometer.py. Its row, in robot/drivers/registry.py, and
+in the description of a robot that has one `drivers: {thermometer: linux}`:
+
+    SENSES = (..., Sense("thermometer", {"linux": thermometer.make}, thermometer.COMPUTER))
 """
 
 from __future__ import annotations
@@ -18,20 +21,17 @@ from robot.errors import DriverError
 from robot.messages import Message
 
 
-# robot/messages.py: the reading.
 class ComputerTemperature(Message, frozen=True, kw_only=True):
     """How hot the computer's processor is."""
 
     temperature_c: float
 
 
-# robot/bus/topics.py: a row, and its name in `TOPICS`. Perception opens it and publishes it.
 COMPUTER: Topic[ComputerTemperature] = Topic(
     "computer/temperature", ComputerTemperature, 1.0, "perception"
 )
+"""Perception opens the sensor, and publishes it here."""
 
-# robot/drivers/thermometer/linux.py: the driver, from here to the end. A row of `SENSES` in
-# robot/drivers/registry.py: Sense("thermometer", {"linux": _linux_thermometer}, topics.COMPUTER).
 ZONE = Path("/sys/class/thermal/thermal_zone0/temp")
 PERIOD_S = 1.0
 

@@ -1,8 +1,8 @@
 """Every driver in one table. A new one is a file in its family's folder and a row here.
 
 The description names a driver for each device (`drivers: {motors: can}`); one that it does not name
-is simulated. A driver's file is loaded when it is made, so that what it needs (a CAN library, a
-camera's) is wanted of nobody else.
+is simulated, or is not there if it has no simulated driver. What a driver needs (a CAN library, a
+camera's) is imported when it is made, so that it is wanted of nobody else.
 """
 
 from __future__ import annotations
@@ -59,6 +59,10 @@ class Sense(Family[SensorSource[R, object]], Generic[R]):
     """
 
     topic: Topic[R]
+
+    def is_there(self, robot: RobotDescription) -> bool:
+        """Whether a robot has one: what its description leaves out, and nobody simulates, not."""
+        return self.device in robot.drivers or SIMULATED in self.drivers
 
 
 def _simulated_motors(wiring: Wiring) -> MotorBus:

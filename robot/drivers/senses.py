@@ -15,7 +15,7 @@ from robot.messages import Message
 
 
 class Senses(Closing):
-    """Every sensor whose topic has this process as its source."""
+    """Every sensor of this robot whose topic has this process as its source."""
 
     def __init__(self, wiring: Wiring, process: topics.Process) -> None:
         """Make their drivers, of the description's names; nothing is opened.
@@ -25,7 +25,9 @@ class Senses(Closing):
         """
         self._bus = wiring.bus
         self._sources: list[tuple[Topic[Any], SensorSource[Message, object]]] = [
-            (sense.topic, sense.make(wiring)) for sense in SENSES if sense.topic.source == process
+            (sense.topic, sense.make(wiring))
+            for sense in SENSES
+            if sense.topic.source == process and sense.is_there(wiring.robot)
         ]
         self._opened = ExitStack()
 

@@ -1,5 +1,7 @@
 """The example of a new kind of sensor, with its row in the registry: it is published."""
 
+import ast
+import dataclasses
 from pathlib import Path
 
 import msgspec
@@ -14,8 +16,12 @@ from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.model import description
 
+ABOVE = (
+    "executive", "intents", "sim", "robot.bringup", "robot.control", "robot.perception",
+    "robot.planning", "robot.link", "robot.fusion", "robot.kinematics", "robot.drivers.registry",
+    "robot.drivers.senses", "robot.drivers.body_devices",
+)  # fmt: skip
 ROBOT = description.load("juno")
-# What a simulated plant measures is simulated; of the computer there is but the real one.
 ROW = Sense("thermometer", {"linux": thermometer.make}, thermometer.COMPUTER)
 
 
@@ -29,7 +35,8 @@ def zone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def wiring(zone: Path, monkeypatch: pytest.MonkeyPatch) -> Wiring:
-    monkeypatch.setattr(senses, "SENSES", (*registry.SENSES, ROW))
+    monkeypatch.setattr(registry, "SENSES", (*registry.SENSES, ROW))
+    monkeypatch.setattr(senses, "SENSES", registry.SENSES)
     monkeypatch.setattr(registry, "FAMILIES", (*registry.FAMILIES, ROW))
     drivers = {**ROBOT.drivers, "thermometer": "linux"}
     robot = msgspec.structs.replace(ROBOT, drivers=drivers)
@@ -47,6 +54,25 @@ def test_perception_publishes_it_once_a_second(wiring: Wiring, zone: Path):
     assert [(m.stamp_s, m.temperature_c) for m in heard.take()] == [
         (0.0, 41.5), (1.0, 41.5), (2.0, 52.0)
     ]  # fmt: skip
+
+
+def test_a_robot_whose_description_does_not_name_it_has_none(wiring: Wiring, zone: Path):
+    zone.unlink()
+    without = dataclasses.replace(wiring, robot=ROBOT)
+    heard = wiring.bus.subscribe(thermometer.COMPUTER)
+    registry.check(ROBOT)
+    registry.check(wiring.robot)
+    with senses.Senses(without, "perception") as opened:
+        opened.relay()
+    assert not heard.take()
+
+
+def test_the_file_can_stand_among_the_drivers_as_it_is():
+    """It imports nothing that stands above them, nor their registry, which imports it."""
+    tree = ast.parse(Path(thermometer.__file__).read_text())
+    names = [node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    assert names
+    assert not [name for name in names if name.startswith(ABOVE)]
 
 
 def test_a_closed_one_refuses(wiring: Wiring):
