@@ -191,13 +191,12 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
         raise Unasked("All right, I shall not")
     handled = [goal for goal in each(goals) if not isinstance(goal, _LOOKING)]
     known = " ".join(strings(handled))
-    for said, names, away in sentence.notes.forbidden:
+    moves = any(isinstance(goal, _MOVING) for goal in each(goals))
+    for said, names, away, how in sentence.notes.forbidden:
         kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
-        if kept:
-            raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
-        spots = away and any(n.kind in ("place", "room") for n in names)
+        spots = away and any(n.kind in ("place", "room", "person") for n in names)
         asked = any(n.name.lower() in known for n in names if n.kind != "person")
-        if spots or (asked and not away):
+        if kept or spots or (asked and not away) or (how and moves):
             raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
     heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
     return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []

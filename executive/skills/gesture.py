@@ -9,6 +9,7 @@ import numpy as np
 
 from executive.skills.ability import no_hand
 from executive.skills.forecast import Forecast, Outlook
+from executive.skills.motions.back_away import back_away
 from executive.skills.motions.gaze import look_at, turn_head
 from executive.skills.motions.pacing import BEGIN_S, turning_s
 from executive.skills.motions.planning import stance_of
@@ -32,6 +33,8 @@ GestureKind = Literal[
 BOW_S = 0.8
 NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
 TIMES = 3
+SWING_M = 0.25
+"""A raised hand waves so far ahead of where it hangs, about."""
 AHEAD_RAD = 0.9
 """What is further to the side than this is turned to before it is pointed at."""
 ARMS: dict[str, tuple[Side, ...]] = {
@@ -185,6 +188,7 @@ class Gesture(ScriptedSkill[GestureParams]):
         if not sides:
             raise give_up("hands_full", "there is no free hand for that")
         for side in sides:
+            yield from back_away(body, side, swing_m=SWING_M)
             yield from move_arm(body, side, posture_rad(body, side, signs.raised))
         for posture in signs.waving * TIMES if waving else ():
             yield from move_arm(body, sides[0], posture_rad(body, sides[0], posture))

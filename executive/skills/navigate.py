@@ -11,10 +11,11 @@ from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
+from executive.skills.motions.free_floor import ROUND_RAD, free_stance, may_stand, nearest_thing
 from executive.skills.motions.map_edge import beyond
 from executive.skills.motions.pacing import BEGIN_S, WALK_M_S, turning_s
 from executive.skills.motions.planning import pose_of, stance_of
-from executive.skills.motions.script import GaveUp, Script
+from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.standpoints import (
     AT_PERSON_M,
     heading_to,
@@ -36,6 +37,8 @@ from robot.se3 import SE3, wrap_angle
 MAX_DISPLACEMENT_M = 20.0
 MAX_TURN_RAD = 4.0 * math.pi
 FREEING_M = 0.4
+AHEAD = 0.5
+"""Share of a step that leads forward (60 degrees to either side), from which on it is ahead."""
 DETOUR = 1.25
 """A path longer than the straight line by more than this goes around something."""
 
@@ -49,11 +52,15 @@ class FloorPose(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Step(msgspec.Struct, frozen=True, kw_only=True):
-    """A motion relative to where the robot stands: first turn, then walk."""
+    """A motion relative to where the robot stands: first turn, then walk.
+
+    With `or_less`, where that much is not free, a shorter step or one in another direction will do.
+    """
 
     forward_m: float = 0.0
     left_m: float = 0.0
     turn_rad: float = 0.0
+    or_less: bool = False
 
 
 class NavigateParams(SkillParams, frozen=True, kw_only=True):
@@ -167,6 +174,12 @@ class Navigate(ScriptedSkill[NavigateParams]):
         straight_m = _length_m(step)
         if straight_m < 1e-6:
             return
+        if _is_beside(step) and not may_stand(body, goal):
+            X_WS_free = free_stance(body, towards_rad=ROUND_RAD) if step.or_less else None
+            if X_WS_free is None:
+                raise _no_room(body, goal)
+            yield from step_to(body, stance_of(X_WS_free))
+            return
         if (yield from _is_free(body, goal, straight_m)):
             yield from _walk_straight(body, goal)
         else:
@@ -189,6 +202,27 @@ class Navigate(ScriptedSkill[NavigateParams]):
         yield from walk_to_any(body, stances, name=person.name)
 
 
+def _is_beside(step: Step) -> bool:
+    """Whether a step leads to the side or back, where elbows and heels are and no eyes.
+
+    Ahead the body is flat: there people have it step up to a table, nearer than its radius.
+    """
+    return step.forward_m < AHEAD * _length_m(step)
+
+
+def _no_room(body: Body, goal: Stance) -> GaveUp:
+    """What is in the way of standing there."""
+    thing, distance_m = nearest_thing(body, goal)
+    if thing is None or distance_m >= body.description.body_radius_m:
+        return give_up("path_blocked", "there somebody stands, or the map ends")
+    return give_up(
+        "goal_in_collision",
+        f"the {thing.name} would be {100.0 * distance_m:.0f} cm from its middle there",
+        blocked_by=thing.id,
+        clearance_m=round(distance_m, 3),
+    )
+
+
 def _is_free(body: Body, goal: Stance, straight_m: float) -> Script[bool]:
     """Whether nothing stands on the straight line.
 
@@ -197,7 +231,8 @@ def _is_free(body: Body, goal: Stance, straight_m: float) -> Script[bool]:
     try:
         path = yield from plan_path(body, goal)
     except GaveUp as end:
-        if end.failure.code == "start_in_collision" and straight_m <= FREEING_M:
+        freeing = straight_m <= FREEING_M and may_stand(body, goal)
+        if end.failure.code == "start_in_collision" and freeing:
             return True
         raise
     return path.length_m <= DETOUR * straight_m + 0.1

@@ -36,7 +36,7 @@ def _wait(_errand: Errand, reason: Failure) -> tuple[Errand, ...]:
 
 
 def _step_back(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
-    params = NavigateParams(by=Step(forward_m=-STEP_BACK_M))
+    params = NavigateParams(by=Step(forward_m=-STEP_BACK_M, or_less=True))
     return (Errand(name="step back", params=params), *_look_again(errand, reason))
 
 

@@ -38,12 +38,14 @@ class SaidVerb(NamedTuple):
 class Forbidden(NamedTuple):
     """What is not to be done, as it was said, with the names in it.
 
-    ``away`` says that it is a place or a thing to keep away from.
+    ``away`` says that it is a place or a thing to keep away from, ``how`` that it is a way of doing
+    what is asked for: with which hand, past whom, by what motion, on which of several boards.
     """
 
     said: str
     names: tuple[Name, ...]
     away: bool
+    how: bool
 
 
 @dataclass(slots=True)

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.obstructions import may_step
-from executive.skills.motions.personal_space import CLEAR_M, somebody_near
+from executive.skills.motions.free_floor import may_stand
+from executive.skills.motions.personal_space import CLEAR_M, ZONE_M, somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
-from robot.messages import Obstacle, PersonInfo, Side
+from robot.messages import PersonInfo, Side
 from robot.se3 import SE3
 
 STEP_M, MOST_M = 0.1, 0.8
@@ -22,15 +22,16 @@ TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0, 1.4, -1.4)
 """Directions that are tried, beside straight away from them: never towards them."""
 
 
-def back_away(body: Body, side: Side) -> Script[None]:
+def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
     """Step back until nobody is near a hand, if somebody is; slowly, facing as before.
 
-    Where there is no free floor to step to, it stays: the arm then waits for them to step back.
+    The hand is about to come out by `swing_m`, towards whoever is there. Where there is no free
+    floor to step to, it stays: the arm then waits for them to step back.
     """
-    person = somebody_near(body, body.X_WG(side).p)
+    person = somebody_near(body, body.X_WG(side).p, within_m=ZONE_M + swing_m)
     if person is None:
         return
-    X_WS_goal = _retreat(body, side, person)
+    X_WS_goal = _retreat(body, side, person, clear_m=CLEAR_M + SPARE_M + swing_m)
     if X_WS_goal is None:
         return
     before, body.phase = body.phase, f"stepping back from {person.name}"
@@ -38,47 +39,23 @@ def back_away(body: Body, side: Side) -> Script[None]:
     body.phase = before
 
 
-def _retreat(body: Body, side: Side, person: PersonInfo) -> SE3 | None:
+def _retreat(body: Body, side: Side, person: PersonInfo, *, clear_m: float) -> SE3 | None:
     """The nearest stance from which the hand is clear of them, straight away from them first."""
     X_WS, hand = body.X_WS, body.X_WG(side).p
     x_m, y_m, _ = body.X_WPerson(person.id).p
     away_rad = math.atan2(X_WS.p[1] - y_m, X_WS.p[0] - x_m)
-    things = _things(body)
     for turn_rad in TURNS_RAD:
         cos, sin = math.cos(away_rad + turn_rad), math.sin(away_rad + turn_rad)
         for back_m in _distances():
             there = (hand[0] + back_m * cos, hand[1] + back_m * sin)
-            clear_m = math.dist(there, (x_m, y_m)) - person.radius_m
+            free_m = math.dist(there, (x_m, y_m)) - person.radius_m
             point = (X_WS.p[0] + back_m * cos, X_WS.p[1] + back_m * sin)
-            if not _is_free(body, things, point, person):
+            if not may_stand(body, point, but=person):
                 break
-            if clear_m >= CLEAR_M + SPARE_M:
+            if free_m >= clear_m:
                 return SE3((*point, 0.0), X_WS.quat_wxyz)
     return None
 
 
 def _distances() -> Iterator[float]:
     return (k * STEP_M for k in range(1, round(MOST_M / STEP_M) + 1))
-
-
-def _things(body: Body) -> tuple[Obstacle, ...]:
-    """What stands around; people are where they are seen, not where the map has them."""
-    people = {person.id for person in body.map.people}
-    fixed = tuple(thing for thing in body.map.obstacles if thing.id not in people)
-    return (*fixed, *body.world.unmapped)
-
-
-def _is_free(
-    body: Body, things: tuple[Obstacle, ...], point: tuple[float, float], but: PersonInfo
-) -> bool:
-    """Whether the body can stand there: inside the map, nobody else near, nothing in its radius.
-
-    What is within its radius already must not come nearer.
-    """
-    x_min, y_min, x_max, y_max = body.map.bounds_m
-    if not (x_min < point[0] < x_max and y_min < point[1] < y_max):
-        return False
-    if somebody_near(body, point) not in (None, but):
-        return False
-    here = (body.X_WS.p[0], body.X_WS.p[1])
-    return may_step(here, point, things, radius_m=body.description.body_radius_m)

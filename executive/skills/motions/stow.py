@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.skills.motions.back_away import back_away
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.obstructions import may_step
+from executive.skills.motions.free_floor import ROUND_RAD, free_stance
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import is_at, move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script
@@ -25,7 +25,8 @@ def stow_arm(body: Body, side: Side) -> Script[None]:
     """Bring one arm in.
 
     Steps back from somebody who is too near for the arm to move. Where no motion is free, because
-    the hand is among things, steps back once and tries again.
+    the hand is among things, steps back once and tries again; where something stands so near that
+    the arm has no place at the body's side, steps to where it has.
     """
     held = body.context.holdings.at(side)
     goal_rad = held.carry_rad if held is not None else posture_rad(body, side, HOME)
@@ -38,21 +39,20 @@ def stow_arm(body: Body, side: Side) -> Script[None]:
     try:
         yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
     except GaveUp as end:
-        if end.failure.code not in ("no_path", "start_in_collision", "planner_timeout"):
+        X_WS_clear = _clear_stance(body, end.failure.code)
+        if X_WS_clear is None:
             raise
-        steps_m = body.description.handy.reaching.steps_back_m
-        back = next((back for back_m in steps_m if (back := _free_behind(body, back_m))), None)
-        if back is None:
-            raise
-        yield from step_to(body, stance_of(back))
+        yield from step_to(body, stance_of(X_WS_clear))
         yield from move_arm(body, side, goal_rad, keep_upright=keep_upright)
     body.phase = before
 
 
-def _free_behind(body: Body, back_m: float) -> SE3 | None:
-    """The stance so far straight back, if nothing stands there."""
-    back = body.X_WS @ SE3((-back_m, 0.0, 0.0))
-    things = (*body.map.obstacles, *body.world.unmapped)
-    here, there = (body.X_WS.p[0], body.X_WS.p[1]), (back.p[0], back.p[1])
-    radius_m = body.description.body_radius_m
-    return back if may_step(here, there, things, radius_m=radius_m) else None
+def _clear_stance(body: Body, code: str) -> SE3 | None:
+    """Where to step to, of an arm that cannot come in; None if that would not help."""
+    match code:
+        case "no_path" | "start_in_collision" | "planner_timeout":
+            return free_stance(body)
+        case "goal_in_collision":
+            return free_stance(body, towards_rad=ROUND_RAD, wide=True)
+        case _:
+            return None

@@ -53,6 +53,17 @@ _SAFE = lexicon.words(
 """What the robot takes care not to do in any case."""
 
 
+_LIMBS = lexicon.words(
+    "hand hands arm arms finger fingers gripper foot feet leg legs knee knees elbow"
+)
+_WAYS = lexicon.words("through near past across over along around beside behind between close")
+_MOTIONS = lexicon.words(
+    "walk walking turn turning move moving run running step stepping bend bending lean leaning "
+    "kneel kneeling squat squatting crouch crouching reach reaching lift lifting"
+)
+_SPOTS = lexicon.words("on in at by with from to under onto into")
+"""Where no name follows one of these, it is told how not to do it: "not on the middle one"."""
+
 _LEFT = lexicon.words("left dropped forgot forgotten there found bought brought lost delivered put")
 """With one of these in it a statement may tell of a thing for the first time."""
 
@@ -105,8 +116,17 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
     _mention(sentence, start, end, described=True)
     if not _SAFE.intersection(said):
         names = _names(text, start, end)
-        sentence.notes.forbidden.append(Forbidden(text.raw(at, end), names, away is not None))
+        found = Forbidden(text.raw(at, end), names, away is not None, _how(text, start, end, names))
+        sentence.notes.forbidden.append(found)
     return [], end
+
+
+def _how(text: Text, start: int, end: int, names: tuple[Name, ...]) -> bool:
+    """Not with your left *hand*; do not go *past* Ada; without *turning*; not *on* this one."""
+    said = text.words[start:end]
+    motion = not names and bool(_MOTIONS.intersection(said))
+    spot = not names and bool(_SPOTS.intersection(said[:1]))
+    return motion or spot or not (_LIMBS | _WAYS).isdisjoint(said)
 
 
 def _cited(text: Text, at: int) -> int | None:

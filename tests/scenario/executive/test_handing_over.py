@@ -96,3 +96,26 @@ def test_after_a_hand_over_is_called_off_it_backs_away_and_walks():
         assert watch.nearest_m > before_m - 0.03
         assert watch.touches == 0
         assert session.holdings.find("red_cup") is not None
+
+
+@pytest.mark.slow
+def test_who_waves_after_a_hand_over_was_called_off_backs_away_and_into_nothing():
+    where = setting(takes=False, steps_aside=False, answers="")
+    setup = Setup(where=where, seed=1)
+    with runtimes.opened(setup) as robot, Session(setup, robot, attended=True) as session:
+        phases = []
+        session.executive.journal.listen(
+            lambda event: phases.append(event.data["phase"]) if event.event == "phase" else None
+        )
+        number = session.submit(request.request(BRING, where))
+        session.run(until=lambda: bool(phases) and phases[-1].startswith("waiting for anna"))
+        session.executive.cancel(number)
+        session.run(until=lambda: session.executive.state == "idle")
+        for words in ("wave", "take a step back", "nod"):
+            session.submit(request.request(words, where))
+            session.run(until=lambda: session.executive.state == "idle")
+            assert session.executive.jobs[-1].state == "done", session.executive.jobs[-1]
+            assert session.executive.outcome.recoveries == 0
+        assert "stepping back from anna" in phases
+        assert "waiting for anna to step back" not in phases
+        assert session.holdings.find("red_cup") is not None

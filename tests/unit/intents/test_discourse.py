@@ -129,3 +129,27 @@ def test_what_is_to_be_said_is_said_whole(words: str) -> None:
     outcome = parse(f"say {words}", HOME)
     assert isinstance(outcome, Goals), outcome
     assert words.split(",", maxsplit=1)[0].rsplit(maxsplit=1)[-1] in str(outcome.goals)
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        "but not with your left hand",
+        "but don't use your right arm",
+        "but do not go near Ada",
+        "but don't walk past the stove",
+        "without turning round",
+        "but not on the lower one",
+    ],
+)
+def test_how_it_is_not_to_be_done_is_asked_about(how: str) -> None:
+    outcome = parse(f"put the bottle on the shelf {how}", HOME)
+    assert isinstance(outcome, Question), outcome
+    assert "promise" in outcome.question
+
+
+@pytest.mark.parametrize("contrast", ["not on the table", "and don't spill it", "don't wake Ada"])
+def test_what_is_not_done_anyway_is_no_question(contrast: str) -> None:
+    assert _goals(f"put the bottle on the shelf, {contrast}") == _goals(
+        "put the bottle on the shelf"
+    )

@@ -332,3 +332,39 @@ def test_a_hand_among_things_is_freed_by_a_step_back_no_further_than_there_is_ro
     first = next(iter(stage.commands(WalkTo)), None)
     at = stage.puppet.X_WN @ SE3((first.x_m, first.y_m, 0.0)) if first else SE3()
     assert at.p[:2] == pytest.approx((-backed_m, 0.0), abs=0.01)
+
+
+def wall_behind(stage, wall_m: float) -> None:
+    shape = Shape(kind="box", size_m=(0.02, 4.0, 0.7))
+    wall = Obstacle(id="bench", name="bench", X_WO=SE3((-wall_m, 0.0, 0.35)), shapes=(shape,))
+    stage.puppet.world_map = msgspec.structs.replace(stage.puppet.world_map, obstacles=(wall,))
+
+
+def test_a_step_back_into_furniture_is_refused_by_name(stage):
+    wall_behind(stage, 0.4)
+    touching = failure("start_in_collision", "its foot touches the bench")
+    stage.planner.failures[BasePathRequest] = [touching, touching]  # frees nothing by going there
+    report = stage.run(NavigateParams(by=Step(forward_m=-0.3)))
+    assert report.failure.code == "goal_in_collision"
+    assert "the bench would be 9 cm from its middle" in report.failure.cause
+    assert not stage.commands(WalkTo)
+    assert stage.run(NavigateParams(by=Step(forward_m=-0.1))).status == "succeeded"
+
+
+def test_a_step_back_that_makes_room_goes_where_room_is(stage):
+    wall_behind(stage, 0.3)
+    report = stage.run(NavigateParams(by=Step(forward_m=-0.3, or_less=True)))
+    assert report.status == "succeeded", report
+    x_m, y_m, _ = stage.puppet.X_WS.p
+    assert x_m > -0.04 and math.hypot(x_m, y_m) > 0.09
+
+
+def test_an_arm_with_no_place_at_the_side_is_brought_in_after_a_step_to_where_it_has(stage):
+    wall_behind(stage, 0.2)
+    for i in stage.puppet.description.indices("left_arm"):
+        stage.puppet.q_rad[i] += 0.5
+    overlap = failure("goal_in_collision", "where the arm should go, it overlaps the bench")
+    stage.planner.failures[ArmRequest] = [overlap]
+    report = stage.run(NavigateParams(by=Step(turn_rad=0.3)))
+    assert report.status == "succeeded", report
+    assert stage.puppet.X_WS.p[0] > 0.05, "away from the bench"
