@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from executive.behaviours.breakpoints import fits
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.engine.jobs import OVER
 from executive.frontends.prompt.command import Command, anything, begins, one_of
 from executive.frontends.prompt.commands.job_words import is_number, number_of, row
