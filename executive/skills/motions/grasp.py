@@ -15,6 +15,7 @@ from robot.se3 import SE3
 
 GAP_TOLERANCE_M = 0.015
 FOLLOW_AT_MOST_M = 0.04
+"""Of an object that moves while the hand moves in; beyond that the hand looks and reaches again."""
 FRESH_S = 0.5
 FALLEN_RAD = 0.3
 
