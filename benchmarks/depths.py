@@ -31,7 +31,7 @@ from robot.planning.inline import InlinePlanner
 from robot.planning.requests import PickRequest, PlanRequest, PlanResult
 from robot.planning.worker import Planner
 from robot.se3 import SE3
-from sim.reality import SimulatedWorld
+from sim.simulation import SimulatedWorld
 from sim.world_schema import Furniture, Object, Room, Start, World
 
 Outcome = dict[str, Any]

@@ -34,7 +34,7 @@ from executive.runs.runtimes import Setup
 from executive.runs.session import Session
 from executive.runs.task_run import Assignment
 from robot.clock import WallClock
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 SENTENCE = "pick up the red cup and put it on the shelf"
 DUMPS = ("failure", "change")

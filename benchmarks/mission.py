@@ -23,7 +23,7 @@ from robot.clock import WallClock
 from robot.planning.requests import PlacePlan, PlanRequest, PlanResult
 from robot.planning.worker import Planner
 from robot.se3 import SE3
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 Outcomes = dict[str, dict[str, Any]]
 WORLD, ROBOT = "kitchen", "juno"

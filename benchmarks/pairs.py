@@ -20,7 +20,7 @@ from robot.model import description
 from robot.planning.requests import Held, ObjectPose, PickPlan
 from robot.planning.solve import Solver
 from robot.se3 import SE3
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 DEEP_M = 0.28
 HEAD_ROOM_M = 0.03

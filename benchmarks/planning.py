@@ -43,7 +43,7 @@ from robot.planning.requests import (
 from robot.planning.robot_body import UPRIGHT, Body, Standing
 from robot.planning.solve import Solver
 from robot.se3 import SE3
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 STANCE_ERROR_M, STANCE_ERROR_RAD = 0.015, 0.026
 OBJECT_ERROR_M = 0.005

@@ -22,7 +22,7 @@ from executive.meaning import request
 from executive.runs.runtimes import Setup
 from robot.clock import WallClock
 from robot.messages import BodyCommand, Stand
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 GIVE_UP_S = 5.0
 

@@ -18,7 +18,7 @@ from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
 from robot.messages import BodyCommand, GetUp, Stand, Walk, WalkTo
 from robot.se3 import SE3, wrap_angle
-from sim.reality import SimulatedWorld, Simulation
+from sim.simulation import SimulatedWorld, Simulation
 from sim.world import empty
 
 Outcome = dict[str, Any]

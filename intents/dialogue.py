@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from intents import looking_back, plans, replies, wording
 from intents.context import Context, answered, noted, verdict_of
+from intents.correcting import in_full, is_correction
 from intents.goals import (
     Balance,
     Cancel,
@@ -19,7 +20,6 @@ from intents.goals import (
     Goal,
     ObjectQuery,
     Pause,
-    Place,
     Report,
     Resume,
     Stop,
@@ -48,24 +48,6 @@ _WHERE = re.compile(
 )
 
 _STEERING = (Stop, Pause, Resume, Cancel)
-_CORRECTS = re.compile(
-    r"^\W*(?:oh\W+)?(?:no(?!\s+(?:rush|hurry|problem|worr|need|matter|doubt|pressure|one|\w+s\b))|"
-    r"nope|not|oops|actually|rather|i mean|i meant|make (?:it|that)|correction|scratch that|"
-    r"wait(?=\s*,)|i(?: woul|')d rather|on second thoughts?)\b"
-    r"|\b(?:instead|rather)\W*$",
-    re.IGNORECASE,
-)
-_ADDS = re.compile(r"\b(?:also|too|as well|afterwards|next|after that)\b", re.IGNORECASE)
-"""A sentence with one of these comes after the one before it, however it begins."""
-
-
-_ANOTHER = re.compile(
-    r"\W*(?:(?:oh|no|not that one|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait)"
-    r"\W+)*(?P<what>(?:the|my|a|an) \w+(?: \w+){0,4}?)(?:\W+(?:instead|rather))?\W*",
-    re.IGNORECASE,
-)
-"""Actually *the blue one*; *the blue one* instead."""
-_INSTEAD = re.compile(r"\W+(?:instead|rather)\W*$", re.IGNORECASE)
 _AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
 """And *the blue one*?"""
 
@@ -274,7 +256,7 @@ class Dialogue:
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
         corrects = is_correction(text)
-        text = self._in_full(text, before)
+        text = in_full(text, before, self.vocabulary)
         outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
             self._repeats += 1
@@ -289,28 +271,6 @@ class Dialogue:
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome
-
-    def _in_full(self, text: str, before: Context) -> str:
-        """A correction as the grammar knows it: "the blue one instead" as "no, the blue one"."""
-        if before.question is not None or not before.goals or not is_correction(text):
-            return text
-        other = _ANOTHER.fullmatch(text)
-        if other is None:
-            return _INSTEAD.sub("", text)
-        place = self._place_like(other["what"], before.goals[-1])
-        if place:
-            return f"no, on the {place}"
-        as_said, _ = hear(text, self.vocabulary, context=before)
-        return f"no, {other['what']}" if isinstance(as_said, Refusal) else text
-
-    def _place_like(self, what: str, last: Goal) -> str:
-        """The lower shelf, for "the lower one" after something was put on the upper shelf."""
-        place = (last.on or last.in_) if isinstance(last, Place) else ""
-        words = what.lower().split()
-        if not place or words[-1] != "one" or len(words) != 3:
-            return ""
-        meant = f"{words[1]} {place.split()[-1]}"
-        return meant if any(spot.name == meant for spot in self.vocabulary.places) else ""
 
     def _set_aside(
         self, text: str, opened: Question, outcome: Turn, before: Context, state: RobotState
@@ -397,11 +357,6 @@ def _known(said: str, goal: Goal, state: RobotState) -> str:
 def _sought(said: str, goal: Goal) -> ObjectQuery | None:
     """What it was asked where it is; "find it" is a wish to have it looked for."""
     return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
-
-
-def is_correction(text: str) -> bool:
-    """Whether a sentence says that it takes the place of the one before it."""
-    return bool(_CORRECTS.search(text)) and not _ADDS.search(text)
 
 
 def _is_choice(outcome: Turn | None) -> bool:

@@ -92,8 +92,8 @@ def apply(plant: Plant, fault: Fault) -> None:
         case Silence():
             topics = SENSORS.get(fault.topic, (fault.topic,))
             for topic in topics:
-                check_name(topic, [*plant.sensing.topics(), *SENSORS], "topic")
-                plant.sensing.silence(topic, plant.time_s + fault.duration_s)
+                check_name(topic, [*plant.sending.topics(), *SENSORS], "topic")
+                plant.sending.silence(topic, plant.time_s + fault.duration_s)
         case Mislead():
             X = SE3.from_xy_yaw(*fault.by_m, math.radians(fault.by_deg))
             plant.oracle.mislead(X, until_s=plant.time_s + fault.duration_s)

@@ -13,7 +13,7 @@ from robot.errors import ConfigError
 from robot.reality.faults import FAULT
 from sim import faults
 from sim.plant import Plant
-from sim.sensors import developed
+from sim.ray_sensors import developed
 
 PERIOD_MS = 2
 PERIOD_S = PERIOD_MS / 1000.0
@@ -66,7 +66,7 @@ class LivePlant:
         sample = plant.read()
         self._body.publish(sample)
         if (timing := self._controller.latest) is not None:
-            plant.sensing.relieved = timing.pressed
+            plant.sending.relieved = timing.pressed
         for topic, message in plant.sense():
             self._bus.publish(topic, developed(message))
         waits = self._begun and not sample.motors.watchdog

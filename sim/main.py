@@ -11,7 +11,7 @@ from robot.clock import WallClock
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 
 def main(run_file: str, parent_pid: str) -> None:

@@ -27,7 +27,7 @@ from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.people import People
 from sim.placing import placed
-from sim.sensing import Sensing
+from sim.sending import Sending
 from sim.somebody import PERIOD_S as PEOPLE_PERIOD_S
 from sim.world_schema import World
 
@@ -91,7 +91,7 @@ class Plant:
             self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None
         )
         self.battery = Battery(robot.battery) if robot.battery else None
-        self.sensing = Sensing(
+        self.sending = Sending(
             self.model, self.data, self.world, robot=robot, rng=seeds[2],
             pose_error_m=pose_error_m, battery=self.battery,
         )  # fmt: skip
@@ -118,7 +118,7 @@ class Plant:
     @property
     def oracle(self) -> Oracle:
         """The truth, for tests and benchmarks."""
-        return self.sensing.oracle
+        return self.sending.oracle
 
     def stand(self, X_WS: SE3, *, posture: str = "nominal") -> None:
         """Put the robot, at rest, with its soles' midpoint at X_WS (x, y, yaw)."""
@@ -174,7 +174,7 @@ class Plant:
         """Topics and messages of depth, lidar and oracle that are due (by the plant's time)."""
         now_s = self.time_s if now_s is None else now_s
         said = [(HEARD, heard) for heard in self.people.said(now_s)]
-        return [*self.sensing.due(now_s), *said]
+        return [*self.sending.due(now_s), *said]
 
     def hear(self, text: str) -> None:
         """Let the people who stand near hear what the robot says."""

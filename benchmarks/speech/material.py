@@ -15,7 +15,7 @@ from benchmarks.speech.voices import spoken
 from executive.meaning.knowledge import Knowledge
 from intents.speech.audio import RATE_HZ, Samples
 from intents.vocabulary import Vocabulary
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 HERE = Path(__file__).resolve().parent
 VOICES = ("en-us", "en-gb+f2", "en-us+f4", "en-gb-x-rp+m3")

@@ -9,7 +9,6 @@ sets it to what wakes a sleeping runtime, so that a request acts at once.
 from __future__ import annotations
 
 import math
-import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -22,8 +21,9 @@ from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import ABORT, HELP, PAUSE, PAUSED, SAID, SPEED_LIMIT, STOP, Blackboard
 from executive.engine.estop import EmergencyStop
 from executive.engine.health_monitor import HealthMonitor
+from executive.engine.job_book import JobBook, JobError, Outcome
 from executive.engine.job_tree import Work
-from executive.engine.jobs import OVER, UNLIMITED, Job, Limits
+from executive.engine.jobs import UNLIMITED, Job, Limits
 from executive.engine.sense import Sense
 from executive.engine.tree import BuildTask, Tree
 from executive.journal.journal import Journal
@@ -32,26 +32,11 @@ from executive.skills import catalogue
 from executive.skills.context import SkillContext
 from executive.skills.parameters import SkillParams
 from executive.skills.skill import BODY, Resource, Skill
-from robot.errors import RobotError
 from robot.failures import Failure, failure
 
 RATE_HZ = 20.0
-KEPT_JOBS = 1000
-"""Jobs that are over stay in `jobs`; the oldest are forgotten."""
 
 State = Literal["idle", "working", "pausing", "paused", "stopping"]
-
-
-class Outcome(msgspec.Struct, frozen=True, kw_only=True):
-    """How a job ended: with a failure, or well. `took_s` is the runtime's time."""
-
-    failure: Failure | None
-    took_s: float
-    recoveries: int
-
-
-class JobError(RobotError):
-    """A request names a job that is not there."""
 
 
 MakeSkill = Callable[[SkillParams, SkillContext], Skill]
@@ -98,7 +83,6 @@ class Executive:
         journal.listen(reader.event)
         self.so_far = reader.run
         self.on_request: Callable[[], None] = lambda: None
-        self.outcome: Outcome | None = None
         self.pause_wanted = False
         self.breaks: tuple[str, ...] = ()
         self._operator = self.board.claim("operator")
@@ -117,11 +101,8 @@ class Executive:
         )
         sense = Sense(self.stage, context.link, monitor, holdings=context.holdings)
         self.tree = Tree(self.stage, sense)
-        self._lock = threading.Lock()
+        self._book = JobBook(self.tree.jobs, jobs_before=jobs_before)
         self._requests: deque[Request] = deque()
-        self._waiting: dict[int, Job] = {}  # submitted, and not taken up by a tick yet
-        self._over: deque[Job] = deque(maxlen=KEPT_JOBS)
-        self._count = jobs_before
         self._stop_until = 0
 
     # --- what people ask for, from any thread ---
@@ -149,12 +130,12 @@ class Executive:
             number: of a job that an executive before this one had begun (None: a new one).
         """
         node = build(self.stage)
-        with self._lock:
-            given = self._count + 1 if number is None else number
-            self._count = max(self._count, given)
-            job = Job(number=given, text=text, urgent=urgent, resources=resources, limits=limits)
-            self._waiting[job.number] = job
-            self.outcome = None
+
+        def make(given: int) -> Job:
+            return Job(number=given, text=text, urgent=urgent, resources=resources, limits=limits)
+
+        with self._book.lock:
+            job = self._book.submit(make, number=number)
             self._requests.append(lambda: self._add(Work(job, node), dict(origin or {})))
         self.on_request()
         return job.number
@@ -175,8 +156,7 @@ class Executive:
         What is submitted after this is not ended; it begins when the robot stands.
         """
         self.pause_wanted = False
-        with self._lock:
-            last = self._count
+        last = self._book.last
         self._post(lambda: self._stop(why, last), "stop", why=why)
 
     def press_estop(self, why: str) -> None:
@@ -204,7 +184,7 @@ class Executive:
         Raises:
             JobError: if there is no such job, or it is over.
         """
-        self._must_be(number)
+        self._book.must_have(number)
         self._post(lambda: self._cancel(number, why), "cancel", number=number, why=why)
 
     def drop(self, number: int) -> None:
@@ -221,7 +201,7 @@ class Executive:
         Raises:
             JobError: if no such job waits.
         """
-        self._must_be(number, waiting=True)
+        self._book.must_have(number, waiting=True)
         self._post(lambda: self._move(number, place), "move", number=number, place=place)
 
     def break_at(self, pattern: str) -> None:
@@ -259,11 +239,12 @@ class Executive:
     @property
     def jobs(self) -> tuple[Job, ...]:
         """All jobs: those that are over, then those under way, then those that wait, in order."""
-        with self._lock:
-            live = [work.job for work in self.tree.jobs.works]
-            known = {job.number for job in live}
-            new = [job for job in self._waiting.values() if job.number not in known]
-            return (*self._over, *live, *new)
+        return self._book.jobs
+
+    @property
+    def outcome(self) -> Outcome | None:
+        """How the last job ended, when nothing is left to do; None before."""
+        return self._book.outcome
 
     @property
     def question(self) -> str:
@@ -294,7 +275,7 @@ class Executive:
             return "paused" if board.read(PAUSED) else "pausing"
         if self.held and self.stage.quiet:
             return "paused"
-        if self._requests or self._waiting or self.tree.jobs.works:
+        if self._requests or self._book.open:
             return "working"
         return "idle" if self.stage.quiet else "stopping"
 
@@ -310,7 +291,7 @@ class Executive:
         self.tree.at(now_s)
         self._carry_out()
         self.tree.tick()
-        with self._lock:
+        with self._book.lock:
             self._settle(now_s)
 
     def abandon(self, reason: Failure | None, now_s: float) -> None:
@@ -319,7 +300,7 @@ class Executive:
         if reason is None:
             self.journal.write(now_s, "request", request="abandon")
             reason = failure("cancelled", "stopped at once on request; the motors damp")
-        with self._lock:
+        with self._book.lock:
             self._note(self.tree.jobs.abandon(reason), now_s)
 
     def _carry_out(self) -> None:
@@ -341,14 +322,12 @@ class Executive:
 
     def _note(self, ended: list[Job], now_s: float) -> None:
         """Remember what has ended; when nothing is left, that is the outcome."""
-        self._over += ended
-        if not ended or self.tree.jobs.works or self._waiting:
+        outcome = self._book.end(ended)
+        if outcome is None:
             return
-        last = ended[-1]
-        reason, took_s = last.failure, last.took_s or 0.0
-        self.outcome = Outcome(failure=reason, took_s=took_s, recoveries=last.recoveries)
+        reason, took_s = outcome.failure, outcome.took_s
         how = failure_data(reason) if reason else {"code": "done"}
-        self.journal.write(now_s, "outcome", **how, took_s=took_s, recoveries=last.recoveries)
+        self.journal.write(now_s, "outcome", **how, took_s=took_s, recoveries=outcome.recoveries)
 
     # --- requests, carried out as a tick begins ---
 
@@ -359,23 +338,9 @@ class Executive:
             self.stage.record("request", request=name, **arguments)
             request()
 
-        with self._lock:
+        with self._book.lock:
             self._requests.append(carry_out)
         self.on_request()
-
-    def _must_be(self, number: int, *, waiting: bool = False) -> None:
-        """Check that a job is there.
-
-        Raises:
-            JobError: if it is not.
-        """
-        there = [job for job in self.jobs if job.state not in OVER]
-        if waiting:
-            there = [job for job in there if job.state == "waiting"]
-        if all(job.number != number for job in there):
-            known = ", ".join(str(job.number) for job in there) or "none"
-            kind = "waiting job" if waiting else "job"
-            raise JobError(f"there is no {kind} {number}; there is: {known}")
 
     def _add(self, work: Work, origin: dict[str, Any]) -> None:
         jobs, job = self.tree.jobs, work.job
@@ -386,9 +351,7 @@ class Executive:
         )  # fmt: skip
         if not jobs.works:
             self.tree.hold.reset()
-        with self._lock:
-            del self._waiting[work.job.number]
-            jobs.add(work)
+        self._book.take_up(work)
 
     def _pause(self, why: str) -> None:
         if self.board.read(PAUSE) or self.board.read(STOP):

@@ -18,7 +18,7 @@ from executive.evaluation import roles
 from executive.meaning import request
 from executive.missions import check, fault_plans
 from executive.missions.load import find
-from executive.runs import mission_task
+from executive.runs import mission_assignment
 from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
@@ -200,7 +200,7 @@ def meant(case: Case, settings: Settings) -> Meant | request.Refused:
             samples=True, world=case.world or None, robot=settings.robot or None
         )
         checked = check.check(find(case.mission), settings.reality, options)
-        made = mission_task.assignment(checked, options, path=case.mission)
+        made = mission_assignment.assignment(checked, options, path=case.mission)
         return Meant(assignment=made, where=checked.where)
     where = settings.of(case.world or BENCH)
     understood = request.request(case.mission, where)

@@ -12,13 +12,13 @@ import msgspec
 from executive.engine.executive import Executive
 from executive.engine.loop import Interrupts
 from executive.frontends import speaking
+from executive.frontends.composition_root import REALITY
 from executive.frontends.console.beside import shown as viewed
 from executive.frontends.dump.writer import along
 from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
-from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.meaning.request import Setting
 from executive.runs import runtimes, task_run

@@ -17,7 +17,6 @@ from executive.frontends.exit import ended_by
 from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
-from executive.frontends.maps import cli as maps
 from executive.frontends.missions import cli as missions
 from executive.frontends.options import (
     AsJson,
@@ -34,8 +33,8 @@ from executive.frontends.options import (
 )
 from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
-from executive.frontends.sensing import cli as sensing
-from executive.frontends.sensors import cli as sensors
+from executive.frontends.recordings import cli as recordings
+from executive.frontends.recordings import maps_cli, sensors_cli
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
@@ -250,13 +249,13 @@ def export(
 # After the commands above, so that `--help` lists first what people use first.
 worlds.register(app)
 missions.register(app)
-maps.register(app)
+maps_cli.register(app)
 history.register(app)
 dumps.register(app)
-sensing.register(app)
+recordings.register(app)
 consoles.register(app)
 films.register(app)
-sensors.register(app)
+sensors_cli.register(app)
 
 
 @app.command(name="eval")

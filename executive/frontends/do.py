@@ -7,13 +7,13 @@ from dataclasses import replace
 
 from executive.frontends import carrying_out, output, speaking
 from executive.frontends.carrying_out import Prepared
+from executive.frontends.composition_root import REALITY
 from executive.frontends.exit import refuse
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.options import Do
 from executive.frontends.output import say
 from executive.frontends.prompt.attached import attached
-from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs.task_run import Assignment
 from intents.outcomes import Question

@@ -128,7 +128,7 @@ def _robot(name: str) -> Finding:
 
 
 def _worlds() -> Finding:
-    from executive.frontends.reality import REALITY
+    from executive.frontends.composition_root import REALITY
 
     try:
         names = REALITY.names()

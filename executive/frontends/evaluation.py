@@ -15,13 +15,13 @@ from executive.evaluation import campaign, elsewhere, exam, homes_report, marks,
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends import evaluation_asked
+from executive.frontends.composition_root import REALITY
 from executive.frontends.ending import Ending
 from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words
 from executive.frontends.launching import new_folder
 from executive.frontends.options import Eval
 from executive.frontends.output import Screen, say, write_json
-from executive.frontends.reality import REALITY
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.output import say
-from executive.frontends.reality import REALITY
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
 

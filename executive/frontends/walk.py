@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from executive.engine.loop import Interrupts
+from executive.frontends.composition_root import REALITY
 from executive.frontends.exit import refuse
 from executive.frontends.options import Walk
 from executive.frontends.output import Screen, say, write_json
-from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.meaning import request
 from executive.runs import runtimes, velocity_walk

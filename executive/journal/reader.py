@@ -20,9 +20,9 @@ from executive.journal.run import (
     BoardChange,
     Ending,
     Finding,
-    Job,
     LogLine,
     Reason,
+    RecordedJob,
     Run,
     Task,
 )
@@ -83,7 +83,7 @@ class Reader:
         self._lines = 0
         self._number = -1
         self._job: int | None = None
-        self._jobs: dict[int, Job] = {}
+        self._jobs: dict[int, RecordedJob] = {}
         self._shift_s = 0.0
         self._handlers: dict[str, Handler] = {
             "run": self._run,
@@ -184,10 +184,10 @@ class Reader:
         self.run.about = {key: value for key, value in data.items() if key != "text"}
 
     def _job_state(self, t_s: float, data: Mapping[str, Any]) -> None:
-        told, reason = msgspec.convert(data, _Job), msgspec.convert(data, Reason)
+        told, reason = msgspec.convert(data, _JobEvent), msgspec.convert(data, Reason)
         job = self._jobs.get(told.job)
         if job is None:
-            job = Job(number=told.job, text=clipped(told.text), urgent=told.urgent)
+            job = RecordedJob(number=told.job, text=clipped(told.text), urgent=told.urgent)
             self._tell(self.run.jobs, job, MOST_JOBS)
             if len(self._jobs) > MOST_JOBS:
                 self._jobs = {job.number: job for job in self.run.jobs}
@@ -204,7 +204,7 @@ class Reader:
             if told.state in OVER and self._only is not None:
                 self.run.task.took_s = round(t_s - self.run.task.began_s, 4)
 
-    def _begin_task(self, t_s: float, told: _Job) -> None:
+    def _begin_task(self, t_s: float, told: _JobEvent) -> None:
         """Another job begins: what came before belongs to the last one."""
         before = self.run.task
         if before.attempts or before.state:
@@ -292,7 +292,7 @@ class _Finding(msgspec.Struct):
     cause: str = ""
 
 
-class _Job(msgspec.Struct):
+class _JobEvent(msgspec.Struct):
     job: int
     text: str = ""
     state: str = ""

@@ -143,7 +143,7 @@ class Task(msgspec.Struct, kw_only=True):
         return [one for one in self.attempts if one.same_step(step)]
 
 
-class Job(msgspec.Struct, kw_only=True, omit_defaults=True):
+class RecordedJob(msgspec.Struct, kw_only=True, omit_defaults=True):
     """Something that was asked for, and its states with their times."""
 
     number: int
@@ -201,7 +201,7 @@ class Run(msgspec.Struct, kw_only=True):
     health: list[Finding] = []
     troubles: list[Trouble] = []
     log: list[LogLine] = []
-    jobs: list[Job] = []
+    jobs: list[RecordedJob] = []
     path: list[Pose] = []
     modes: list[tuple[float, str]] = []
     things: dict[str, list[Sight]] = {}

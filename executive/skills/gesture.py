@@ -31,7 +31,7 @@ GestureKind = Literal[
 ]  # fmt: skip
 
 BOW_S = 0.8
-NOD_M, SHAKE_RAD, HEAD_AHEAD_M, EYE_M = 0.45, 0.35, 1.5, 1.2
+HEAD_AHEAD_M = 1.5
 TIMES = 3
 SWING_M = 0.25
 """A raised hand waves so far ahead of where it hangs, about."""
@@ -146,7 +146,7 @@ class Gesture(ScriptedSkill[GestureParams]):
         body, wanted = self.body, self.parameters
         if wanted.person_id is not None:
             x_m, y_m, _ = body.X_WPerson(wanted.person_id).p
-            return (x_m, y_m, EYE_M)
+            return (x_m, y_m, self.body.description.gaze.eye_m)
         if wanted.place_id is not None:
             return body.place(wanted.place_id).X_WP.p
         if wanted.object_id is None:
@@ -166,15 +166,15 @@ class Gesture(ScriptedSkill[GestureParams]):
 
     def _move_head(self, p_W: Vector3 | None) -> Script[None]:
         """Up and down, or left and right, about where the eyes are to rest."""
-        body = self.body
+        body, gaze = self.body, self.body.description.gaze
         x_m, y_m, yaw_rad = stance_of(body.X_WS)
         if p_W is not None:
             yaw_rad = math.atan2(p_W[1] - y_m, p_W[0] - x_m)
         for step in range(2 * TIMES + 1):
             side = 0.0 if step == 2 * TIMES else (1.0 if step % 2 else -1.0)
             nod = self.parameters.kind == "nod"
-            aim_rad = yaw_rad if nod else yaw_rad + side * SHAKE_RAD
-            height_m = EYE_M + (side * NOD_M if nod else 0.0)
+            aim_rad = yaw_rad if nod else yaw_rad + side * gaze.shake_rad
+            height_m = gaze.eye_m + (side * gaze.nod_m if nod else 0.0)
             at = (x_m + HEAD_AHEAD_M * math.cos(aim_rad), y_m + HEAD_AHEAD_M * math.sin(aim_rad))
             yield from turn_head(body, (*at, height_m))
 

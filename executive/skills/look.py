@@ -16,6 +16,7 @@ from robot.model.description import RobotDescription
 from robot.se3 import SE3, Vector3
 
 FACE_HEIGHT_M = 1.5
+"""Of a person who stands."""
 GAZE_S = 0.5
 AROUND_RAD = (0.0, 0.9, -0.9, 0.0)
 AROUND_M, AROUND_HEIGHT_M = 2.0, 0.8

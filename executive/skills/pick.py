@@ -41,6 +41,7 @@ REACH_CORRECTIONS = 2
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the object."""
 LEAST_LOAD = 0.3
+"""Of the weight: less means that it did not come up with the hand."""
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
 PICK_S = 11.0
 """Of a typical pick, the walk there left out: for the forecast."""

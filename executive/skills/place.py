@@ -31,11 +31,13 @@ from robot.se3 import SE3
 
 PRESS_M = 0.012
 CONTACT = 0.5
+"""Of the weight, off the hand: then the object stands."""
 LEAST_CONTACT_N = 0.6
 TOO_HIGH_M = 0.02
 LOWERINGS = 3
 REACH_CORRECTIONS = 2
 REPLANS = 1
+"""The spot may be taken by now: another one is chosen once."""
 ELSEWHERE = ("goal_in_collision", "out_of_reach", "no_path", "planner_timeout")
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the place."""

@@ -11,7 +11,9 @@ from robot.model.body import BodyModel
 from robot.se3 import Array
 
 REFUSALS_TO_DAMP = 3
+"""A command or two that are no numbers are bridged by the last good one; a third is no accident."""
 OVERSPEED = 1.6
+"""Faster than this part of its limit, for so many periods, no joint gets unless something broke."""
 OVERSPEED_CYCLES = 3
 
 

@@ -12,6 +12,7 @@ from robot.kinematics.dynamics import Dynamics
 from robot.se3 import Array
 
 FALLEN_TILT_RAD = 0.9
+"""Pushes that are caught lean the trunk by up to 0.77 rad (docs/control.md)."""
 FALLEN_HEIGHT_SHARE = 0.5
 UPRIGHT_TILT_RAD = 0.35
 STEADY_RAD_S = 1.0

@@ -26,6 +26,7 @@ from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array
 
 STANCE_WEIGHT = 2000.0
+"""Weights count against one another only. Soles that stand come first, then balance."""
 COM_WEIGHT = 50.0
 SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0
@@ -35,6 +36,7 @@ STRAINED_SWING_WEIGHT = 60.0  # else the foot that is to catch it hovers short o
 WAIST_WEIGHT = 4.0
 POSTURE_WEIGHT = 0.02
 FORCE_WEIGHT = 1e-5
+"""Next to nothing: it only chooses among wrenches that are as good."""
 CONE_ROWS = 17
 EQUALITY = 5  # DAQP's mark of a row that is always active
 KEEP_EQUALITIES = -1  # DAQP eliminates none of them first, which for six costs more than it saves

@@ -9,8 +9,8 @@ from typing import Self, TypeVar
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import Capability, MotorCommand
+from robot.drivers.published_sensors import PublishedSensors
 from robot.drivers.registry import FORCE, IMU, MOTORS
-from robot.drivers.senses import Senses
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -40,7 +40,7 @@ class BodyDevices(Closing):
                 + ", ".join(sorted(lacking))
             )
         self._imu, self._force = IMU.make(wiring), FORCE.make(wiring)
-        self._senses = Senses(wiring, "controller")
+        self._senses = PublishedSensors(wiring, "controller")
         self._clock = wiring.clock
         self._felt: ImuReading | None = None
         self._borne: ForceReading | None = None

@@ -107,7 +107,8 @@ MOTORS = Family("motors", {SIMULATED: _simulated_motors})
 IMU = Family("imu", {SIMULATED: _simulated_imu})
 FORCE = Family("force", {SIMULATED: _simulated_force})
 
-# What is published: its topic's source is the process that opens it (`robot.drivers.senses`).
+# What is published: its topic's source is the process that opens it
+# (`robot.drivers.published_sensors`).
 SENSES: tuple[Sense[Any], ...] = (
     Sense("camera", {SIMULATED: _simulated_camera}, topics.DEPTH),
     Sense("lidar", {SIMULATED: _simulated_lidar}, topics.LIDAR),

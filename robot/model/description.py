@@ -107,10 +107,15 @@ class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         done_rad: how near they are to come to where they should be.
         waist_yaw_rad: most that a robot without a neck turns its waist to a side to see.
         waist_pitch_rad: the same, backward (negative) and forward.
+        eye_m: height that it looks at when it looks straight ahead.
+        nod_m, shake_rad: of a nod up and down at 1.5 m ahead, of shaking the head to either side.
     """
 
     rate_rad_s: q.TurnRate
     done_rad: q.Turn
+    eye_m: q.Length
+    nod_m: q.Length
+    shake_rad: q.Turn
     waist_yaw_rad: q.Turn = 0.0
     waist_pitch_rad: tuple[q.Angle, q.Angle] = (0.0, 0.0)
 

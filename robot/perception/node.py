@@ -10,7 +10,7 @@ import numpy as np
 
 from robot.bus import topics
 from robot.closing import Closing
-from robot.drivers.senses import Senses
+from robot.drivers.published_sensors import PublishedSensors
 from robot.drivers.wiring import Wiring
 from robot.fusion.history import BodyHistory
 from robot.fusion.localisation import Localiser
@@ -54,7 +54,7 @@ class PerceptionNode(Closing):
         """
         bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
-        self._senses = Senses(wiring, "perception")
+        self._senses = PublishedSensors(wiring, "perception")
         self._bus = bus
         self._states = bus.subscribe(topics.BODY_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)

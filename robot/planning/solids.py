@@ -12,6 +12,7 @@ from robot.planning.requests import Surroundings
 from robot.se3 import SE3, Array
 
 PERSON_HEIGHT_M = 1.8
+"""Of a person who stands, as an obstacle."""
 
 
 class Solid(msgspec.Struct, frozen=True, kw_only=True):

@@ -1,7 +1,8 @@
 """What the software asks of reality: a world to read, and a plant that a robot is tried out in.
 
-`sim.reality.Simulation` fulfils it; it is chosen in one place (`executive.frontends.reality`), and
-everybody else is handed it. What stands here is all that is known outside of what lies behind it.
+`sim.simulation.Simulation` fulfils it; it is chosen in one place
+(`executive.frontends.composition_root`), and everybody else is handed it. What stands here is all
+that is known outside of what lies behind it.
 """
 
 from __future__ import annotations

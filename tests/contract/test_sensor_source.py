@@ -12,7 +12,7 @@ from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.drivers.registry import FORCE, IMU, SENSES
 from robot.drivers.sensor_source import SensorSource
-from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.plant_sensors import emulated
 from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError

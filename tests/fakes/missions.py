@@ -10,7 +10,7 @@ import pytest
 from executive.meaning.request import Setting, setting
 from executive.missions import check as checks
 from executive.missions.check import Checked, Options
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 SIMULATION = Simulation()
 known = cache(partial(setting, SIMULATION))

@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import speaking, streams
+from executive.frontends.composition_root import REALITY
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.terminal import Terminal
-from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs import runtimes
 from executive.runs.runtimes import Opened, Setup

@@ -7,10 +7,10 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
-from executive.frontends.reality import REALITY
 from executive.meaning import request
 from executive.runs import runtimes
 from executive.runs.runtimes import Opened, Setup

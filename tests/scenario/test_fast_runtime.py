@@ -9,8 +9,8 @@ from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.messages import Look, WalkTo
 from robot.se3 import SE3
-from sim.reality import Simulation
-from sim.sensors import developed
+from sim.ray_sensors import developed
+from sim.simulation import Simulation
 
 
 def run(seed: int, duration_s: float) -> bytes:

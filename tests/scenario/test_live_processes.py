@@ -19,7 +19,7 @@ from robot.drivers.simulation.shared_plant import SharedPlant
 from robot.errors import ConfigError
 from robot.messages import LoopTiming, WalkTo
 from robot.model import description
-from sim.reality import Simulation
+from sim.simulation import Simulation
 from tests.fakes.waiting import eventually
 
 pytestmark = pytest.mark.live
@@ -165,7 +165,7 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from robot.bringup.live import LiveRuntime
-from sim.reality import Simulation
+from sim.simulation import Simulation
 with LiveRuntime(Simulation().world("kitchen"), folder=Path(sys.argv[1])) as runtime:
     names = ("plant", "controller", "perception")
     print(*(runtime.supervisor.pid(name) for name in names), runtime.run.sockets, flush=True)

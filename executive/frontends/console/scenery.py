@@ -14,7 +14,7 @@ def scene_of(about: Mapping[str, Any]) -> Scene | str:
     world, robot, seed = about.get("world"), about.get("robot"), about.get("seed")
     if not (isinstance(world, str) and isinstance(robot, str)):
         return "the journal does not say where this was"
-    from executive.frontends.reality import REALITY  # loaded once the page is served
+    from executive.frontends.composition_root import REALITY  # loaded once the page is served
     from robot.model import description
 
     vary_seed = seed if about.get("varied") and isinstance(seed, int) else None

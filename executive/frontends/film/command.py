@@ -9,10 +9,10 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.film import writing
 from executive.frontends.film.pictures import Composer, Frame, panel_px
 from executive.frontends.output import Screen, say
-from executive.frontends.reality import REALITY
 from executive.journal import motion, past_runs, reader
 from executive.journal.motion import Moment
 from executive.journal.run import Run

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.language_model import language_model
 from executive.frontends.listening.options import Listen, RecogniserName
 from executive.frontends.output import say, write_json
-from executive.frontends.reality import REALITY
 from executive.meaning.knowledge import Knowledge
 from intents.dialogue import Dialogue
 from intents.goals import to_builtins

@@ -8,10 +8,10 @@ from typing import Any
 
 import msgspec
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.missions.options import Beside
 from executive.frontends.new_files import put, refuse_taken
 from executive.frontends.output import say, write, write_json
-from executive.frontends.reality import REALITY
 from executive.journal import failures
 from executive.missions import load
 from executive.missions.check import Checked, Options, check

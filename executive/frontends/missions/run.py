@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
+from executive.frontends.composition_root import REALITY
 from executive.frontends.launching import folder_for, from_plain_options
 from executive.frontends.missions.commands import said, say_notes
 from executive.frontends.missions.options import Run
 from executive.frontends.prompt.attached import attached
-from executive.frontends.reality import REALITY
 from executive.missions import load
 from executive.missions.check import check
-from executive.runs import mission_task
+from executive.runs import mission_assignment
 from robot.bringup.mailbox import Handle
 
 
@@ -31,9 +31,9 @@ def run(options: Run, handle: Handle | None = None) -> int:
         checked = check(path, REALITY, given)
         say_notes(checked)
         folder = folder_for(options.run_dir, checked.mission.record.name, handle)
-        mission_task.keep(checked, folder)
+        mission_assignment.keep(checked, folder)
         return Prepared(
-            assignment=mission_task.assignment(checked, given, path=str(path)),
+            assignment=mission_assignment.assignment(checked, given, path=str(path)),
             setup=carrying_out.setup(checked.where, options, folder),
         )
 

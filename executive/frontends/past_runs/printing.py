@@ -11,9 +11,9 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.long_journals import tell_of_length
 from executive.frontends.output import Screen, say, table_screen, write_json
-from executive.frontends.reality import REALITY
 from executive.journal import failures, journal, past_runs
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past

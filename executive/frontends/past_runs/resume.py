@@ -8,11 +8,11 @@ from pathlib import Path
 
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
+from executive.frontends.composition_root import REALITY
 from executive.frontends.launching import FrontEnd, from_plain_options, launch, now_stamp, under_way
 from executive.frontends.options import Shown
 from executive.frontends.output import say
 from executive.frontends.past_runs import printing
-from executive.frontends.reality import REALITY
 from executive.journal import past_runs
 from executive.runs import run_folder
 from executive.runs.again import catching_up, recording

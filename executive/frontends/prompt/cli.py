@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import carrying_out, speaking
+from executive.frontends.composition_root import REALITY
 from executive.frontends.console.attending import attended
 from executive.frontends.console.beside import shown as viewed
 from executive.frontends.language_model import language_model
@@ -30,7 +31,6 @@ from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.typed import asks_to_stop, typed_ahead
-from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.journal.journal import Event, Journal

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.new_files import put, refuse_taken
 from executive.frontends.output import say, write, write_json
-from executive.frontends.reality import REALITY
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 

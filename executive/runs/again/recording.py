@@ -15,7 +15,7 @@ from executive.meaning import request
 from executive.meaning.request import Refused, Setting, Understood
 from executive.meaning.whereabouts import Whereabouts, recalled
 from executive.missions.fault_plans import FaultPlan
-from executive.runs import mission_task, provenance
+from executive.runs import mission_assignment, provenance
 from executive.runs.again import requests
 from executive.runs.again.requests import Submit
 from executive.runs.run_folder import Header
@@ -196,7 +196,7 @@ def restore(submitted: Event, folder: Path, where: Setting) -> Understood:
     text = str(submitted.data.get("text", ""))
     if "goals" not in made_from:
         with discreet(folder):
-            return mission_task.restore(made_from, folder, where)
+            return mission_assignment.restore(made_from, folder, where)
     try:
         asked = goals.from_builtins(made_from["goals"])
         then = msgspec.convert(made_from.get("whereabouts"), Whereabouts | None)
@@ -220,4 +220,4 @@ def planned_faults(recording: Recording, where: Setting) -> tuple[FaultPlan, ...
     if not _made_from(made_from, recording.folder).mission:
         return ()
     with discreet(recording.folder):
-        return mission_task.faults(made_from, recording.folder, where)
+        return mission_assignment.faults(made_from, recording.folder, where)

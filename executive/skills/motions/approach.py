@@ -28,6 +28,7 @@ BRING_IN_WITHIN = (0.12, 0.2)
 IN_LINE_M, IN_LINE_RAD = 0.05, 0.12
 """Off the line to the stance: what the step in corrects on its first half."""
 MOST_SHORT_M = 0.04
+"""A stretched arm shifts the balance by up to 2 cm; a step of a few centimetres cures that."""
 MOST_SHORT_RAD = 0.1
 NEARER_M = 0.015
 NEARER_TOLERANCE_M = 0.012

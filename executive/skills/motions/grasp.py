@@ -15,9 +15,9 @@ from robot.se3 import SE3
 
 GAP_TOLERANCE_M = 0.015
 FOLLOW_AT_MOST_M = 0.04
+"""Of an object that moves while the hand moves in; beyond that the hand looks and reaches again."""
 FRESH_S = 0.5
 FALLEN_RAD = 0.3
-FLOOR_M = 0.25
 
 
 def aim(plan: PickPlan, info: ObjectInfo, X_WO: SE3) -> SE3:
@@ -36,10 +36,11 @@ def has_fallen(plan: PickPlan, X_WO: SE3) -> bool:
 
 def check_reachable(body: Body, info: ObjectInfo, X_WO: SE3) -> None:
     """Give up on what lies on the floor: no stance brings a hand so low."""
+    lowest_m = body.description.handy.reaching.floor_m
     over_floor = all(
-        abs(X_WO.p[2] - place.X_WP.p[2]) > FLOOR_M for place in body.map.places if not place.floor
+        abs(X_WO.p[2] - place.X_WP.p[2]) > lowest_m for place in body.map.places if not place.floor
     )
-    if X_WO.p[2] < FLOOR_M and over_floor:
+    if X_WO.p[2] < lowest_m and over_floor:
         raise give_up(
             "on_the_floor",
             f"the {info.name} lies on the floor at ({X_WO.p[0]:.2f}, {X_WO.p[1]:.2f}) m",

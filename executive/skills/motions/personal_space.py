@@ -13,6 +13,7 @@ from robot.messages import Obstacle, PersonInfo
 ZONE_M = 0.5
 """Between a person and the middle of the body, or a hand [m]."""
 CLEAR_M = 0.6
+"""More than the zone, so that somebody at its edge does not stop and free the robot in turns."""
 BELIEVED_S = 3.0
 PATIENCE_S = 15.0
 

@@ -16,6 +16,7 @@ from robot.planning.requests import Surroundings
 from robot.se3 import SE3
 
 NEAR_M = 0.02
+"""A sighting is 5 mm off: what is seen so near to a surface is taken to stand on it."""
 UPRIGHT_RAD = 0.2
 OVERHANG_M = 0.02
 ON_TOP_M = 0.3

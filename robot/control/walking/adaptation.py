@@ -12,6 +12,7 @@ from collections.abc import Callable
 from robot.control.walking.dcm import Point
 
 TIMES = 9
+"""Durations that are tried: one unknown, so that some are exact enough."""
 
 
 def error_at_end(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robot.bus import topics
 from robot.drivers.sensor_source import SensorSource
-from robot.drivers.simulation.sensors import BusSensor
+from robot.drivers.simulation.plant_sensors import BusSensor
 from robot.drivers.wiring import Wiring
 from robot.messages import DepthImage
 from robot.model.description import Camera

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robot.drivers.body_sample import ImuReading
 from robot.drivers.sensor_source import SensorSource
-from robot.drivers.simulation.sensors import PlantSensor
+from robot.drivers.simulation.plant_sensors import PlantSensor
 from robot.drivers.wiring import Wiring
 from robot.model.description import Imu
 

@@ -4,7 +4,7 @@ import pytest
 
 from robot.bringup.fast import FastRuntime
 from robot.messages import Walk, WalkTo
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 PERIOD_S = 0.05
 

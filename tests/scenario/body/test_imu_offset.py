@@ -11,7 +11,7 @@ from robot.control.loop import BUS_PERIOD_S
 from robot.messages import GetUp, Walk
 from robot.reality.faults import Kill, OffsetImu
 from sim.faults import apply
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 AT_MOST_S = 90.0
 OFF_RAD = math.radians(1.5)

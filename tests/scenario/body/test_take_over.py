@@ -9,7 +9,7 @@ from robot.bringup.fast import FastRuntime
 from robot.messages import Grip, Stand, WalkTo
 from robot.reality.faults import Kill
 from robot.se3 import SE3
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 KILL = Kill(process="controller")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.evaluation import campaign, elsewhere
 from executive.evaluation.campaign import Run, Settings
 from executive.evaluation.single import perform
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 
 def test_who_was_misled_in_an_office_stands_in_nothing_that_it_saw_then() -> None:

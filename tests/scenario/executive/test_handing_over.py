@@ -13,7 +13,7 @@ from executive.runs.runtimes import Setup
 from executive.runs.session import Session
 from sim import world
 from sim.grip import PULL_N
-from sim.reality import SimulatedWorld, Simulation
+from sim.simulation import SimulatedWorld, Simulation
 from sim.world_schema import Behaviour
 
 BENCH = world.load("bench")

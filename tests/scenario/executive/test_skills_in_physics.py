@@ -19,7 +19,7 @@ from robot.planning.inline import InlinePlanner
 from robot.reality import faults
 from robot.se3 import SE3
 from sim.faults import apply
-from sim.reality import SimulatedWorld, Simulation
+from sim.simulation import SimulatedWorld, Simulation
 from sim.world import load as load_world
 from sim.world_schema import Start
 

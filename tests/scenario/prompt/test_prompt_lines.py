@@ -14,6 +14,7 @@ from prompt_toolkit.buffer import Buffer
 from prompt_toolkit.keys import Keys
 
 from benchmarks.intents.endpoint import Reply, Server, serving
+from executive.frontends.composition_root import REALITY
 from executive.frontends.listening.obeying import Conversation
 from executive.frontends.prompt.cli import words
 from executive.frontends.prompt.commands import table
@@ -21,7 +22,6 @@ from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.terminal import Terminal
-from executive.frontends.reality import REALITY
 from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request

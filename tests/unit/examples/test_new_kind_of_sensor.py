@@ -10,7 +10,7 @@ import pytest
 from examples import sensor_thermometer as thermometer
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
-from robot.drivers import registry, senses
+from robot.drivers import published_sensors, registry
 from robot.drivers.registry import Sense
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -19,7 +19,7 @@ from robot.model import description
 ABOVE = (
     "executive", "intents", "sim", "robot.bringup", "robot.control", "robot.perception",
     "robot.planning", "robot.link", "robot.fusion", "robot.kinematics", "robot.drivers.registry",
-    "robot.drivers.senses", "robot.drivers.body_devices",
+    "robot.drivers.published_sensors", "robot.drivers.body_devices",
 )  # fmt: skip
 ROBOT = description.load("juno")
 ROW = Sense("thermometer", {"linux": thermometer.make}, thermometer.COMPUTER)
@@ -36,7 +36,7 @@ def zone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def wiring(zone: Path, monkeypatch: pytest.MonkeyPatch) -> Wiring:
     monkeypatch.setattr(registry, "SENSES", (*registry.SENSES, ROW))
-    monkeypatch.setattr(senses, "SENSES", registry.SENSES)
+    monkeypatch.setattr(published_sensors, "SENSES", registry.SENSES)
     monkeypatch.setattr(registry, "FAMILIES", (*registry.FAMILIES, ROW))
     drivers = {**ROBOT.drivers, "thermometer": "linux"}
     robot = msgspec.structs.replace(ROBOT, drivers=drivers)
@@ -45,7 +45,7 @@ def wiring(zone: Path, monkeypatch: pytest.MonkeyPatch) -> Wiring:
 
 def test_perception_publishes_it_once_a_second(wiring: Wiring, zone: Path):
     heard = wiring.bus.subscribe(thermometer.COMPUTER)
-    with senses.Senses(wiring, "perception") as opened:
+    with published_sensors.PublishedSensors(wiring, "perception") as opened:
         for tick in range(21):
             wiring.clock.sleep_until(0.1 * tick)
             if tick == 15:
@@ -62,7 +62,7 @@ def test_a_robot_whose_description_does_not_name_it_has_none(wiring: Wiring, zon
     heard = wiring.bus.subscribe(thermometer.COMPUTER)
     registry.check(ROBOT)
     registry.check(wiring.robot)
-    with senses.Senses(without, "perception") as opened:
+    with published_sensors.PublishedSensors(without, "perception") as opened:
         opened.relay()
     assert not heard.take()
 

@@ -9,7 +9,7 @@ from examples.sensor_recorded_lidar import make
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
-from robot.drivers.senses import Senses
+from robot.drivers.published_sensors import PublishedSensors
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.messages import LidarScan
@@ -49,7 +49,7 @@ def device(wiring: Wiring) -> Device:
 
 def test_perception_publishes_it_like_any_lidar(wiring: Wiring):
     heard = wiring.bus.subscribe(topics.LIDAR)
-    with Senses(wiring, "perception") as senses:
+    with PublishedSensors(wiring, "perception") as senses:
         for stamp_s in STAMPS_S:
             wiring.clock.sleep_until(stamp_s)
             senses.relay()

@@ -8,7 +8,7 @@ from robot.bus.bus import LocalBus
 from robot.bus.timing import Lateness
 from robot.clock import SimulatedClock
 from robot.drivers.motors.simulated import SimulatedMotors
-from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.plant_sensors import emulated
 from robot.drivers.simulation.shared_plant import PlantServer, SharedPlant
 from robot.reality import faults
 from robot.reality.faults import FAULT

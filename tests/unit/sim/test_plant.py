@@ -9,7 +9,7 @@ from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3
 from sim import world
 from sim.plant import Plant
-from sim.sensors import developed
+from sim.ray_sensors import developed
 
 
 def test_starts_on_its_soles_where_the_world_says(robot, kitchen):

@@ -7,7 +7,7 @@ import pytest
 from robot.errors import ConfigError
 from robot.reality import faults
 from robot.reality.truth import Check
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 SIMULATION = Simulation()
 

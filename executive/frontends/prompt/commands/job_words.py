@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.engine.jobs import Job
 from executive.journal import failures
 from robot.misfits import shown

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from executive.behaviours.breakpoints import fits
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.engine.jobs import OVER
 from executive.frontends.prompt.command import Command, anything, begins, one_of
 from executive.frontends.prompt.commands.job_words import is_number, number_of, row
@@ -111,7 +111,7 @@ class _Steering:
     def run(self, rest: str) -> None:
         from executive.missions import load
         from executive.missions.check import Options, check
-        from executive.runs import mission_task
+        from executive.runs import mission_assignment
 
         name, *given = rest.split()
         pairs = [word.partition("=") for word in given]
@@ -124,8 +124,8 @@ class _Steering:
             raise ConfigError(f"{text}: start the prompt with --world {there.world.name}")
         if checked.faults:
             self._shell.out("Its faults are left out here; `humanoid mission run` injects them.")
-        mission_task.keep(checked, self._shell.folder)
-        made = mission_task.assignment(checked, said, path=str(checked.mission.path))
+        mission_assignment.keep(checked, self._shell.folder)
+        made = mission_assignment.assignment(checked, said, path=str(checked.mission.path))
         self._shell.submit(made.understood, limits=made.limits, origin=made.origin)
 
     def pause(self, _rest: str) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from executive.behaviours.conditions import Check
 from executive.behaviours.run_skill import RunSkill
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.engine.jobs import Job, Limits, side_by_side
 from executive.skills.look import LookParams
 from executive.skills.navigate import NavigateParams

@@ -7,7 +7,7 @@ import pytest
 from executive.behaviours.ask import ALONE_S, PATIENCE_S, AskForHelp, answer_of
 from executive.behaviours.run_skill import RunSkill
 from executive.blackboard import HELP
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.journal.words import sentence
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams

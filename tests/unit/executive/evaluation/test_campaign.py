@@ -13,7 +13,7 @@ from executive.evaluation.record import FILE, Record, Results, fingerprint, fold
 from executive.frontends import ending, evaluation
 from executive.frontends.options import Eval
 from robot.errors import ConfigError
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 FAULTS = (
     "missed grasp", "object knocked over", "object dropped while carrying",

@@ -12,7 +12,7 @@ from executive.frontends.options import Eval
 from robot import yaml_nodes
 from robot.errors import ConfigError
 from robot.reality.contract import Cast
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 OFFICE = "office:8"
 

@@ -12,7 +12,7 @@ from executive.evaluation.single import perform
 from executive.frontends import evaluation, evaluation_report, output
 from executive.frontends.options import Eval
 from robot.errors import ConfigError
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 TASK = 'kind: fetch, say: "pick up the red cup", truth: [{object: red_cup, held: true}]'
 

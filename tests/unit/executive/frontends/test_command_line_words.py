@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from executive.engine.executive import JobError
+from executive.engine.job_book import JobError
 from executive.frontends import cli
 from executive.frontends.exit import ended_by
 from executive.frontends.prompt.commands.job_words import number_of

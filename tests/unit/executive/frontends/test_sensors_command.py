@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from executive.frontends.sensors.estimating import estimate
+from executive.frontends.recordings.estimate import estimate
 from robot.errors import ConfigError
 from tests.fakes import legged_logs
 

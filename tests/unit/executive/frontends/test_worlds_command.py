@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from executive.frontends.reality import REALITY
+from executive.frontends.composition_root import REALITY
 from executive.frontends.worlds import commands
 from robot import yaml_nodes
 from robot.errors import ConfigError

@@ -17,7 +17,7 @@ from executive.trees import parts as p
 from executive.trees.parts import errands
 from robot.model.description import load
 from robot.planning.requests import BasePath
-from sim.reality import SimulatedWorld, Simulation
+from sim.simulation import SimulatedWorld, Simulation
 from sim.world import load as load_world
 
 JUNO = load("juno")

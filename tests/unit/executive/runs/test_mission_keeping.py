@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from executive.missions.check import Options
-from executive.runs import mission_task
-from executive.runs.mission_task import keep, origin
+from executive.runs import mission_assignment
+from executive.runs.mission_assignment import keep, origin
 from executive.trees.parts import errands
 from robot.errors import ConfigError
 from tests.fakes.missions import check, known
@@ -33,7 +33,7 @@ def begun(main: Path, folder: Path) -> dict:
 
 
 def names(made_from: dict, folder: Path) -> list[str]:
-    task = mission_task.restore(made_from, folder, WHERE).task
+    task = mission_assignment.restore(made_from, folder, WHERE).task
     return [errand.name for errand in errands(task)]
 
 

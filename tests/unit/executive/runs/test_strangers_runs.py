@@ -12,9 +12,9 @@ from executive.frontends import launching
 from executive.journal import past_runs
 from executive.journal.journal import Event
 from executive.missions.check import Options
-from executive.runs import mission_task, run_folder
+from executive.runs import mission_assignment, run_folder
 from executive.runs.again import recording, requests
-from executive.runs.mission_task import keep, origin
+from executive.runs.mission_assignment import keep, origin
 from robot.errors import ConfigError, Problem
 from tests.fakes.missions import check, known
 
@@ -100,7 +100,7 @@ def kept(tmp_path: Path) -> tuple[Path, dict[str, Any]]:
 
 def test_a_copy_inside_the_folder_is_taken(kept):
     folder, made_from = kept
-    assert mission_task.restore(made_from, folder, WHERE).text == "m"
+    assert mission_assignment.restore(made_from, folder, WHERE).text == "m"
 
 
 @pytest.mark.parametrize("lead", ["up", "root", "link"])

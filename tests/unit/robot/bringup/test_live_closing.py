@@ -7,7 +7,7 @@ import pytest
 
 from robot.bringup.live import LiveRuntime
 from robot.messages import LoopTiming
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 TIMING = LoopTiming(
     stamp_s=1.0, process="plant", period_s=0.001, count=1000, late=1, p50_s=0.0, p99_s=0.0,

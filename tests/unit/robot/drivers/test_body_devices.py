@@ -11,7 +11,7 @@ from robot.clock import SimulatedClock
 from robot.drivers import registry
 from robot.drivers.body_devices import BodyDevices
 from robot.drivers.motor_bus import MIT_MODE
-from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.plant_sensors import emulated
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.messages import PowerState

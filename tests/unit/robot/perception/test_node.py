@@ -9,7 +9,7 @@ import pytest
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
-from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.plant_sensors import emulated
 from robot.drivers.wiring import Wiring
 from robot.messages import (
     DepthImage,

@@ -12,7 +12,7 @@ from sim.homes import catalogue
 from sim.homes.tasks import COUNT, KINDS, tasks
 from sim.homes.writing import tasks_yaml
 from sim.placing import object_poses
-from sim.reality import Simulation
+from sim.simulation import Simulation
 from tests.fakes.homes import SEEDS, asked
 
 CHECKS = {

@@ -22,7 +22,7 @@ from sim.homes.furnishing import DEEPEST_M, HIGHEST_M, LOWEST_M
 from sim.homes.ground import outlines
 from sim.homes.home import PASSING_M, home
 from sim.placing import nudged, object_poses, radius_m
-from sim.reality import Simulation
+from sim.simulation import Simulation
 from sim.world_checks import check
 
 HANDS_M = 0.085

@@ -54,7 +54,7 @@ def estimate(
       humanoid sensors estimate --log walk.npz --urdf robot.urdf --out poses.txt --causal \
         --feet left_sole,right_sole --imu pelvis_imu
     """
-    from executive.frontends.sensors.estimating import estimate
+    from executive.frontends.recordings.estimate import estimate
 
     raise typer.Exit(
         estimate(log, urdf, output, causal=causal, feet=feet, imu=imu, as_json=as_json)

@@ -69,7 +69,7 @@ def people(
 
       humanoid people --log corridor.npz --json > people.jsonl
     """
-    from executive.frontends.sensing.people import find
+    from executive.frontends.recordings.people import find
 
     raise typer.Exit(find(log, causal=causal, as_json=as_json))
 
@@ -97,7 +97,7 @@ def camera(
       humanoid calibrate camera --images 'pictures/left*.png'
       --board charuco:11x8:0.030:0.022:DICT_5X5_100:legacy --json
     """
-    from executive.frontends.sensing.camera import calibrate_camera
+    from executive.frontends.recordings.camera import calibrate_camera
 
     status = calibrate_camera(
         images, board=board, window_px=window, out=out, name=name, as_json=as_json
@@ -139,7 +139,7 @@ def hand_eye(
       humanoid calibrate hand-eye --images pictures/ --poses poses.csv
       --board charuco:11x8:0.030:0.022:DICT_5X5_100 --camera camera.yaml
     """
-    from executive.frontends.sensing.hand_eye import calibrate_hand_eye
+    from executive.frontends.recordings.hand_eye import calibrate_hand_eye
 
     status = calibrate_hand_eye(
         images,
@@ -188,7 +188,7 @@ def detect(
 
       humanoid detect pictures/*.png --model mine.onnx --labels names.txt --score 0.5 --json
     """
-    from executive.frontends.sensing.detect import detect as detect_in
+    from executive.frontends.recordings.detect import detect as detect_in
 
     status = detect_in(
         images,

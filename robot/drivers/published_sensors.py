@@ -14,7 +14,7 @@ from robot.drivers.wiring import Wiring
 from robot.messages import Message
 
 
-class Senses(Closing):
+class PublishedSensors(Closing):
     """Every sensor of this robot whose topic has this process as its source."""
 
     def __init__(self, wiring: Wiring, process: topics.Process) -> None:

@@ -44,9 +44,9 @@ def build(
 
       humanoid map build --log hall.npz --trajectory hall.txt --out hall.map.npz
     """
-    from executive.frontends.maps import commands
+    from executive.frontends.recordings import maps
 
-    raise typer.Exit(commands.build(log, trajectory, out=out, as_json=as_json))
+    raise typer.Exit(maps.build(log, trajectory, out=out, as_json=as_json))
 
 
 @app.command(no_args_is_help=True)
@@ -66,9 +66,9 @@ def show(
 
       humanoid map show hall.map.npz --snapshot hall.png
     """
-    from executive.frontends.maps import commands
+    from executive.frontends.recordings import maps
 
-    raise typer.Exit(commands.show(map_file, snapshot=snapshot, as_json=as_json))
+    raise typer.Exit(maps.show(map_file, snapshot=snapshot, as_json=as_json))
 
 
 @app.command(no_args_is_help=True)
@@ -93,6 +93,6 @@ def locate(
 
       humanoid map locate hall.map.npz --log visit.npz --trajectory visit.txt
     """
-    from executive.frontends.maps import commands
+    from executive.frontends.recordings import maps
 
-    raise typer.Exit(commands.locate(map_file, log=log, trajectory=trajectory, as_json=as_json))
+    raise typer.Exit(maps.locate(map_file, log=log, trajectory=trajectory, as_json=as_json))

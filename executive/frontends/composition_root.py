@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from robot.reality.contract import Reality
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 REALITY: Reality = Simulation()

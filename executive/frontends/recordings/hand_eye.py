@@ -8,7 +8,7 @@ import numpy as np
 from rich.table import Table
 
 from executive.frontends.output import say, table_screen, write_json
-from executive.frontends.sensing.progress import counted
+from executive.frontends.recordings.progress import counted
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.perception.calibration.board import read_board

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
-from executive.frontends.sensing.progress import counted
+from executive.frontends.recordings.progress import counted
 from robot.errors import ConfigError
 from robot.exit_status import ExitStatus
 from robot.ordinary_files import write_ordinary

@@ -12,14 +12,14 @@ import numpy as np
 
 from robot.bus import topics
 from robot.bus.topics import Topic
-from robot.drivers.simulation.sensors import emulated
+from robot.drivers.simulation.plant_sensors import emulated
 from robot.messages import Message
 from robot.model.description import RobotDescription
 from sim.atlas import world_map
 from sim.battery import Battery
 from sim.oracle import Oracle
+from sim.ray_sensors import DepthCamera, PlanarLidar
 from sim.rays import Rays
-from sim.sensors import DepthCamera, PlanarLidar
 from sim.world_schema import World
 
 M = TypeVar("M", bound=Message)
@@ -46,7 +46,7 @@ class _Source(Generic[M]):
         self.silent_until_s = -math.inf
 
 
-class Sensing:
+class Sending:
     """All sensors of one plant.
 
     Attributes:

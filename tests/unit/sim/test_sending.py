@@ -12,8 +12,8 @@ from robot.se3 import SE3
 from sim import world
 from sim.faults import apply
 from sim.plant import Plant
+from sim.ray_sensors import Exposure, developed
 from sim.rays import Rays
-from sim.sensors import Exposure, developed
 
 
 @pytest.fixture
@@ -82,7 +82,7 @@ def test_the_error_stays_in_view_and_changes_after_a_while_unseen(standing):
 
 
 def test_depth_sees_the_table_at_its_distance(standing, robot):
-    image = standing.sensing.camera.capture(0.0)
+    image = standing.sending.camera.capture(0.0)
     depth = image.pixels()
     focal = image.height / 2 / math.tan(image.fovy_rad / 2)
     row, column = np.indices(depth.shape)
@@ -102,7 +102,7 @@ def test_depth_sees_the_table_at_its_distance(standing, robot):
 
 
 def test_an_image_shows_what_was_there_when_it_was_taken(standing):
-    camera = standing.sensing.camera
+    camera = standing.sending.camera
     rays = Rays(standing.model, standing.data, body=camera.body)
     head = standing.data.site("head_camera")
     frames = []
@@ -122,7 +122,7 @@ def test_an_image_shows_what_was_there_when_it_was_taken(standing):
 def test_lidar_measures_the_north_wall(robot):
     plant = Plant(world.load("kitchen"), robot, seed=0)
     plant.stand(SE3.from_xy_yaw(2.0, -1.0, math.pi / 2))
-    scan = plant.sensing.lidar.scan(0.0)
+    scan = plant.sending.lidar.scan(0.0)
     ahead = round(-scan.angle_min_rad / scan.angle_step_rad)
     assert scan.ranges_m[ahead] == pytest.approx(2.5 + 1.0 - 0.04, abs=0.08)
     behind = scan.ranges_m[0]
@@ -131,7 +131,7 @@ def test_lidar_measures_the_north_wall(robot):
 
 def test_lidar_does_not_report_the_robot_itself(robot):
     plant = Plant(world.empty(), robot, seed=0, posture="carry")
-    assert all(math.isinf(value) for value in plant.sensing.lidar.scan(0.0).ranges_m)
+    assert all(math.isinf(value) for value in plant.sending.lidar.scan(0.0).ranges_m)
 
 
 def test_a_fix_is_near_the_truth(standing):
@@ -170,7 +170,7 @@ def test_a_silent_sensor_says_nothing_for_its_time(standing):
 def test_what_the_camera_cannot_see_need_not_be_tried_against(standing):
     """Rays meet the same at the same distance, whichever way the head looks."""
     model = standing.model
-    rays = Rays(model, standing.data, body=standing.sensing.camera.body)
+    rays = Rays(model, standing.data, body=standing.sending.camera.body)
     groups = model.geom_group.copy()
     rng = np.random.default_rng(3)
     eye = standing.data.site("head_camera").xpos

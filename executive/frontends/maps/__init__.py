@@ -1,1 +1,0 @@
-"""`humanoid map`: maps of buildings from recordings of a lidar."""

@@ -1,1 +1,0 @@
-"""Commands that look at recordings of sensors: they move no robot and need none."""
