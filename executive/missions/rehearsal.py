@@ -13,7 +13,7 @@ from executive.meaning.request import Setting
 from executive.missions.hands import Hands
 from executive.skills.forecast import Forecast
 from executive.skills.motions.obstructions import clearance_m
-from executive.skills.motions.pacing import BEGIN_S, straight_s, walking_s
+from executive.skills.motions.pacing import straight_s, walking_s
 from executive.skills.motions.standpoints import stances_at
 from robot.failures import Failure
 from robot.messages import Place, Side, WorldMap
@@ -76,7 +76,7 @@ class Rehearsal:
                 continue
             self._stance = SE3.from_xy_yaw(*goal)
             return Forecast(way)
-        return Forecast(BEGIN_S, problem or "no way leads there")
+        return Forecast(self.robot.paces.begin_s, problem or "no way leads there")
 
     def walk_to_place(self, place: Place | None) -> Forecast:
         """Walk to a place; None: it is not known where to, which takes no time."""
@@ -129,7 +129,7 @@ class Rehearsal:
         if known is not None:
             return known
         if len(self._ways) >= MAX_PATHS:
-            return straight_s(start, goal)
+            return straight_s(start, goal, self.robot.paces)
         request = BasePathRequest(
             start=start,
             goal=goal,

@@ -22,10 +22,6 @@ BalanceMode = Literal["stand", "get_up", "squat", "one_leg", "lean", "hold"]
 SHIFT_S = 8.0
 STANDING = ("stand", "get_up", "hold")
 PUSHED_M_S = 0.15
-THERE_AND_BACK_S: dict[BalanceMode, float] = {
-    "stand": 0.5, "get_up": 0.5, "squat": 2.5, "one_leg": 2.0, "lean": 2.1, "hold": 0.5,
-}  # fmt: skip
-"""Taking a posture and coming back from it: for the forecast."""
 
 
 class BalanceParams(SkillParams, frozen=True, kw_only=True):
@@ -75,7 +71,8 @@ class Balance(ScriptedSkill[BalanceParams]):
     @classmethod
     def forecast(cls, wanted: BalanceParams, outlook: Outlook) -> Forecast:
         """Taking the posture, holding it, standing again."""
-        return Forecast(wanted.duration_s + THERE_AND_BACK_S[wanted.mode])
+        there_and_back_s = float(getattr(outlook.robot.paces.postures_s, wanted.mode))
+        return Forecast(wanted.duration_s + there_and_back_s)
 
     def __init__(self, parameters: BalanceParams, context: SkillContext) -> None:
         """Which posture, for how long."""

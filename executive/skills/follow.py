@@ -7,7 +7,6 @@ import math
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.gaze import look_at
-from executive.skills.motions.pacing import STEP_IN_S
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.standpoints import stances_around
 from executive.skills.motions.stow import stow_arms
@@ -140,7 +139,8 @@ def _forecast_closing_up(person: PersonInfo, outlook: Outlook) -> Forecast:
     if math.dist(person.X_WO.p[:2], outlook.X_WS.p[:2]) <= NEAR_M:
         return Forecast(0.0)
     way = outlook.walk(stances_around(person.X_WO.p, outlook.X_WS, distance_m=DISTANCE_M)[:1])
-    return Forecast(max(0.0, way.takes_s - STEP_IN_S), way.problem)  # it stops without exact steps
+    exact_s = outlook.robot.paces.step_in_s  # without which it stops
+    return Forecast(max(0.0, way.takes_s - exact_s), way.problem)
 
 
 def _is_at(X_WO: SE3, place: Place) -> bool:

@@ -11,7 +11,7 @@ from executive.skills.ability import no_hand
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.back_away import back_away
 from executive.skills.motions.gaze import look_at, turn_head
-from executive.skills.motions.pacing import BEGIN_S, turning_s
+from executive.skills.motions.pacing import turning_s
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
@@ -23,6 +23,7 @@ from executive.skills.skill import Resource
 from robot.messages import Side
 from robot.model.description import RobotDescription
 from robot.model.handling import Signs
+from robot.model.paces import Paces
 from robot.se3 import SE3, Array, Vector3, wrap_angle
 
 GestureKind = Literal[
@@ -44,11 +45,6 @@ ARMS: dict[str, tuple[Side, ...]] = {
 }
 ONE_HANDED = ("wave", "point", "raise_arm")
 HEAD_ONLY = ("nod", "shake_head")
-SIGN_S: dict[GestureKind, float] = {
-    "wave": 9.7, "point": 3.7, "nod": 1.7, "shake_head": 2.2, "bow": 2.3,
-    "raise_arm": 4.4, "raise_left_arm": 4.4, "raise_right_arm": 4.4, "raise_both_arms": 7.8,
-}  # fmt: skip
-"""The sign alone, measured in a `--fast` run in the kitchen: for the forecast."""
 DOING: dict[GestureKind, str] = {
     "wave": "waving", "point": "pointing", "nod": "nodding", "shake_head": "shaking the head",
     "bow": "bowing", "raise_arm": "raising an arm", "raise_left_arm": "raising the left arm",
@@ -114,12 +110,14 @@ class Gesture(ScriptedSkill[GestureParams]):
     @classmethod
     def forecast(cls, wanted: GestureParams, outlook: Outlook) -> Forecast:
         """The sign, and turning the body to what it is for where that is far to the side."""
+        paces = outlook.robot.paces
         p_W = None if wanted.kind in HEAD_ONLY else _foreseen(wanted, outlook)
         aside_rad = 0.0 if p_W is None else _aside_rad(outlook.X_WS, p_W)
         if abs(aside_rad) <= AHEAD_RAD:
-            return Forecast(SIGN_S[wanted.kind])
+            return Forecast(_sign_s(wanted.kind, paces))
         outlook.move(SE3.from_xy_yaw(0.0, 0.0, aside_rad))
-        return Forecast(SIGN_S[wanted.kind] + BEGIN_S + turning_s(aside_rad))
+        turned_s = paces.begin_s + turning_s(aside_rad, paces)
+        return Forecast(_sign_s(wanted.kind, paces) + turned_s)
 
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""
@@ -234,6 +232,12 @@ class Gesture(ScriptedSkill[GestureParams]):
                     raise
         yield from body.wait(1.0)
         yield from stow_arm(body, side)
+
+
+def _sign_s(kind: GestureKind, paces: Paces) -> float:
+    """How long a sign takes alone; either arm takes as long [s]."""
+    either = "raise_arm" if kind in ("raise_left_arm", "raise_right_arm") else kind
+    return float(getattr(paces.signs_s, either))
 
 
 def _foreseen(wanted: GestureParams, outlook: Outlook) -> Vector3 | None:

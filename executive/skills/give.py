@@ -26,9 +26,6 @@ SETTLE_S = 0.6
 PULL_S = 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
 CLEAR_S = 0.8
-GIVE_S = 5.2
-"""There, for the forecast: holding out 2.2 s, drawing in 1.6 s (measured in a `--fast` run), and
-between them the shortest pull, opening the fingers, and `CLEAR_S`."""
 NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
 
 
@@ -58,10 +55,10 @@ class Give(ScriptedSkill[GiveParams]):
         person = outlook.map.person(wanted.person_id)
         outlook.hand_over(wanted.object_id)
         if person is None:
-            return Forecast(GIVE_S)
+            return Forecast(outlook.robot.paces.give_s)
         before_m = outlook.robot.handy.giving.before_person_m
         stances = stances_around(person.X_WO.p, outlook.X_WS, distance_m=before_m)
-        return outlook.walk(stances).then(GIVE_S)
+        return outlook.walk(stances).then(outlook.robot.paces.give_s)
 
     def __init__(self, parameters: GiveParams, context: SkillContext) -> None:
         """What to whom."""

@@ -22,8 +22,6 @@ HIDDEN = 0.1
 """Where more of a surface may hide a thing, nothing is said of what is not there."""
 THERE_M, THERE = 0.35, 8.0
 """It is looked first near to where such a thing is believed to be."""
-INSPECT_S = 4.0
-"""Of looking a surface over: for the forecast."""
 
 
 class InspectParams(SkillParams, frozen=True, kw_only=True):
@@ -47,10 +45,13 @@ class Inspect(ScriptedSkill[InspectParams]):
     @classmethod
     def forecast(cls, wanted: InspectParams, outlook: Outlook) -> Forecast:
         """A walk to every place."""
-        told = Forecast(0.0 if wanted.place_ids else INSPECT_S)
+        told = Forecast(0.0 if wanted.place_ids else outlook.robot.paces.inspect_s)
         for place_id in wanted.place_ids:
             way = outlook.walk_to_place(outlook.map.place(place_id))
-            told = Forecast(told.takes_s + way.takes_s + INSPECT_S, told.problem or way.problem)
+            told = Forecast(
+                told.takes_s + way.takes_s + outlook.robot.paces.inspect_s,
+                told.problem or way.problem,
+            )
         return told
 
     def limit_s(self) -> float:

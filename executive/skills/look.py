@@ -30,8 +30,6 @@ SIDES: dict[Side, Vector3] = {
 }
 """Points p_S beside where the robot stands; a neck goes as far towards one as it turns. "Up" is the
 far end of a ceiling, "down" the floor before the feet."""
-LOOK_S = 1.1
-"""Of turning the head and looking: for the forecast."""
 
 
 class LookParams(SkillParams, frozen=True, kw_only=True):
@@ -68,7 +66,7 @@ class Look(ScriptedSkill[LookParams]):
     @classmethod
     def forecast(cls, wanted: LookParams, outlook: Outlook) -> Forecast:
         """A moment."""
-        return Forecast(LOOK_S)
+        return Forecast(outlook.robot.paces.look_s)
 
     def script(self) -> Script[None]:
         """Turn the head; the body stays."""

@@ -13,7 +13,7 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
 from executive.skills.motions.free_floor import ROUND_RAD, free_stance, may_stand, nearest_thing
 from executive.skills.motions.map_edge import beyond
-from executive.skills.motions.pacing import BEGIN_S, WALK_M_S, turning_s
+from executive.skills.motions.pacing import turning_s
 from executive.skills.motions.planning import pose_of, stance_of
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.standpoints import (
@@ -268,9 +268,10 @@ def _leads_out(step: Step, X_WS: SE3, world_map: WorldMap) -> Failure | None:
 
 
 def _forecast_step(by: Step, outlook: Outlook) -> Forecast:
+    paces = outlook.robot.paces
     outside = _leads_out(by, outlook.X_WS, outlook.map)
     if outside is not None:
-        return Forecast(BEGIN_S, outside.cause)
+        return Forecast(paces.begin_s, outside.cause)
     outlook.move(_motion(by))
-    walked_s = _length_m(by) / WALK_M_S
-    return Forecast(BEGIN_S + walked_s + turning_s(by.turn_rad))
+    walked_s = _length_m(by) / paces.walk_m_s
+    return Forecast(paces.begin_s + walked_s + turning_s(by.turn_rad, paces))

@@ -43,8 +43,6 @@ MOVE_OVER_COST_PER_M = 0.5
 LEAST_LOAD = 0.3
 """Of the weight: less means that it did not come up with the hand."""
 MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeout")
-PICK_S = 11.0
-"""Of a typical pick, the walk there left out: for the forecast."""
 
 
 class PickParams(SkillParams, frozen=True, kw_only=True):
@@ -91,8 +89,8 @@ class Pick(ScriptedSkill[PickParams]):
 
     @classmethod
     def forecast(cls, wanted: PickParams, outlook: Outlook) -> Forecast:
-        """The way, and typically `PICK_S` there."""
-        return outlook.pick(wanted.object_id, side=wanted.side).then(PICK_S)
+        """The way, and what it typically takes there."""
+        return outlook.pick(wanted.object_id, side=wanted.side).then(outlook.robot.paces.pick_s)
 
     def __init__(self, parameters: PickParams, context: SkillContext) -> None:
         """What to take."""

@@ -44,8 +44,6 @@ MOVE_OVER_COST_PER_M = 0.5
 PLACED_WITHIN_M = 0.03
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
-PLACE_S = 12.0
-"""Of putting down, the walk there left out: for the forecast."""
 
 
 class PlaceParams(SkillParams, frozen=True, kw_only=True):
@@ -122,9 +120,9 @@ class PutDown(ScriptedSkill[PlaceParams]):
 
     @classmethod
     def forecast(cls, wanted: PlaceParams, outlook: Outlook) -> Forecast:
-        """The way, and typically `PLACE_S` there."""
+        """The way, and what it typically takes there."""
         place = outlook.map.place(wanted.place_id or "")
-        return outlook.put(wanted.object_id, place).then(PLACE_S)
+        return outlook.put(wanted.object_id, place).then(outlook.robot.paces.place_s)
 
     def __init__(self, parameters: PlaceParams, context: SkillContext) -> None:
         """What to put where."""

@@ -10,9 +10,6 @@ from executive.skills.motions.stow import stow_arms
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 
-SEARCH_S = 4.0
-"""Of looking around, the walk there left out: for the forecast."""
-
 
 class SearchParams(SkillParams, frozen=True, kw_only=True):
     """Look for an object: here, where it was last, then at each of the places (none: all)."""
@@ -34,7 +31,7 @@ class Search(ScriptedSkill[SearchParams]):
         """As if it were at the first place asked for, or where it stands."""
         asked = [outlook.map.place(place_id) for place_id in wanted.place_ids]
         at = next(iter(asked), None) or outlook.place_of(wanted.object_id)
-        return outlook.walk_to_place(at).then(SEARCH_S)
+        return outlook.walk_to_place(at).then(outlook.robot.paces.search_s)
 
     def limit_s(self) -> float:
         """As long as it takes to look everywhere, and then some."""

@@ -19,6 +19,7 @@ from robot.model import measures, mjcf, trial
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs
 from robot.model.keyframes import GettingUp
+from robot.model.paces import Paces
 from robot.model.published import Published
 
 SHIPPED = Path(str(resources.files("robot.model"))).resolve()
@@ -181,6 +182,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     balance: Balance
     arms: Arms
     gaze: Gaze
+    paces: Paces
     postures: dict[str, dict[str, q.Joint]]
     shoulder_height_m: q.Margin = 0.0
     shoulder_aside_m: q.Margin = 0.0

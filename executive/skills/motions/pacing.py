@@ -1,8 +1,7 @@
 """How long a planned way takes: the follower of the skills leads a point along it.
 
-What the point cannot show is added: getting under way, the exact steps at the end, and that a body
-sways where a point does not. They were fitted to six ways of 2.5 to 5 m with bends and turns,
-of which none then took 4 % longer or shorter; other ways may be further off.
+What the point cannot show is added (`paces` of the description): getting under way, the exact steps
+at the end, and that a body sways where a point does not.
 """
 
 from __future__ import annotations
@@ -13,15 +12,11 @@ from executive.skills.motions.path_follower import Follower, turn_towards
 from executive.skills.motions.planning import pose_of
 from executive.skills.motions.walk import cruise_m_s, facing_the_way, is_there
 from robot.model.description import RobotDescription
+from robot.model.paces import Paces
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle
 
-WALK_M_S, TURN_RAD_S = 0.23, 0.38
-"""Where no way is planned: a step by so much, or one too many."""
-BEGIN_S = 1.5
-"""Of such a step: getting under way, coming to a stand."""
 PERIOD_S = 0.05
-SET_OFF_S, STEP_IN_S, SWAY = 0.8, 2.2, 1.05
 LONGEST_S = 600.0
 
 
@@ -41,14 +36,15 @@ def walking_s(
         forward_m, left_m = twist.forward_m_s * PERIOD_S, twist.left_m_s * PERIOD_S
         at = at @ SE3.from_xy_yaw(forward_m, left_m, twist.turn_rad_s * PERIOD_S)
         spent_s += PERIOD_S
-    return SWAY * (SET_OFF_S + spent_s + STEP_IN_S)
+    paces = description.paces
+    return paces.sway * (paces.set_off_s + spent_s + paces.step_in_s)
 
 
-def straight_s(start: Stance, goal: Stance) -> float:
+def straight_s(start: Stance, goal: Stance, paces: Paces) -> float:
     """About how long the straight line takes, where no way is planned [s]."""
-    return BEGIN_S + math.dist(start[:2], goal[:2]) / WALK_M_S
+    return paces.begin_s + math.dist(start[:2], goal[:2]) / paces.walk_m_s
 
 
-def turning_s(angle_rad: float) -> float:
+def turning_s(angle_rad: float, paces: Paces) -> float:
     """About how long turning on the spot takes, getting under way left out [s]."""
-    return abs(angle_rad) / TURN_RAD_S
+    return abs(angle_rad) / paces.turn_rad_s
