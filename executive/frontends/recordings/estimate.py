@@ -42,6 +42,9 @@ def estimate(
     body = legged_body.find(chains, log, soles=soles, imu=imu or None)
     with _bar("Estimating", shown=not as_json) as progress:
         trajectory = replay.estimate(log, body, causal=causal, progress=progress)
+    if not trajectory.finite:
+        cure = "does the recording come from this robot? --feet and --imu name its links"
+        raise ConfigError([Problem("no motion fits it", str(log_file), suggestion=cure)])
     try:
         write_ordinary(output, rows(log, trajectory).encode())
     except OSError as error:
