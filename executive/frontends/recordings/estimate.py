@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import Screen, say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -36,6 +37,7 @@ def estimate(
     Raises:
         ConfigError: a file cannot be used or written, or they do not fit one another.
     """
+    refuse_inputs([output], [log_file, urdf])
     soles = _pair(feet)
     log = legged_log.load(log_file)
     chains = urdf_chains.load(urdf)
