@@ -69,7 +69,8 @@ def read_secret(path: Path | str, *, limit: int) -> bytes:
 def write_ordinary(path: Path | str, data: bytes, *, anew: bool = False) -> None:
     """Put a file in its place in a folder that is there, whole or not at all.
 
-    What stood there before is replaced, if it was an ordinary file of this user.
+    What stood there before is replaced, if it was an ordinary file of this user that may be
+    written; who may use it stays as it was.
 
     Args:
         path: where it is to be.
@@ -80,11 +81,14 @@ def write_ordinary(path: Path | str, data: bytes, *, anew: bool = False) -> None
         OSError: it cannot be written, or that is no place to write to; `strerror` says which.
     """
     path = Path(path)
-    _check_place(path, anew=anew)
+    before = _check_place(path, anew=anew)
     fresh = path.with_name(f".{secrets.token_hex(8)}.new")
-    file = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+    file = os.open(fresh, flags, 0o666 if before is None else 0o600)
     try:
         with os.fdopen(file, "wb") as opened:
+            if before is not None:
+                os.fchmod(file, before)
             opened.write(data)
         if anew:
             os.link(fresh, path)  # unlike a renaming it replaces nothing
@@ -114,12 +118,16 @@ def is_within(folder: Path | str, path: Path | str) -> bool:
     return os.path.commonpath((inner, outer)) == outer
 
 
-def _check_place(path: Path, *, anew: bool) -> None:
-    """Refuse to write where something else is than a file of this user."""
+def _check_place(path: Path, *, anew: bool) -> int | None:
+    """Refuse to write where something else is than a file of this user that may be written.
+
+    Returns:
+        Who may read, write and run what is there; None if nothing is.
+    """
     try:
         found = path.stat(follow_symlinks=False)
     except FileNotFoundError:
-        return
+        return None
     if anew:
         raise FileExistsError(errno.EEXIST, "something of that name is there already", str(path))
     if stat.S_ISLNK(found.st_mode):
@@ -128,6 +136,9 @@ def _check_place(path: Path, *, anew: bool) -> None:
         raise OSError(errno.EINVAL, "this is no ordinary file", str(path))
     if found.st_uid != os.geteuid():
         raise OSError(errno.EPERM, "the file there belongs to another user", str(path))
+    if not found.st_mode & stat.S_IWUSR:  # root would be let through
+        raise OSError(errno.EACCES, "the file there is protected from being written", str(path))
+    return found.st_mode & (stat.S_IRWXU | stat.S_IRWXG | stat.S_IRWXO)
 
 
 def _bounded(data: bytes, limit: int, path: Path | str) -> bytes:

@@ -18,6 +18,7 @@ from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
 from executive.frontends.missions import cli as missions
+from executive.frontends.new_files import refuse_inputs
 from executive.frontends.options import (
     AsJson,
     Do,
@@ -38,6 +39,7 @@ from executive.frontends.recordings import maps_cli, sensors_cli
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
 from robot.ordinary_files import write_ordinary
 from robot.printable import is_printable, printable
 
@@ -238,6 +240,7 @@ def export(
     from robot.model import description
     from robot.model import urdf as writer
 
+    refuse_inputs([urdf], [Path(robot)])
     text = writer.urdf(description.load(robot))
     try:
         write_ordinary(urdf, text.encode())
@@ -302,6 +305,15 @@ def _checked(word: str) -> str:
     raise ConfigError([Problem(text, suggestion="leave it out")])
 
 
+def _whole(status: str | int | None) -> str | int | None:
+    """An exit status; another one where output that was all the work did not get to its place."""
+    why, product = streams.lost()
+    if not why:
+        return status
+    say(f"Not all of the output could be written: {why}", err=True)
+    return status or (int(ExitStatus.INVALID) if product else status)
+
+
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
     # Python puts the current folder before its own library in what is started as a module or as
@@ -313,5 +325,7 @@ def main() -> None:
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
         app(prog_name="humanoid")
+    except SystemExit as ended:
+        sys.exit(_whole(ended.code))
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
+from executive.frontends import streams
 from executive.frontends.exit import last_words
 from executive.frontends.output import say
 from robot.bringup import launcher
@@ -50,6 +51,7 @@ def here(front: PlainFrontEnd, options: object) -> int:
     Raises:
         RobotError: as the front end does.
     """
+    streams.beside_work()
     return front(None, msgspec.to_builtins(options, enc_hook=str))
 
 

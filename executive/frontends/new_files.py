@@ -1,11 +1,13 @@
-"""Files that a command writes where nothing is yet; what is there already is left alone."""
+"""Files that a command writes: where nothing is yet, or at least not over what it reads."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from executive.frontends.output import say
+from executive.journal import journal, motion
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import write_ordinary
 
@@ -19,6 +21,42 @@ def refuse_taken(path: Path) -> None:
     if os.path.lexists(path):
         cure = "choose another name, or remove it first"
         raise ConfigError([Problem("the file is there already", str(path), suggestion=cure)])
+
+
+def refuse_inputs(outputs: Iterable[Path | None], inputs: Iterable[Path | None]) -> None:
+    """Refuse to write over what is read, or twice to one place, before anything is done.
+
+    Args:
+        outputs: files that are to be written; None for those that are not wanted.
+        inputs: files that are read.
+
+    Raises:
+        ConfigError: one of the outputs is an input by some name, or another output.
+    """
+    taken = {_place(path): "is read by this very command" for path in inputs if path is not None}
+    for path in outputs:
+        if path is None:
+            continue
+        place = _place(path)
+        if place in taken:
+            cure = "choose another name for what is written"
+            raise ConfigError([Problem(f"the file {taken[place]}", str(path), suggestion=cure)])
+        taken[place] = "is written twice"
+
+
+def _place(path: Path) -> tuple[int, int] | str:
+    """The same for every name of a file: links of both kinds, `..`, other letters."""
+    try:
+        found = path.stat()
+    except OSError:
+        return os.path.realpath(path)
+    return found.st_dev, found.st_ino
+
+
+def records_of(folder: Path) -> list[Path]:
+    """What a run's folder holds that cannot be made again."""
+    names = (journal.FILE, journal.WALL_FILE, motion.FILE, "run.json", "summary.json")
+    return [folder / name for name in names]
 
 
 def put(path: Path, text: str, *, word: str = "Done") -> None:

@@ -1,7 +1,8 @@
 """Standard streams that cannot stop a robot, whoever has closed them, and whatever they lack.
 
 A robot on its way must not fall because somebody piped its output into `head`. What cannot be
-written is left out; a stream that was closed from the start leads nowhere.
+written is left out; a stream that was closed from the start leads nowhere. Who stopped reading
+wants no more; but what a full disk did not take, somebody misses: that is told at the end.
 """
 
 from __future__ import annotations
@@ -9,16 +10,25 @@ from __future__ import annotations
 import errno
 import io
 import os
+import stat
 import sys
 from contextlib import suppress
 from typing import TextIO, cast
 
 GONE = (errno.EPIPE, errno.EIO)
-"""Errors after which nobody will read what is written."""
+"""Errors after which nobody will read what is written: a pipe, or a terminal that is gone."""
 
 
 class Lasting(io.TextIOWrapper):
-    """A stream of text that leaves out what cannot be written, and raises no OSError."""
+    """A stream of text that leaves out what cannot be written, and raises no OSError.
+
+    Attributes:
+        lacks: why somebody who still reads misses some of it; empty if nobody does.
+        beside: whether it tells of work that counts by itself, as a robot's.
+    """
+
+    lacks: str = ""
+    beside: bool = False
 
     def write(self, text: str, /) -> int:
         """Write a text, or as much as can be; its length."""
@@ -37,11 +47,31 @@ class Lasting(io.TextIOWrapper):
 
     def _lost(self, error: OSError) -> None:
         """Lead nowhere from here on if nobody is left to read."""
-        if error.errno in GONE:
+        if error.errno not in GONE or self._is_file():
+            self.lacks = error.strerror or "it cannot be written"
+        else:
             with suppress(OSError):
                 nowhere = os.open(os.devnull, os.O_WRONLY)
                 os.dup2(nowhere, self.fileno())
                 os.close(nowhere)
+
+    def _is_file(self) -> bool:
+        """Whether it is kept on a disk, where EIO means that this one is broken."""
+        return stat.S_ISREG(os.fstat(self.fileno()).st_mode)
+
+
+def beside_work() -> None:
+    """What is written from here on tells of a robot's work: how that ends is not for it to say."""
+    if isinstance(sys.stdout, Lasting):
+        sys.stdout.beside = True
+
+
+def lost() -> tuple[str, bool]:
+    """Why some of standard output is missing, empty if none is; and whether it was the product."""
+    sys.stdout.flush()
+    if not isinstance(sys.stdout, Lasting):
+        return "", False
+    return sys.stdout.lacks, not sys.stdout.beside
 
 
 MOST_DIGITS = 3

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from executive.frontends.composition_root import REALITY
+from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import say
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
@@ -22,6 +23,7 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     if snapshot is None and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         cure = "make a picture instead: humanoid view --snapshot out.png"
         raise ConfigError([Problem("there is no display", suggestion=cure)])
+    refuse_inputs([snapshot], [Path(world), Path(robot)])
     if snapshot is not None and snapshot.suffix.lower() not in PICTURES:
         cure = f"call it {snapshot.stem or 'world'}.png"
         text = f"pictures are written as {', '.join(PICTURES)}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from executive.engine.loop import Interrupts
+from executive.frontends import streams
 from executive.frontends.composition_root import REALITY
 from executive.frontends.exit import refuse
 from executive.frontends.options import Walk
@@ -34,6 +35,7 @@ def walk(options: Walk) -> int:
     refusal = velocity_walk.check(command, where.description)
     if refusal is not None:
         return refuse(request.refused(refusal), as_json=options.as_json)
+    streams.beside_work()
     interrupts, wall = Interrupts(), WallClock()
     begun_s = wall.now_s()
     kind: runtimes.Kind = "fast" if options.fast else "live"

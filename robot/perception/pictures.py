@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import warnings
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from robot.errors import ConfigError, Problem
+from robot.muted import muted
 from robot.ordinary_files import read_ordinary
 
 Picture = NDArray[np.uint8]
@@ -64,16 +67,27 @@ def _read(path: Path, mode: str) -> Picture:
     except OSError as error:
         raise _wrong(path, error.strerror or "it cannot be read") from None
     try:
-        with Image.open(io.BytesIO(data), formats=FORMATS) as image:
-            if image.width * image.height > MOST_PIXELS:
-                raise _wrong(path, f"more than {MOST_PIXELS / 1e6:g} megapixels are too many")
-            if image.mode.startswith("I;16"):  # 16 bits of grey: Pillow would cut them off at 255
-                image = Image.fromarray((np.asarray(image) >> 8).astype(np.uint8))  # noqa: PLW2901
-            return np.asarray(image.convert(mode))
+        with (
+            warnings.catch_warnings(action="ignore"),  # what is wrong is said once, below
+            Image.open(io.BytesIO(data), formats=FORMATS) as image,
+            # libtiff writes what it finds wrong by itself.
+            muted() if image.format == "TIFF" else nullcontext(),
+        ):
+            return _decoded(path, image, mode)
     except UnidentifiedImageError:
         raise _wrong(path, "this is no picture", f"known are {', '.join(FORMATS)}") from None
-    except (OSError, ValueError, SyntaxError, EOFError, Image.DecompressionBombError):
+    except ConfigError:
+        raise
+    except Exception:  # of a broken picture each of Pillow's decoders raises what it happens to
         raise _wrong(path, "this picture is broken", "take it anew, or leave it out") from None
+
+
+def _decoded(path: Path, image: Image.Image, mode: str) -> Picture:
+    if image.width * image.height > MOST_PIXELS:
+        raise _wrong(path, f"more than {MOST_PIXELS / 1e6:g} megapixels are too many")
+    if image.mode.startswith("I;16"):  # 16 bits of grey: Pillow would cut them off at 255
+        image = Image.fromarray((np.asarray(image) >> 8).astype(np.uint8))
+    return np.asarray(image.convert(mode))
 
 
 def _wrong(path: Path, message: str, cure: str | None = None) -> ConfigError:

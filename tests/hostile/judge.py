@@ -31,6 +31,7 @@ LIBRARY_WORDING = (
     "unhashable",
     "Fatal Python error",
     "Warning: ",
+    "encountered in",
     "MemoryError",
     "OverflowError",
     "ValueError",

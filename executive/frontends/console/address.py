@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import msgspec
 
 HOST = "127.0.0.1"
@@ -11,8 +13,8 @@ HOST = "127.0.0.1"
 class Address(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A port of this machine, and the token that pages of it have to know."""
 
-    port: int
-    token: str
+    port: Annotated[int, msgspec.Meta(ge=1, le=65535)]
+    token: Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9_-]{24}$")]
 
 
 def url(address: Address) -> str:

@@ -1,7 +1,8 @@
 """`--view`: a console beside the run of this process, as a process of its own.
 
 It reads the run's files and nothing else, so a page can be as slow as it likes. Its address is kept
-in the run's folder: an executive that takes the place of a dead one serves the same page again.
+in the run's folder: an executive that takes the place of a dead one serves the same page again,
+where its port is still free. On another port it has another token.
 """
 
 from __future__ import annotations
@@ -63,7 +64,8 @@ def _started(folder: Path) -> tuple[subprocess.Popen[bytes], Address]:
     listening = _listening(before.port if before else 0)
     with listening:
         port = int(listening.getsockname()[1])
-        address = Address(port=port, token=before.token if before else secrets.token_urlsafe(18))
+        same = before is not None and before.port == port
+        address = before if before and same else Address(port=port, token=secrets.token_urlsafe(18))
         _keep(folder, address)
         logs = folder / "logs"
         logs.mkdir(parents=True, exist_ok=True)

@@ -2,16 +2,17 @@
 
 Nothing is kept for a page but how far it has been told: one that is slow is told less often, and
 one that is gone is forgotten. What others could send a browser here for is refused: a request under
-another host's name, or from another site's page, and whoever does not know the token.
+another host's name, or from another site's page, and whoever does not know the token. Who has not
+shown it waits at a door (`door.py`) that is bounded; no shortage of files ends the server.
 """
 
 from __future__ import annotations
 
 import asyncio
-import hmac
 import secrets
 import socket
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any
@@ -24,10 +25,15 @@ from websockets.http11 import Request, Response
 
 from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.console.desk import Order
+from executive.frontends.console.door import TOKEN_S, Door
 from executive.frontends.console.following import Following
 from executive.frontends.console.page import page
+from executive.frontends.console.peer import Peers
+from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
 from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
+from executive.frontends.output import say
+from robot.errors import RobotError
 from robot.reality.scene import Scene
 
 PERIOD_S = 0.05
@@ -39,17 +45,18 @@ BATCH = 1000
 MOST_PAGES = 16
 MAX_MESSAGE = 1 << 16
 NOBODY = "Nobody takes orders from this page: no robot is at work here."
-TOKEN_S = 5.0
-"""How long a page may take to show its token."""
+BACKLOG = 16
+"""Connections taken at a time: what comes at once costs no more files than that."""
 
 MakeScene = Callable[[Mapping[str, Any]], Scene | str]
 """What the world of a run looks like that was started with this, or why that is not known."""
 
 
 class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a page sends: first its token, then where in time it looks (`at`), or an `Order`."""
+    """What a page sends: its `proof` first (proof.py), then when it looks at, or an `Order`."""
 
-    token: str = ""
+    proof: str = ""
+    nonce: str = ""
     at: float | None = None
     line: str = ""
     do: str = ""
@@ -131,13 +138,29 @@ class PageServer:
         self._page, self._policy = page()
         self._hosts: frozenset[str] = frozenset()
         self._pages = 0
+        self._door = Door(Peers())
+        self._short = False
 
     async def open(self, listening: socket.socket) -> Server:
         """Serve on a socket that listens, on this machine alone."""
+        door = self._door
+
+        class Watched(ServerConnection):
+            """A connection that waits at the door."""
+
+            def connection_made(self, transport: asyncio.BaseTransport) -> None:
+                super().connection_made(transport)
+                door.come(self, self.transport)
+
+            def connection_lost(self, exc: Exception | None) -> None:
+                door.leave(self)
+                super().connection_lost(exc)
+
+        asyncio.get_running_loop().set_exception_handler(self._heard)
         server = await serve(
-            self._serve, sock=listening,
+            self._serve, sock=listening, backlog=BACKLOG, create_connection=Watched,
             process_request=self._answer, max_size=MAX_MESSAGE, compression=None,
-            ping_interval=10, ping_timeout=20, server_header=None,
+            open_timeout=TOKEN_S, ping_interval=10, ping_timeout=20, server_header=None,
         )  # fmt: skip
         number = int(listening.getsockname()[1])
         self._hosts = frozenset({f"{HOST}:{number}", f"localhost:{number}"})
@@ -149,11 +172,12 @@ class PageServer:
         clock, look_s = asyncio.get_running_loop().time, 0.0
         while True:
             begun_s = clock()
-            if begun_s >= look_s:
-                look_s = begun_s + 1.0
-                self._choose()
-            if self.show is not None:
-                await self.show.look(begun_s)
+            with suppress(OSError, RobotError):  # no file can be opened now: it is looked again
+                if begun_s >= look_s:
+                    look_s = begun_s + 1.0
+                    self._choose()
+                if self.show is not None:
+                    await self.show.look(begun_s)
             await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
 
     def _choose(self) -> None:
@@ -163,6 +187,14 @@ class PageServer:
         if self.show is not None:
             self.show.close()
         self.show = Show(folder, self._make_scene)
+
+    def _heard(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """Say once that files are short; asyncio tries it again by itself each second."""
+        if not str(context.get("message")).startswith("socket.accept()"):
+            loop.default_exception_handler(context)
+        elif not self._short:
+            self._short = True
+            say("No further page can be opened now: this process has no files left.", err=True)
 
     # --- what browsers ask for ---
 
@@ -181,25 +213,33 @@ class PageServer:
 
     async def _serve(self, connection: ServerConnection) -> None:
         """One page, until it is closed."""
-        if self._pages >= MOST_PAGES:
-            await connection.close(1013, "too many pages")
-            return
-        self._pages += 1
-        try:
-            first = await asyncio.wait_for(connection.recv(), TOKEN_S)
-            wish = _wish(first)
-            if wish is None or not hmac.compare_digest(wish.token.encode(), self.token.encode()):
+        with suppress(ConnectionClosed, TimeoutError):
+            if not await self._is_known(connection):
                 await connection.close(4401, "not the token of this page")
                 return
+            self._door.leave(connection)
+            if self._pages >= MOST_PAGES:
+                await connection.close(1013, "too many pages")
+                return
+            self._pages += 1
             telling = asyncio.create_task(Viewer(self, connection).tell())
             try:
                 await self._hear(connection)
             finally:
                 telling.cancel()
-        except (ConnectionClosed, TimeoutError):
-            pass
-        finally:
-            self._pages -= 1
+                self._pages -= 1
+
+    async def _is_known(self, connection: ServerConnection) -> bool:
+        """Whether a page knows the token; it is shown then that this server knows it, too."""
+        host = connection.request.headers["Host"] if connection.request else ""
+        asked = fresh()
+        await connection.send(_json({"nonce": asked}), text=True)
+        wish = _wish(await asyncio.wait_for(connection.recv(), TOKEN_S))
+        if wish is None or not holds(wish.proof, self.token, PAGE, host, asked, wish.nonce):
+            return False
+        own = proof(self.token, CONSOLE, host, wish.nonce, asked)
+        await connection.send(_json({"proof": own}), text=True)
+        return True
 
     async def _hear(self, connection: ServerConnection) -> None:
         async for message in connection:

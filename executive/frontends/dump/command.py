@@ -11,6 +11,7 @@ import msgspec
 
 from executive.frontends.dump.writer import parse_formats
 from executive.frontends.long_journals import tell_of_length
+from executive.frontends.new_files import records_of, refuse_inputs
 from executive.frontends.output import say, write_data
 from executive.journal import journal, past_runs, reader
 from executive.journal.dumps.formats import FORMATS, Wish, render
@@ -70,6 +71,7 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         write_data(data)
         return 0
     path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
+    refuse_inputs([path], records_of(folder))
     _write(path, data)
     say(f"Done: {path}")
     if asked.opened:

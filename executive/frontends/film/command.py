@@ -12,10 +12,12 @@ import numpy as np
 from executive.frontends.composition_root import REALITY
 from executive.frontends.film import writing
 from executive.frontends.film.pictures import Composer, Frame, panel_px
+from executive.frontends.new_files import records_of, refuse_inputs
 from executive.frontends.output import Screen, say
 from executive.journal import motion, past_runs, reader
 from executive.journal.motion import Moment
 from executive.journal.run import Run
+from executive.runs.again.recording import discreet
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.model import description
@@ -26,6 +28,8 @@ HELD_S = 0.35
 LINGER_S = 1.5
 """How long the last picture stays, in seconds of the film."""
 ASPECT = 0.5625
+MOST_THINGS = 10_000
+"""Of one kind whose places are kept: more than any world has."""
 
 
 class Asked(msgspec.Struct, frozen=True, kw_only=True):
@@ -48,8 +52,9 @@ def film(asked: Asked) -> int:
     folder = past_runs.find(asked.run)
     path = asked.output or folder / f"film{writing.best()}"
     kind = writing.kind_of(path)
-    run, moments = reader.read(folder), _moments(folder)
-    begin_s, end_s = _span(asked, moments)
+    refuse_inputs([path], records_of(folder))
+    run = reader.read(folder)
+    begin_s, end_s = _span(asked, folder)
     count = math.ceil((end_s - begin_s) / asked.speed * kind.rate_hz) + 1
     if count > kind.most_frames:
         cure = f"--speed {math.ceil(asked.speed * count / kind.most_frames)}, or --from and --to"
@@ -58,9 +63,9 @@ def film(asked: Asked) -> int:
     times = [begin_s + k * asked.speed / kind.rate_hz for k in range(count)]
     width = asked.width - asked.width % 2
     height = 2 * round(ASPECT * width / 2)
-    with _studio(run, width - panel_px(width), height) as studio:
+    with _studio(run, folder, width - panel_px(width), height) as studio:
         composer = Composer(run, width=width, height=height)
-        frames = _frames(moments, times, studio, composer)
+        frames = _frames(motion.read(folder), times, studio, composer)
         linger = round(LINGER_S * kind.rate_hz)
         with Screen(err=True).status("making the film") as status:
 
@@ -80,20 +85,19 @@ def film(asked: Asked) -> int:
     return ExitStatus.DONE
 
 
-def _moments(folder: Path) -> list[Moment]:
+def _span(asked: Asked, folder: Path) -> tuple[float, float]:
+    """From when to when the film goes; moments are read one by one, for they may be many."""
+    first_s = last_s = math.nan
     try:
-        moments = list(motion.read(folder))
+        for moment in motion.read(folder):
+            first_s = moment.t_s if math.isnan(first_s) else first_s
+            last_s = moment.t_s
     except OSError as error:
         cure = "runs that are made from now on keep it"
         text = f"it was not kept how anything moved: {error.strerror}"
         raise ConfigError([Problem(text, str(folder / motion.FILE), suggestion=cure)]) from None
-    if not moments:
+    if math.isnan(first_s):
         raise ConfigError([Problem("nothing has moved in this run", str(folder))])
-    return moments
-
-
-def _span(asked: Asked, moments: list[Moment]) -> tuple[float, float]:
-    first_s, last_s = moments[0].t_s, moments[-1].t_s
     begin_s = first_s if asked.begin_s is None else asked.begin_s
     end_s = last_s if asked.end_s is None else asked.end_s
     if not first_s <= begin_s <= end_s <= last_s:
@@ -102,17 +106,18 @@ def _span(asked: Asked, moments: list[Moment]) -> tuple[float, float]:
     return begin_s, end_s
 
 
-def _studio(run: Run, width: int, height: int) -> Studio:
+def _studio(run: Run, folder: Path, width: int, height: int) -> Studio:
     world, robot, seed = (run.about.get(key) for key in ("world", "robot", "seed"))
     if not (isinstance(world, str) and isinstance(robot, str)):
         raise ConfigError("the journal does not say where this was")
     vary_seed = seed if run.about.get("varied") and isinstance(seed, int) else None
-    where = REALITY.world(world, vary_seed=vary_seed)
-    return where.studio(description.load(robot), width=width, height=height)
+    with discreet(folder):
+        where = REALITY.world(world, vary_seed=vary_seed)
+        return where.studio(description.load(robot), width=width, height=height)
 
 
 def _frames(
-    moments: list[Moment], times: list[float], studio: Studio, composer: Composer
+    moments: Iterator[Moment], times: list[float], studio: Studio, composer: Composer
 ) -> Iterator[Frame]:
     """The pictures, in order; the camera follows the robot without its sway."""
     at: tuple[float, float] | None = None
@@ -122,17 +127,20 @@ def _frames(
         yield composer.compose(studio.shoot(standing, at_m=at), t_s)
 
 
-def standings(moments: list[Moment], times: list[float]) -> Iterator[Standing]:
-    """How everything stood at some growing times."""
+def standings(moments: Iterator[Moment], times: list[float]) -> Iterator[Standing]:
+    """How everything stood at some growing times, from the moments, one after the other."""
     objects: dict[str, motion.Flat | None] = {}
     people: dict[str, motion.Flat | None] = {}
-    k = -1
+    now = next(moments)
+    after: Moment | None = now
     for t_s in times:
-        while k + 1 < len(moments) and (k < 0 or moments[k + 1].t_s <= t_s):
-            k += 1
-            objects.update(moments[k].objects)
-            people.update(moments[k].people)
-        base, q = _between(moments[k], moments[min(k + 1, len(moments) - 1)], t_s)
+        while after is not None and (after is now or after.t_s <= t_s):
+            now = after
+            for kept, new in ((objects, now.objects), (people, now.people)):
+                if len(kept) < MOST_THINGS:
+                    kept.update(new)
+            after = next(moments, None)
+        base, q = _between(now, after or now, t_s)
         yield Standing(base=base, q=q, objects=dict(objects), people=dict(people))
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import Screen, say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -36,12 +37,16 @@ def estimate(
     Raises:
         ConfigError: a file cannot be used or written, or they do not fit one another.
     """
+    refuse_inputs([output], [log_file, urdf])
     soles = _pair(feet)
     log = legged_log.load(log_file)
     chains = urdf_chains.load(urdf)
     body = legged_body.find(chains, log, soles=soles, imu=imu or None)
     with _bar("Estimating", shown=not as_json) as progress:
         trajectory = replay.estimate(log, body, causal=causal, progress=progress)
+    if not trajectory.finite:
+        cure = "does the recording come from this robot? --feet and --imu name its links"
+        raise ConfigError([Problem("no motion fits it", str(log_file), suggestion=cure)])
     try:
         write_ordinary(output, rows(log, trajectory).encode())
     except OSError as error:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -26,6 +27,7 @@ def build(log: Path, trajectory: Path, *, out: Path | None, as_json: bool) -> in
     Raises:
         ConfigError: a file cannot be read or written.
     """
+    refuse_inputs([trajectory, out], [log])
     taken = recording.read(log)
     mapper = building.mapped(taken, progress=_Progress(taken, silent=as_json))
     way = building.trajectory(taken, mapper)
@@ -60,6 +62,7 @@ def show(path: Path, *, snapshot: Path | None, as_json: bool) -> int:
     if snapshot is not None and snapshot.suffix.lower() != ".png":
         cure = f"call it {snapshot.stem or 'map'}.png"
         raise ConfigError([Problem("maps are drawn as .png", str(snapshot), suggestion=cure)])
+    refuse_inputs([snapshot], [path])
     saved = map_file.load(path)
     if snapshot is not None:
         _put(snapshot, picture.drawn(saved))
@@ -95,6 +98,7 @@ def locate(path: Path, *, log: Path, trajectory: Path | None, as_json: bool) -> 
     Raises:
         ConfigError: a file cannot be read or written.
     """
+    refuse_inputs([trajectory], [path, log])
     relocaliser = Relocaliser(map_file.load(path))
     taken = recording.read(log)
     progress = _Progress(taken, silent=as_json)

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.archives import Archive, Plain, packed
+from robot.archives import Archive, packed
 from robot.errors import ConfigError, Problem
 from robot.fusion.slam.grid import Grid
 from robot.fusion.slam.planar import turn
@@ -18,14 +18,17 @@ from robot.ordinary_files import write_ordinary
 from robot.se3 import Array
 
 FORMAT = "humanoid map 1"
-MOST_BYTES = 400_000_000
-"""Of one array."""
+MOST_BYTES = 200_000_000
+"""Of all arrays."""
+MOST_CELLS, LONGEST_SIDE = 100_000_000, 30_000
+"""Of a grid: half a kilometre square in cells of 5 cm."""
+MOST_PLACES = 100_000
 WHAT = "a map"
 CURE = "make one with: humanoid map build --log LOG.npz --trajectory OUT.txt --out MAP.npz"
-NAMES = {
-    "format": True, "cell_m": True, "origin_m": True, "grid": True, "trajectory": True,
-    "keys": True, "surface": True, "place_names": True, "place_poses": True,
-}  # fmt: skip
+NEEDED = [
+    "format", "cell_m", "origin_m", "grid", "trajectory", "keys", "surface", "place_names",
+    "place_poses",
+]  # fmt: skip
 SURFACE_M = 0.05
 """Of the points in a cell of this side one is kept to localise with."""
 LARGEST_M = 1e5
@@ -101,54 +104,56 @@ def load(path: Path) -> SavedMap:
     Raises:
         ConfigError: it is none, of another version, or what it holds cannot be meant.
     """
-    found = Archive(path, limit=MOST_BYTES, cure=CURE).arrays(NAMES, what=WHAT)
-    wrong = _mistake(found)
-    if wrong:
-        raise ConfigError([Problem(wrong, str(path), suggestion=CURE)])
-    names = [str(name) for name in found["place_names"]]
-    poses = np.asarray(found["place_poses"], dtype=float)
-    return SavedMap(
+    archive = Archive(path, limit=MOST_BYTES, cure=CURE)
+    archive.need(NEEDED, what=WHAT)
+    if archive.claim("format").shape or str(archive.array("format")) != FORMAT:
+        raise archive.wrong(f"this is no map of this version ({FORMAT!r})")
+    saved = SavedMap(
         grid=Grid(
-            cells=cast("NDArray[np.uint8]", found["grid"]),
-            cell_m=float(np.asarray(found["cell_m"], dtype=float).reshape(-1)[0]),
-            origin_m=np.asarray(found["origin_m"], dtype=float),
+            cells=_cells(archive),
+            cell_m=float(archive.numbers("cell_m", shape=()).reshape(-1)[0]),
+            origin_m=archive.numbers("origin_m", shape=(2,)),
         ),
-        trajectory=np.asarray(found["trajectory"], dtype=float),
-        keys=np.asarray(found["keys"], dtype=float),
-        surface=np.asarray(found["surface"], dtype=float),
-        places=dict(zip(names, poses, strict=True)),
+        trajectory=archive.numbers("trajectory", shape=(None, 4)),
+        keys=archive.numbers("keys", shape=(None, 3)),
+        surface=archive.numbers("surface", shape=(None, 5)),
+        places=_places(archive),
     )
+    wrong = _mistake(saved)
+    if wrong:
+        raise archive.wrong(wrong)
+    return saved
 
 
-SHAPES: dict[str, tuple[int | None, ...]] = {
-    "origin_m": (2,), "trajectory": (None, 4), "keys": (None, 3), "surface": (None, 5),
-    "place_poses": (None, 3),
-}  # fmt: skip
+def _cells(archive: Archive) -> NDArray[np.uint8]:
+    claim = archive.claim("grid")
+    if claim.dtype != np.uint8 or len(claim.shape) != 2 or not claim.size:
+        raise archive.wrong("grid is none")
+    if claim.size > MOST_CELLS or max(claim.shape) > LONGEST_SIDE:
+        raise archive.wrong(f"grid has more than {MOST_CELLS} cells, or {LONGEST_SIDE} in a row")
+    return cast("NDArray[np.uint8]", archive.array("grid"))
 
 
-def _mistake(found: dict[str, Plain]) -> str:
+def _places(archive: Archive) -> dict[str, Array]:
+    poses = archive.numbers("place_poses", shape=(None, 3), most_rows=MOST_PLACES)
+    claim = archive.claim("place_names")
+    if claim.dtype.kind != "U" or claim.shape != (len(poses),):
+        raise archive.wrong("place_names does not go with place_poses")
+    names = [str(name) for name in archive.array("place_names")]
+    return dict(zip(names, poses, strict=True))
+
+
+def _mistake(saved: SavedMap) -> str:
     """What cannot be meant; "" if all can."""
-    text = str(found["format"]) if found["format"].ndim == 0 else ""
-    if text != FORMAT:
-        return f"this is no map of this version ({FORMAT!r})"
-    for name, shape in SHAPES.items():
-        array = found[name]
-        if array.dtype.kind != "f" or len(array.shape) != len(shape):
-            return f"{name} is none"
-        if any(want not in (None, got) for want, got in zip(shape, array.shape, strict=True)):
-            return f"{name} is none"
-        values = array[:, 1:] if name == "trajectory" else array
-        if not np.all(np.abs(np.asarray(values, dtype=float)) < LARGEST_M):  # NaN is not less
+    places = np.array(list(saved.places.values())).reshape(-1, 3)
+    for name, values in {
+        "origin_m": saved.grid.origin_m, "trajectory": saved.trajectory[:, 1:],
+        "keys": saved.keys, "surface": saved.surface, "place_poses": places,
+    }.items():  # fmt: skip
+        if not np.all(np.abs(values) < LARGEST_M):  # NaN is not less
             return f"{name} holds what is no place"
-    if found["grid"].dtype != np.uint8 or found["grid"].ndim != 2 or not found["grid"].size:
-        return "grid is none"
-    if found["cell_m"].dtype.kind != "f" or found["cell_m"].size != 1:
-        return "cell_m is none"
-    if not 1e-3 <= float(np.asarray(found["cell_m"], dtype=float).reshape(-1)[0]) <= 10.0:
+    if not 1e-3 <= saved.grid.cell_m <= 10.0:
         return "cell_m is no side of a cell"
-    if not len(found["surface"]) or not len(found["keys"]):
+    if not len(saved.surface) or not len(saved.keys):
         return "it holds no surfaces to localise with"
-    names = found["place_names"]
-    if names.dtype.kind != "U" or names.shape != (len(found["place_poses"]),):
-        return "place_names does not go with place_poses"
     return ""

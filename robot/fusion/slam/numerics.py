@@ -51,9 +51,13 @@ def inverse_of(matrix: Array) -> Array:
 
 
 def by_blocks(grid: NDArray[np.uint8], side: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    """Smallest and largest value of the blocks of a grid; what is left over at its end is not."""
-    rows, columns = grid.shape[0] // side, grid.shape[1] // side
-    blocks = grid[: rows * side, : columns * side].reshape(rows, side, columns, side)
+    """Smallest and largest value of the blocks of a grid; what is left over at its end is not.
+
+    A grid that is narrower than a block is one block wide.
+    """
+    down, across = min(side, grid.shape[0]), min(side, grid.shape[1])
+    rows, columns = grid.shape[0] // down, grid.shape[1] // across
+    blocks = grid[: rows * down, : columns * across].reshape(rows, down, columns, across)
     return blocks.min(axis=(1, 3)), blocks.max(axis=(1, 3))
 
 

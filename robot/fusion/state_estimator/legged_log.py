@@ -8,9 +8,10 @@ first row of `gt_base_pos`, `gt_base_rpy`. What else there is, is not looked at.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,11 @@ from robot.errors import ConfigError, Problem
 from robot.se3 import SE3, Array
 
 MOST_BYTES = 200_000_000
-MOST_SAMPLES = 5_000_000
+"""Of all arrays: 20 minutes of 30 joints, 500 times a second."""
+MOST_SAMPLES, MOST_JOINTS = 5_000_000, 1000
+LARGEST = {"t": 1e12, "joint_pos": 1e4, "imu_gyro": 1e4, "imu_acc": 1e5}
+"""What no clock, joint or sensor says [s, rad, rad/s, m/s²]: larger numbers are no measurement."""
+LARGEST_FORCE_N, LARGEST_M, LARGEST_RAD = 1e6, 1e6, 1e3
 LEFT = ("l_foot_fz", "left_foot_fz", "l_foot_force", "left_foot_force", "fz_left", "left_fz")
 RIGHT = ("r_foot_fz", "right_foot_fz", "r_foot_force", "right_foot_force", "fz_right", "right_fz")
 CURE = "docs/state_estimation.md shows the fields of a recording"
@@ -68,19 +73,16 @@ def load(path: Path) -> LeggedLog:
         ConfigError: it cannot be read, is no such file, or lacks a field, with the field's name.
     """
     fields = _Fields(path)
-    t = fields.rows("t", 1)
+    t = fields.rows("t")
     fields.count = n = len(t)
     if n < 2:
         raise fields.wrong("t", "holds fewer than two samples")
-    names, positions = fields.names("joint_names"), fields.rows("joint_pos", 2)
-    if positions.shape[1] != len(names):
-        text = f"has {positions.shape[1]} columns for {len(names)} joint_names"
-        raise fields.wrong("joint_pos", text)
-    gyro, accel = fields.rows("imu_gyro", 2, width=3), fields.rows("imu_acc", 2, width=3)
+    names = fields.names("joint_names")
+    positions = fields.rows("joint_pos", len(names))
+    gyro, accel = fields.rows("imu_gyro", 3), fields.rows("imu_acc", 3)
     force = np.stack([fields.force(LEFT), fields.force(RIGHT)], axis=1)
     blind = np.asarray(~np.isfinite(positions).all(axis=1))
-    everything = np.column_stack([t, positions, gyro, accel, force])
-    unknown = ~np.isfinite(everything).all(axis=1)
+    unknown = blind | ~np.isfinite(np.column_stack([t, gyro, accel, force])).all(axis=1)
     stamps = _filled(fields, "t", t[:, None])[:, 0]
     taken_s, bursts = _taken(stamps)
     positions = _filled(fields, "joint_pos", positions)
@@ -112,35 +114,31 @@ class _Fields:
     def wrong(self, name: str, what: str) -> ConfigError:
         return ConfigError([Problem(f"{name} {what}", str(self.path), suggestion=CURE)])
 
-    def get(self, name: str) -> Any:
+    def need(self, name: str) -> str:
+        """A field that has to be there."""
         if name not in self.archive.names:
             there = ", ".join(sorted(self.archive.names)[:20]) or "nothing"
             raise self.wrong(f"the field {name!r}", f"is missing; there are {there}")
-        return self.archive.array(name)
+        return name
 
-    def rows(self, name: str, dimensions: int, *, width: int = 0) -> Array:
-        """A field of numbers, a row a sample."""
-        values = self.get(name)
-        if values.dtype.kind not in "fiu":
-            raise self.wrong(name, f"holds no numbers but {values.dtype}")
-        values = values.astype(np.float64)
-        if values.ndim != dimensions or (width and values.shape[1] != width):
-            wanted = f"(n, {width})" if width else "(n,)" if dimensions == 1 else "(n, joints)"
-            raise self.wrong(name, f"has the shape {values.shape}, not {wanted}")
-        if self.count and len(values) != self.count:
-            raise self.wrong(name, f"has {len(values)} rows, t has {self.count}")
-        if not self.count and len(values) > MOST_SAMPLES:
-            raise self.wrong(name, f"has more than {MOST_SAMPLES} rows")
+    def rows(self, name: str, width: int = 0, *, largest: float = 0.0) -> Array:
+        """A field of numbers, a row a sample; 0: not of columns. What is not finite is a gap."""
+        shape = (self.count or None, width) if width else (self.count or None,)
+        values = self.archive.numbers(self.need(name), shape=shape, most_rows=MOST_SAMPLES)
+        most = largest or LARGEST[name]
+        if (np.isfinite(values) & (np.abs(values) > most)).any():
+            raise self.wrong(name, f"holds numbers beyond {most:g}, which nothing measures")
         return values
 
     def names(self, name: str) -> list[str]:
         """A field of names, each one once."""
-        values = self.get(name)
-        if values.dtype.kind == "S":
-            values = np.char.decode(values, "utf-8", "replace")
-        if values.dtype.kind != "U" or values.ndim != 1:
+        if math.prod(self.archive.claim(self.need(name)).shape) > MOST_JOINTS:
+            raise self.wrong(name, f"holds more than {MOST_JOINTS} names")
+        values = self.archive.array(name)
+        if values.dtype.kind not in "SU" or values.ndim != 1:
             raise self.wrong(name, "is no list of names")
-        names = [str(value) for value in values]
+        listed = cast("list[str | bytes]", values.tolist())
+        names = [n if isinstance(n, str) else n.decode("utf-8", "replace") for n in listed]
         if len(set(names)) < len(names):
             raise self.wrong(name, "holds a name twice")
         return names
@@ -148,24 +146,30 @@ class _Fields:
     def force(self, keys: tuple[str, ...]) -> Array:
         """The vertical force under a foot, by the first of these names that is there."""
         name = next((key for key in keys if key in self.archive.names), keys[0])
-        values = self.get(name)
-        if values.ndim == 2 and values.shape[1] in (3, 6):
-            return self.rows(name, 2)[:, 2]
-        return self.rows(name, 1)
+        shape = self.archive.claim(self.need(name)).shape
+        if len(shape) == 2 and shape[1] in (3, 6):
+            return self.rows(name, shape[1], largest=LARGEST_FORCE_N)[:, 2]
+        return self.rows(name, largest=LARGEST_FORCE_N)
 
     def first_pose(self) -> SE3 | None:
         """Where the base began, if the file says."""
         pairs = (("gt_base_pos0", "gt_base_rpy0"), ("gt_base_pos", "gt_base_rpy"))
         for place, angles in pairs:
             if {place, angles} <= self.archive.names:
-                p, rpy = (np.atleast_2d(self.archive.array(name))[0] for name in (place, angles))
-                if p.shape != (3,) or rpy.shape != (3,) or p.dtype.kind not in "fiu":
-                    raise self.wrong(place, "and its angles are not three numbers each")
+                p, rpy = self.first(place, LARGEST_M), self.first(angles, LARGEST_RAD)
                 if np.isfinite(p).all() and np.isfinite(rpy).all():
                     roll, pitch, yaw = rpy.tolist()
                     x, y, z = p.tolist()
                     return SE3.from_rpy(roll, pitch, yaw, (x, y, z))
         return None
+
+    def first(self, name: str, largest: float) -> Array:
+        """Three numbers, or the first of rows of three, shape (3,)."""
+        rows = len(self.archive.claim(name).shape) == 2
+        values = self.archive.numbers(name, shape=(None, 3) if rows else (3,)).reshape(-1, 3)
+        if not len(values) or (np.isfinite(values[0]) & (np.abs(values[0]) > largest)).any():
+            raise self.wrong(name, f"does not begin with three numbers up to {largest:g}")
+        return values[0]
 
 
 def _filled(fields: _Fields, name: str, values: Array) -> Array:
@@ -196,13 +200,17 @@ def _taken(t: Array) -> tuple[Array, bool]:
         return np.maximum.accumulate(t), False
     index = np.arange(len(t), dtype=np.float64)
     period_s = float((t[-1] - t[0]) / index[-1])
+    if period_s <= 0.0:  # the clock went back: no stamps of any clock that ticks
+        return np.maximum.accumulate(t), True
     late = t - period_s * index
-    window = max(1, round(BACKLOG_S / period_s))
+    window = max(1, round(min(BACKLOG_S / period_s, len(t))))
     envelope = np.maximum(_least_ahead(late, window), _least_ahead(late[::-1], window)[::-1])
     return np.maximum.accumulate(period_s * index + envelope), True
 
 
 def _least_ahead(values: Array, window: int) -> Array:
     """The least of each value and the `window` after it."""
-    padded = np.concatenate([values, np.full(window, np.inf)])
-    return np.lib.stride_tricks.sliding_window_view(padded, window + 1).min(axis=1)
+    least, width, size = np.concatenate([values, np.full(window, np.inf)]), 1, window + 1
+    while 2 * width <= size:  # the least of twice as many, from two that touch
+        least, width = np.minimum(least[:-width], least[width:]), 2 * width
+    return np.minimum(least[: len(values)], least[size - width :])

@@ -41,6 +41,12 @@ class Trajectory:
     accel_bias_m_s2: Array
     slips: tuple[int, int]
 
+    @property
+    def finite(self) -> bool:
+        """Whether every number is one; else the filter had nothing to hold on to."""
+        parts = (self.rotations, self.positions, self.gyro_bias_rad_s, self.accel_bias_m_s2)
+        return all(bool(np.isfinite(part).all()) for part in parts)
+
 
 def estimate(
     log: LeggedLog,

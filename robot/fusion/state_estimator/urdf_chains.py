@@ -6,7 +6,6 @@ meshes is as good as a whole one. The format: https://wiki.ros.org/urdf/XML.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +17,11 @@ from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_ordinary
 from robot.se3 import SE3, Array
 
-MOST_BYTES = 50_000_000
+MOST_BYTES = 5_000_000
+"""Thirty times that of a large humanoid; XML takes some 25 times its size in memory."""
+LARGEST = 1e3
+"""Of every number [m, rad], factors of mimics too: no robot is larger, and nothing overflows."""
+LARGEST_KG = 1e5
 MOVING = frozenset({"revolute", "continuous", "prismatic"})
 CURE = "give the URDF of the robot that recorded the log"
 
@@ -136,6 +139,11 @@ def _tree(path: Path, joints: list[Joint], masses: dict[str, float]) -> Chains:
     for joint in joints:
         below.setdefault(joint.parent, []).append(joint)
     base = roots[0]
+    hanging = [base]
+    for link in hanging:  # grows: each link hangs on one joint, so none comes twice
+        hanging += [joint.child for joint in below.get(link, [])]
+    if apart := sorted(above.keys() - set(hanging)):
+        raise _refused(path, f"{apart[0]!r} does not hang on {base!r}: its joints make a ring")
     while masses.get(base, 0.0) == 0.0 and len(below.get(base, [])) == 1:
         if below[base][0].kind != "fixed":
             break
@@ -159,7 +167,7 @@ def _joint(element: ET.Element) -> Joint:
         raise ValueError(f"the joint {name!r} has no axis")
     follows = None
     if mimic is not None:
-        gain, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
+        (gain,), (offset,) = _numbers(mimic, "multiplier", "1"), _numbers(mimic, "offset", "0")
         follows = (mimic.get("joint", ""), gain, offset)
     rotation = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).rotation()
     return Joint(
@@ -169,16 +177,26 @@ def _joint(element: ET.Element) -> Joint:
 
 
 def _mass(link: ET.Element) -> float:
-    mass = link.find("inertial/mass")
-    return 0.0 if mass is None else float(mass.get("value", "0"))
+    (mass_kg,) = _numbers(link.find("inertial/mass"), "value", "0", largest=LARGEST_KG)
+    if mass_kg < 0.0:
+        raise ValueError(f"the link {link.get('name', '')!r} has a mass below zero")
+    return mass_kg
 
 
-def _numbers(element: ET.Element | None, key: str, otherwise: str) -> tuple[float, float, float]:
+def _numbers(
+    element: ET.Element | None, key: str, otherwise: str, *, largest: float = LARGEST
+) -> list[float]:
+    """Numbers of an attribute, as many as there are otherwise: finite, and within bounds."""
     text = otherwise if element is None else element.get(key, otherwise)
-    values = [float(word) for word in text.split()]
-    if len(values) != 3 or not all(math.isfinite(value) for value in values):
-        raise ValueError(f"{key}={text[:60]!r} are not three numbers")
-    return values[0], values[1], values[2]
+    count = len(otherwise.split())
+    try:
+        values = [float(word) for word in text.split()]
+    except ValueError:
+        values = []
+    if len(values) != count or not all(abs(value) <= largest for value in values):  # NaN is not
+        what = "a number" if count == 1 else f"{count} numbers"
+        raise ValueError(f"{key}={text[:60]!r} must be {what} from -{largest:g} to {largest:g}")
+    return values
 
 
 def _turns(axis: Array, angles: Array) -> Array:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_ordinary
+from robot.perception.detector import onnx_file
 
 INSTALL = "pip install 'humanoid-executive[vision]'"
 EXPORT = "export one to ONNX: yolo export model=yolo11n.pt format=onnx"
@@ -39,7 +40,10 @@ class Network:
             data = read_ordinary(path, limit=MOST_BYTES)
         except OSError as error:
             raise self._wrong(error.strerror or "it cannot be read") from None
+        if not self._is_whole(data):
+            raise self._wrong("parts of this network are in other files, which are not read")
         options = onnxruntime.SessionOptions()
+        options.add_session_config_entry("session.load_model_format", "ONNX")
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         # Its threads otherwise spin for 47 to 500 ms after a run, on a core that others need.
         options.add_session_config_entry("session.intra_op.allow_spinning", "0")
@@ -71,9 +75,16 @@ class Network:
         kind = np.float16 if self._kind == "tensor(float16)" else np.float32
         try:
             output = self._session.run(None, {self._name: tensor.astype(kind)})[0]
-            return np.asarray(output, dtype=np.float32)
+            with np.errstate(over="ignore"):  # of wider numbers: infinite
+                return np.asarray(output, dtype=np.float32)
         except Exception:  # as above; or an output that is no array of numbers
             raise self._wrong("this network failed on a picture") from None
+
+    def _is_whole(self, data: bytes) -> bool:
+        try:
+            return onnx_file.is_whole(data)
+        except ValueError:
+            raise self._wrong("this is no network in ONNX that can be run") from None
 
     def _wrong(self, message: str) -> ConfigError:
         return ConfigError([Problem(message=message, file=str(self._path), suggestion=EXPORT)])

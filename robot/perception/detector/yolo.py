@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float32]
 
 MOST_END_TO_END = 1000
+LARGEST_PX = 1e6
+"""What is beyond that, or no number, is no box."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class Candidates:
 
 
 def decoded(output: Array, count: int) -> Candidates:
-    """The candidates in a network's output.
+    """The candidates in a network's output; those that are no boxes with a score are left out.
 
     Args:
         output: of the network.
@@ -46,7 +48,14 @@ def decoded(output: Array, count: int) -> Candidates:
     """
     if output.ndim != 3 or output.shape[0] != 1 or 0 in output.shape:
         raise ValueError(f"its output has shape {output.shape}, and not (1, ..., ...)")
-    rows = output[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = _laid_out(output[0], count)
+        # NaN is not less.
+        sane = (np.abs(found.boxes) < LARGEST_PX).all(axis=1) & np.isfinite(found.scores)
+    return found[np.flatnonzero(sane)]
+
+
+def _laid_out(rows: Array, count: int) -> Candidates:
     if rows.shape[1] == 5 + count:
         return _centred(rows[:, :4], rows[:, 5:] * rows[:, 4:5])
     if rows.shape[0] == 4 + count and rows.shape[0] < rows.shape[1]:
@@ -57,8 +66,8 @@ def decoded(output: Array, count: int) -> Candidates:
         names = np.clip(np.nan_to_num(rows[:, 5]), 0, count - 1).astype(np.intp)
         return Candidates(rows[:, :4], names, rows[:, 4])
     raise ValueError(
-        f"its output has shape {output.shape}, which does not fit {count} names in any layout of "
-        "YOLO that is known"
+        f"its output has shape {(1, *rows.shape)}, which does not fit {count} names in any layout "
+        "of YOLO that is known"
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from robot.perception.people.tracks import Track, Tracks
 
 LEAST_SCORE = 0.1
 """Clusters less likely than this to be legs are not even followed."""
+NO_RANGES = np.zeros(0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +50,7 @@ class Found:
 
 @dataclass(frozen=True)
 class _Seen:
-    """A scan with everything that may turn out to be a person."""
+    """A scan, without its ranges, with everything that may turn out to be a person."""
 
     scan: PlanarScan
     legs: list[Leg]
@@ -99,7 +100,8 @@ class PeopleFinder:
         owners = self._tracks.step(scan.t_s, candidates, scan.in_place(places_m))
         if self._learns:
             self._standing.look(scan)
-        return _Seen(scan, candidates, owners, {one.id: one.state for one in owners.values()})
+        where = replace(scan, ranges_m=NO_RANGES)  # a log has many, and their points take room
+        return _Seen(where, candidates, owners, {one.id: one.state for one in owners.values()})
 
 
 def people_of_log(

@@ -12,13 +12,16 @@ Array = NDArray[np.float64]
 
 NEAREST_M = 0.05
 """Whatever is nearer is no return: lasers say so with zero or a small code."""
+FARTHEST_M = 1000.0
+"""Whatever is farther is none either: no laser scanner in a plane sees that far."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlanarScan:
     """Ranges counter-clockwise from a first bearing, in the laser's frame (x ahead, y left).
 
-    `ranges_m` has shape (n,); what is not finite or nearer than `NEAREST_M` is no return.
+    `ranges_m` has shape (n,); what is not finite, nearer than `NEAREST_M` or farther than
+    `FARTHEST_M` is no return.
     `pose` is the laser's x, y [m] and yaw [rad] in the place; a laser that stands still needs none.
     """
 
@@ -39,7 +42,7 @@ class PlanarScan:
     def returned(self) -> NDArray[np.intp]:
         """The numbers of the beams that came back."""
         ranges_m = self.ranges_m
-        return np.flatnonzero(np.isfinite(ranges_m) & (ranges_m >= NEAREST_M))
+        return np.flatnonzero((ranges_m >= NEAREST_M) & (ranges_m <= FARTHEST_M))
 
     @cached_property
     def points_m(self) -> Array:

@@ -79,6 +79,7 @@ LOGS: dict[str, bytes | Make] = {
         scan_t=np.zeros(0), scan_ranges_mm=np.zeros((0, 10)), training_scan_t=None
     ),
     "nan-stamps": _archive(scan_t=np.array([0.0, np.nan, 0.2, 0.3])),
+    "no-stamps": _archive(scan_t=np.array([-1e300, 0.0, 1e9, 1e300])),
     "inf-angle": _archive(scan_angle=np.array([np.inf, 0.01])),
     "step-zero": _archive(scan_angle=np.array([0.0, 0.0])),
     "step-minus": _archive(scan_angle=np.array([0.0, -0.01])),
@@ -104,7 +105,7 @@ SOUND_LOGS: dict[str, bytes] = {
     "huge-ranges": _archive(scan_ranges_mm=np.full((4, 200), 1e300)),
     "one-beam": _archive(scan_ranges_mm=np.full((4, 1), 1000)),
     "stamps-back": _archive(scan_t=np.array([3.0, 2.0, 1.0, 0.0])),
-    "stamps-far": _archive(scan_t=np.array([-1e300, 0.0, 1e9, 1e300])),
+    "stamps-far": _archive(scan_t=np.array([-1e11, 0.0, 1e9, 1e11])),
     "same-place": _archive(scan_ranges_mm=np.full((4, 200), 51)),
 }
 

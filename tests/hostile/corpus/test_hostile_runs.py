@@ -327,6 +327,31 @@ CASES = [
     ),
     *(
         Case(
+            name=f"film-{name}",
+            argv=("film", "--output", "f.gif", "--from", "0", "--to", "0"),
+            files={"w.yaml": "aws_secret_access_key: hunter2\npassword: [swordfish\n"},
+            run="short",
+            mutate=partial(_event, "run", field, place),
+            never=("aws_secret", "hunter2", "password", "swordfish"),
+            expect=Expect.ENDS,
+        )
+        for name, (field, place) in {
+            "world": ("world", "w.yaml"),
+            "robot": ("robot", "w.yaml"),
+            "secret": ("world", f"{OUTSIDE}/secret.txt"),
+        }.items()
+    ),
+    *(
+        Case(
+            name=f"over-{name}",
+            argv=("dump", "-f", "json", "-o", f"runs/short/{name}"),
+            run="short",
+            says=("is read by this very command",),
+        )
+        for name in ("journal.jsonl", "motion.jsonl", "wall.jsonl", "run.json", "summary.json")
+    ),
+    *(
+        Case(
             name=f"line-{name}-{front}",
             argv=FRONTS[front],
             run="short",

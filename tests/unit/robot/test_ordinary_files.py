@@ -111,3 +111,25 @@ def test_what_leads_out_of_a_folder_is_not_within_it(tmp_path):
     inside = [folder, folder / "a", folder / "in" / ".." / "b", folder / "round" / "c"]
     outside = [tmp_path, folder / "..", folder / "out" / "a", tmp_path / "folder2", Path("/")]
     assert [is_within(folder, path) for path in inside + outside] == [True] * 4 + [False] * 5
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o755])
+def test_who_may_use_a_file_stays_as_it_was(tmp_path: Path, mode: int) -> None:
+    file = tmp_path / "file"
+    file.write_bytes(b"before")
+    file.chmod(mode)
+    write_ordinary(file, b"after")
+    assert file.read_bytes() == b"after"
+    assert file.stat().st_mode & 0o777 == mode
+
+
+def test_a_protected_file_is_not_replaced(tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_bytes(b"before")
+    file.chmod(0o444)
+    with pytest.raises(OSError, match="protected"):
+        write_ordinary(file, b"after")
+    with pytest.raises(OSError, match="protected"):
+        open_to_append(file)
+    assert file.read_bytes() == b"before"
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]

@@ -1,5 +1,7 @@
 """Standard streams: whatever becomes of them, who writes goes on."""
 
+import errno
+import io
 import os
 import subprocess
 import sys
@@ -47,6 +49,43 @@ def test_whoever_closed_them_it_goes_to_its_end(ends, how):
 def test_letters_that_the_stream_does_not_have_are_replaced(ends, monkeypatch):
     monkeypatch.setenv("PYTHONIOENCODING", "ascii")
     assert ends(">/dev/null")[0] == 0
+
+
+class Broken(io.RawIOBase):
+    """A file that takes nothing."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.file = os.open(os.devnull, os.O_WRONLY)
+
+    def writable(self):
+        return True
+
+    def fileno(self):
+        return self.file
+
+    def write(self, _data):
+        raise OSError(self.number, os.strerror(self.number))
+
+
+@pytest.mark.parametrize(
+    ("number", "why"),
+    [
+        (errno.ENOSPC, "No space left"),
+        (errno.EFBIG, "too large"),
+        (errno.EPIPE, ""),
+        (errno.EIO, ""),
+    ],
+)
+def test_what_a_disk_did_not_take_is_missed_and_what_nobody_reads_is_not(monkeypatch, number, why):
+    out = streams.Lasting(io.BufferedWriter(Broken(number)), encoding="utf-8")
+    monkeypatch.setattr(sys, "stdout", out)
+    out.write("x" * 100_000)
+    told, product = streams.lost()
+    assert (why in told if why else not told) and product
+    streams.beside_work()
+    assert streams.lost() == (told, False)
+    out.detach()
 
 
 def test_a_stream_that_somebody_put_there_stays(capsys):

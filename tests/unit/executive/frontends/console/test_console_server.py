@@ -15,12 +15,15 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from executive.frontends.console.address import HOST
+from executive.frontends.console.door import MOST_OTHERS, MOST_OWN
 from executive.frontends.console.page import page
-from executive.frontends.console.server import BATCH, PageServer
+from executive.frontends.console.proof import CONSOLE, PAGE, proof
+from executive.frontends.console.server import BATCH, MOST_PAGES, PageServer
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from tests.fakes.waiting import HANG_S
 
+NONCE = "0123456789abcdef"
 BASE = (0.0, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0)
 
 
@@ -51,6 +54,7 @@ class Visitor:
 
     def __init__(self, console: PageServer, *, token: str | None = None, origin: str | None = None):
         self.host = re.findall("//([^/]+)/", console.url)[0]
+        self.console = console
         self.token = console.token if token is None else token
         self.origin = f"http://{self.host}" if origin is None else origin
         self.known: dict = {}
@@ -60,7 +64,12 @@ class Visitor:
         self.socket = await connect(
             f"ws://{self.host}/", origin=self.origin or None, max_size=None, proxy=None
         )
-        await self.say(token=self.token)
+        asked = json.loads(await self.socket.recv())["nonce"]
+        code = proof(self.token, PAGE, self.host, asked, NONCE)
+        await self.say(proof=code, nonce=NONCE)
+        if self.token == self.console.token:
+            shown = json.loads(await self.socket.recv())["proof"]
+            assert shown == proof(self.token, CONSOLE, self.host, NONCE, asked)
         return self
 
     async def __aexit__(self, *_):
@@ -223,3 +232,63 @@ def test_the_page_asks_nobody_else_for_anything():
     for reaching in ("https:", "innerHTML", "outerHTML", "insertAdjacentHTML", "eval(", "import("):
         assert reaching not in written
     assert "http:" not in written
+
+
+def test_who_shows_no_token_keeps_nobody_out(tmp_path):
+    folder = a_run(tmp_path / "run")
+
+    async def play():
+        async with served(lambda: folder) as console:
+            host = re.findall("//([^/]+)/", console.url)[0]
+            port = int(host.partition(":")[2])
+            mute = [await asyncio.open_connection(HOST, port) for _ in range(100)]
+            waiting = [
+                await connect(f"ws://{host}/", origin=f"http://{host}", proxy=None)
+                for _ in range(2 * MOST_PAGES)
+            ]
+            async with Visitor(console) as visitor:
+                await visitor.until("head")
+            assert len(console._door) <= MOST_OWN + MOST_OTHERS
+            for _, writer in mute:
+                writer.close()
+            for one in waiting:
+                await one.close()
+
+    asyncio.run(play())
+
+
+def test_no_message_of_a_page_holds_the_token_and_none_is_good_twice():
+    first, second = (proof("token", PAGE, "127.0.0.1:1", asked, NONCE) for asked in "ab")
+    assert first != second and "token" not in first
+    assert first != proof("token", CONSOLE, "127.0.0.1:1", "a", NONCE)
+    assert first != proof("token", PAGE, "127.0.0.1:2", "a", NONCE)
+
+
+def test_a_folder_that_cannot_be_read_for_a_while_ends_nothing(tmp_path):
+    folder, short = a_run(tmp_path / "run"), [True]
+
+    def find():
+        if short:
+            raise OSError(24, "Too many open files")
+        return folder
+
+    async def play():
+        async with served(find) as console, Visitor(console) as visitor:
+            await visitor.until("show")
+            short.clear()
+            await visitor.until("head")
+
+    asyncio.run(play())
+
+
+def test_files_that_are_short_are_told_of_once(tmp_path, capsys):
+    async def play():
+        async with served(lambda: None):
+            loop = asyncio.get_running_loop()
+            for _ in range(3):
+                loop.call_exception_handler(
+                    {"message": "socket.accept() out of system resource", "exception": OSError(24)}
+                )
+
+    asyncio.run(play())
+    assert capsys.readouterr().err.count("\n") == 1

@@ -15,6 +15,7 @@ from executive.frontends.film.command import Asked, film, standings
 from executive.frontends.film.pictures import Composer, panel_px
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
+from executive.journal.run import Run
 from robot.errors import ConfigError
 from tests.fakes.recorded import read
 
@@ -61,7 +62,7 @@ class Studio:
 def studio(monkeypatch):
     made = []
 
-    def make(_run, width, height):
+    def make(_run, _folder, width, height):
         made.append(Studio(width, height))
         return made[-1]
 
@@ -75,7 +76,7 @@ def test_things_stay_between_two_moments_and_motions_are_even():
         at(0.1, 0.1),
         at(5.0, 0.2, objects={"cup": None}),  # after a rest
     ]
-    found = list(standings(moments, [0.0, 0.05, 0.1, 3.0, 5.0]))
+    found = list(standings(iter(moments), [0.0, 0.05, 0.1, 3.0, 5.0]))
     assert [round(one.base[0], 6) for one in found] == [0.0, 0.05, 0.1, 0.1, 0.2]
     assert [round(one.q[0], 6) for one in found] == [0.0, 0.5, 1.0, 1.0, 2.0]
     assert [one.objects["cup"] for one in found] == [CUP, CUP, CUP, CUP, None]
@@ -162,3 +163,33 @@ def test_a_picture_tells_what_is_said_and_survives_hostile_names():
     before, says = composer.compose(pixels, 0.5), composer.compose(pixels, 1.5)
     assert before.size == says.size == (320, 180)
     assert before.tobytes() != says.tobytes()
+
+
+def test_moments_are_read_one_by_one():
+    read = []
+
+    def moments():
+        for k in range(1000):
+            read.append(k)
+            yield at(0.1 * k)
+
+    assert len(list(standings(moments(), [0.0, 1.0]))) == 2
+    assert len(read) == 12  # the second one's, and the one behind it
+
+
+def test_of_a_world_that_is_no_world_nothing_is_told(run, tmp_path):
+    elsewhere = tmp_path / "elsewhere.yaml"
+    elsewhere.write_text("very_secret_key: swordfish\n")
+    about = Run()
+    about.about = {"world": str(elsewhere), "robot": "juno"}
+    with pytest.raises(ConfigError, match="not what the run was recorded with") as refused:
+        command._studio(about, run, 320, 180)
+    assert "secret" not in str(refused.value) and "swordfish" not in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["motion.jsonl", "journal.jsonl"])
+def test_a_runs_records_are_not_written_over(run, studio, name):
+    link = run / "it.gif"
+    link.hardlink_to(run / name)
+    with pytest.raises(ConfigError, match="is read by this very command"):
+        film(Asked(run=str(run), output=link))

@@ -82,11 +82,11 @@ def test_no_returns_of_any_lidar_are_none(log: Path, tmp_path: Path):
         ("odom", None, "lacks odom"),
         ("odom", np.full((92, 3), np.nan), "row 0 of odom"),
         ("odom", np.zeros((5, 3)), "92 rows"),
-        ("ranges_cm", np.zeros(5), "a row a sweep"),
+        ("ranges_cm", np.zeros(5), r"shape \(n, n\)"),
         ("ranges_cm", np.array([["a"]]), "numbers"),
-        ("ranges_cm", np.zeros((0, 180)), "0 sweeps"),
+        ("ranges_cm", np.zeros((0, 180)), "no sweeps"),
         ("angle_inc", np.array(7.0), "degrees"),
-        ("angle_min", np.array([0.0, 1.0]), "one number"),
+        ("angle_min", np.array([0.0, 1.0]), r"shape \(1\)"),
         ("t", np.zeros(3), "92 stamps"),
     ],
 )
@@ -135,7 +135,7 @@ def test_a_header_that_promises_too_much_is_not_believed(log: Path, tmp_path: Pa
     with zipfile.ZipFile(log) as held, zipfile.ZipFile(tmp_path / "huge.npz", "w") as made:
         for name in held.namelist():
             made.writestr(name, header.getvalue() if "ranges" in name else held.read(name))
-    with pytest.raises(ConfigError, match="broken"):
+    with pytest.raises(ConfigError, match="larger than"):
         recording.read(tmp_path / "huge.npz")
 
 

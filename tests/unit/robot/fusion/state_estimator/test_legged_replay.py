@@ -103,6 +103,22 @@ def test_even_stamps_are_left_alone(tmp_path):
     assert log.taken_s == pytest.approx(fields["t"])
 
 
+@pytest.mark.parametrize("scale", [0.0, 1e-300, 1e-12])
+def test_stamps_of_a_clock_that_does_not_tick_are_taken_as_they_are(tmp_path, scale):
+    fields = legged_logs.standing(samples=400)
+    fields["t"] = np.arange(400) * scale
+    fields["t"][50:150] = fields["t"][50]
+    taken_s = legged_log.load(legged_logs.write(tmp_path, fields)).taken_s
+    assert np.isfinite(taken_s).all() and (np.diff(taken_s) >= 0.0).all()
+
+
+@pytest.mark.parametrize("window", [1, 2, 3, 7, 8, 30])
+def test_the_least_ahead_is_that_of_a_look_at_each(window):
+    values = np.random.default_rng(0).random(20)
+    found = legged_log._least_ahead(values, window)
+    assert found.tolist() == [values[k : k + window + 1].min() for k in range(20)]
+
+
 def without(name):
     return lambda fields: fields.pop(name)
 
@@ -119,15 +135,29 @@ WRONG = {
     "no gyro": (without("imu_gyro"), "'imu_gyro' is missing"),
     "no joint names": (without("joint_names"), "'joint_names' is missing"),
     "no force": (without("r_foot_fz"), "'r_foot_fz' is missing"),
-    "too few names": (put("joint_names", lambda v: v[:-1]), "columns for"),
+    "too few names": (put("joint_names", lambda v: v[:-1]), "shape"),
     "a name twice": (put("joint_names", lambda v: np.array(["a"] * len(v))), "twice"),
-    "rows that differ": (put("imu_acc", lambda v: v[:-1]), "rows"),
+    "rows that differ": (put("imu_acc", lambda v: v[:-1]), "shape"),
     "two axes": (put("imu_acc", lambda v: v[:, :2]), "shape"),
-    "texts": (put("imu_gyro", lambda v: v.astype(str)), "no numbers"),
+    "texts": (put("imu_gyro", lambda v: v.astype(str)), "real numbers"),
     "no number at all": (put("imu_gyro", lambda v: v * np.nan), "without any number"),
     "one sample": (put("t", lambda v: v[:1]), "fewer than two"),
     "objects": (put("t", lambda v: v.astype(object)), "broken"),
     "lying": (put("imu_acc", lambda v: v[:, [2, 1, 0]]), "--imu"),
+    "a joint far round": (put("joint_pos", lambda v: v + 1e300), "beyond 10000"),
+    "a gyro gone mad": (put("imu_gyro", lambda v: v + 1e200), "beyond 10000"),
+    "no first pose": (
+        lambda f: f.update(gt_base_pos0=np.zeros((0, 3)), gt_base_rpy0=np.zeros(3)),
+        "three numbers",
+    ),
+    "a first pose of texts": (
+        lambda f: f.update(gt_base_pos0=np.zeros(3), gt_base_rpy0=np.array(list("abc"))),
+        "real",
+    ),
+    "what is no letter": (
+        put("joint_names", lambda v: np.full(len(v), 0x7FFFFFFF, "<u4").view("<U1")),
+        "broken",
+    ),
     "other joints": (put("joint_names", lambda v: np.char.add(v, "_x")), "--feet"),
 }
 
@@ -148,7 +178,7 @@ def test_a_header_may_not_claim_more_than_there_is(tmp_path):
     path = tmp_path / "log.npz"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("t.npy", stream.getvalue())
-    with pytest.raises(ConfigError, match="broken"):
+    with pytest.raises(ConfigError, match="more than 5000000 rows"):
         legged_log.load(path)
 
 
@@ -161,10 +191,27 @@ URDFS = {
     "<robot><link name='a'/><link name='b'/><joint name='j' type='ball'><parent link='a'/>"
     "<child link='b'/></joint></robot>": "ball",
     "<robot><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>"
-    "<child link='b'/><axis xyz='0 nan 0'/></joint></robot>": "three numbers",
+    "<child link='b'/><axis xyz='0 nan 0'/></joint></robot>": "3 numbers",
     "<robot><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='b'/>"
     "<child link='a'/></joint><joint name='k' type='fixed'><parent link='a'/><child link='b'/>"
     "</joint></robot>": "0 trees",
+    "<robot><link name='o'/><link name='a'/><link name='b'/><joint name='j' type='fixed'>"
+    "<parent link='b'/><child link='a'/></joint><joint name='k' type='fixed'><parent link='a'/>"
+    "<child link='b'/></joint></robot>": "a ring",
+    "<robot><link name='a'><inertial><mass value='-1'/></inertial></link></robot>": "below zero",
+    "<robot><link name='a'><inertial><mass value='nan'/></inertial></link></robot>": "a number",
+    **{
+        "<robot><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>"
+        f"<child link='b'/>{what}</joint></robot>": "number"
+        for what in (
+            "<mimic joint='j' multiplier='nan'/>",
+            "<mimic joint='j' multiplier='1e308'/>",
+            "<mimic joint='j' offset='inf'/>",
+            "<origin xyz='0 0 1e308'/>",
+            "<origin rpy='0 1e9 0'/>",
+            "<axis xyz='0 0 1e200'/>",
+        )
+    },
 }
 
 

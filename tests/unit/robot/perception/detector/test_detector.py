@@ -7,6 +7,7 @@ from onnx import TensorProto, helper, numpy_helper
 from PIL import Image
 
 from robot.errors import ConfigError
+from robot.perception.detector import onnx_file
 from robot.perception.detector.detector import Detector
 from robot.perception.detector.labels import read_labels
 from robot.perception.detector.letterbox import letterboxed
@@ -222,3 +223,57 @@ def test_pictures_of_all_kinds_are_read(tmp_path):
     see_through = tmp_path / "icon.png"
     Image.new("RGBA", (3, 2), (10, 20, 30, 0)).save(see_through)
     assert read_colour(see_through).shape == (2, 3, 3)
+
+
+def lying_elsewhere(where, name, path):
+    """A network one of whose tensors is said to be in another file."""
+    tensor = TensorProto(name="w", data_type=TensorProto.FLOAT, dims=[1])
+    tensor.data_location = TensorProto.EXTERNAL
+    tensor.external_data.add(key="location", value=name)
+    held = telling(path, np.zeros((1, 7, 40)))
+    model = onnx.load(held)
+    node = helper.make_node("Constant", [], ["c"])
+    match where:
+        case "initializer":
+            model.graph.initializer.append(tensor)
+        case "sparse":
+            model.graph.sparse_initializer.add().values.CopyFrom(tensor)
+        case "node":
+            node.attribute.append(helper.make_attribute("value", tensor))
+            model.graph.node.append(node)
+        case "branch":
+            graph = helper.make_graph([node], "branch", [], [], [])
+            graph.initializer.append(tensor)
+            model.graph.node.append(helper.make_node("If", ["c"], ["d"], then_branch=graph))
+        case _:
+            node.attribute.append(helper.make_attribute("value", tensor))
+            function = helper.make_function("own", "f", [], ["c"], [node], [])
+            model.functions.append(function)
+    path.write_bytes(model.SerializeToString())
+    return path
+
+
+@pytest.mark.parametrize("where", ["initializer", "sparse", "node", "branch", "function"])
+def test_weights_in_other_files_are_not_read(tmp_path, labels, monkeypatch, where):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "secret").write_bytes(bytes(100))
+    with pytest.raises(ConfigError, match="in other files"):
+        Detector(lying_elsewhere(where, "secret", tmp_path / "net.onnx"), labels)
+
+
+def test_a_network_that_is_whole_is_taken_for_one(tmp_path):
+    data = telling(tmp_path / "net.onnx", np.zeros((1, 7, 40))).read_bytes()
+    assert onnx_file.is_whole(data)
+    for broken in (data[:-3], b"\xff" * 20, b"\x0b", data[: len(data) // 2]):
+        with pytest.raises(ValueError, match=r"end|groups"):
+            onnx_file.is_whole(broken)
+
+
+@pytest.mark.parametrize("odd", [np.nan, np.inf, -np.inf, 3e38])
+def test_what_is_no_number_is_no_box(odd):
+    output = version_8(THINGS)
+    output[0, 0, 0] = output[0, 4, 1] = odd
+    with np.errstate(all="raise"):
+        found = decoded(output, len(NAMES))
+    assert np.isfinite(found.boxes).all() and np.isfinite(found.scores).all()
+    assert 38 <= len(found.scores) <= 39

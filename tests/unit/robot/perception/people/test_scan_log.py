@@ -59,8 +59,8 @@ def test_the_second_layout_has_a_moving_laser(log):
         ({"scan_angle": np.array([0.0, 0.0])}, "step between the beams"),
         ({"scan_angle": np.array([0.0, 1.0])}, "step between the beams"),
         ({"scan_angle": np.array([np.nan, 0.01])}, "angles are not two finite"),
-        ({"scan_angle": np.array([0.1])}, "angles are not two finite"),
-        ({"scan_ranges_mm": np.zeros(3)}, "on 2 axes"),
+        ({"scan_angle": np.array([0.1])}, r"shape \(2\), not"),
+        ({"scan_ranges_mm": np.zeros(3)}, r"shape \(n, n\), not"),
         ({"scan_ranges_mm": np.array([["a"], ["b"], ["c"]])}, "real numbers"),
         ({"scan_ranges_mm": np.zeros((3, 4), dtype=complex)}, "real numbers"),
     ],
@@ -82,8 +82,8 @@ def test_a_header_that_promises_the_world_costs_nothing(tmp_path):
     path = tmp_path / "huge.npz"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("scan_t.npy", header.getvalue())
-    with pytest.raises(ConfigError, match="scan_t in it is broken"):
-        Archive(path).numbers("scan_t", axes=1)
+    with pytest.raises(ConfigError, match="scan_t makes it larger than"):
+        Archive(path).numbers("scan_t", shape=(None, None))
 
 
 def test_truncated_and_missing_files_are_refused(log, tmp_path):
@@ -95,3 +95,28 @@ def test_truncated_and_missing_files_are_refused(log, tmp_path):
         read_scans(tmp_path / "none.npz")
     with pytest.raises(ConfigError):
         read_scans(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"scan_t": np.arange(3) * 1e300}, "no time"),
+        ({"scan_ranges_mm": np.zeros((3, 0))}, "have 0 beams"),
+        ({"scan_angle": np.array([1e300, 0.01])}, "angles are not"),
+    ],
+)
+def test_numbers_that_no_laser_gives_are_refused(log, changes, says):
+    with pytest.raises(ConfigError, match=says):
+        read_scans(log(**first(**changes)))
+
+
+def test_ranges_that_no_laser_sees_are_no_returns(log):
+    ranges = np.full((3, 100), 1e300)
+    ranges[:, 50] = 1500.0
+    assert read_scans(log(**first(scan_ranges_mm=ranges)))[0].returned.tolist() == [50]
+
+
+def test_a_log_takes_no_more_room_than_it_is_stored_in(log):
+    scans = read_scans(log(**first()))
+    assert scans.ranges.dtype == np.uint16
+    assert scans[1].ranges_m.dtype == np.float64

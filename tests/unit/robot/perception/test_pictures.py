@@ -1,0 +1,44 @@
+"""Pictures of strangers: a broken one is refused in a sentence, whatever its decoder does."""
+
+import warnings
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from robot.errors import ConfigError
+from robot.perception.pictures import read_colour, read_grey
+
+
+@pytest.fixture
+def tiff(tmp_path):
+    path = tmp_path / "some.tif"
+    noise = np.random.default_rng(0).integers(0, 256, (24, 24, 3), np.uint8)
+    Image.fromarray(noise).save(path, compression="tiff_adobe_deflate")
+    return path
+
+
+def test_a_sound_picture_is_read(tiff):
+    assert read_colour(tiff).shape == (24, 24, 3)
+    assert read_grey(tiff).shape == (24, 24)
+
+
+def test_a_broken_tiff_is_told_of_once(tiff, capfd):
+    data = bytearray(tiff.read_bytes())
+    data[20:400] = bytes(380)
+    tiff.write_bytes(data)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ConfigError, match=r"broken|no picture"):
+            read_colour(tiff)
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("error", [TypeError, KeyError, ZeroDivisionError, IndexError, MemoryError])
+def test_whatever_a_decoder_raises_is_a_broken_picture(tiff, monkeypatch, error):
+    def fails(*_):
+        raise error
+
+    monkeypatch.setattr(Image.Image, "convert", fails)
+    with pytest.raises(ConfigError, match="broken"):
+        read_colour(tiff)
