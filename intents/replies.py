@@ -169,6 +169,8 @@ def _remaining(state: RobotState) -> str:
         return _status(state)
     begun = f"“{state.doing}” began {state.worked_s:.0f} s ago"
     waiting = f" {len(state.waiting)} more to do after that." if state.waiting else ""
+    if state.mode == "paused":
+        waiting += " I have paused: nothing goes on before you say “resume”."
     expected_s = state.foresee_s()
     if expected_s is None:
         return f"{begun}; I cannot say how long it takes.{waiting}"
@@ -191,11 +193,9 @@ def _health(state: RobotState) -> str:
 
 
 def _why(state: RobotState) -> str:
-    if state.last:
-        return state.last
-    return (
-        f"I have not stopped. {_status(state)}" if state.doing else "I have not done anything yet."
-    )
+    idle = f"I have not stopped. {_status(state)}" if state.doing else ""
+    said = state.last or idle or "I have not done anything yet."
+    return f"{said} Something is wrong: {'; '.join(state.problems)}." if state.problems else said
 
 
 def _capabilities(state: RobotState) -> str:

@@ -370,6 +370,8 @@ class Executive:
         self._operator.set(PAUSE, "")
 
     def _stop(self, why: str, last: int) -> None:
+        if self.board.read(STOP) and last <= self._stop_until:
+            return  # it comes to a stand already, and ends them all
         self.stage.record("stop", why=why)
         self._go_on()
         self.stage.breakpoints.go_on()

@@ -11,10 +11,13 @@ from executive.behaviours.stage import Stage, failure_data
 from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
 from executive.engine.health_monitor import HealthMonitor
 from executive.engine.reminder import Reminder
-from executive.health import Health, Level
+from executive.health import Finding, Health, Level
 from executive.skills.holding import Held, Holdings
 from robot.link import BodyLink
 from robot.messages import BodyState, Side
+
+HEAT_STEP_C = 5.0
+"""By so much a motor gets hotter or cooler before that is journalled again."""
 
 
 def _stamp(message: object) -> float | None:
@@ -38,6 +41,7 @@ class Sense(Behaviour):
         self._health = Health()
         self._held: tuple[Held, ...] = ()
         self._pulls: dict[Side, int] = {}
+        self._told_c: dict[str, float] = {}
 
     def at(self, now_s: float) -> None:
         """Set the time of the tick that comes."""
@@ -106,7 +110,11 @@ class Sense(Behaviour):
         """Journal what has come up or gone away since the last tick."""
         before = {(finding.name, finding.level) for finding in self._health.findings}
         for finding in health.findings:
-            if (finding.name, finding.level) not in before:
+            heat_c = _heat_c(finding)
+            told_c = self._told_c.get(finding.name, heat_c)
+            is_new = (finding.name, finding.level) not in before
+            if is_new or abs(heat_c - told_c) >= HEAT_STEP_C:
+                self._told_c[finding.name] = heat_c
                 self._stage.record(
                     "health",
                     name=finding.name,
@@ -118,6 +126,12 @@ class Sense(Behaviour):
             if finding.name not in after:
                 self._stage.record("health", name=finding.name, level=Level.OK.name)
         self._health = health
+
+
+def _heat_c(finding: Finding) -> float:
+    """The temperature that a finding is about; 0 if it is about none."""
+    heat_c = finding.failure.evidence.get("temperature_c")
+    return float(heat_c) if isinstance(heat_c, int | float) else 0.0
 
 
 class WindDown(Behaviour):

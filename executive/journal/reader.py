@@ -17,6 +17,7 @@ from executive.journal.floor_plan import Outline, Plan, Pose, Sight
 from executive.journal.journal import Event, decode, lines
 from executive.journal.keeping import MOST_TEXT, clipped, keep_ends, keep_evenly
 from executive.journal.run import (
+    OVER,
     BoardChange,
     Ending,
     Finding,
@@ -34,8 +35,6 @@ T = TypeVar("T")
 
 Handler = Callable[[float, Mapping[str, Any]], None]
 """Takes the events of a kind: whole, or it raises and changes nothing."""
-
-OVER = frozenset({"done", "failed", "cancelled"})
 
 MOST_LOGGED, MOST_CHANGES, MOST_FINDINGS = 20_000, 20_000, 5000
 MOST_POSES, MOST_SIGHTS, MOST_THINGS, MOST_CORNERS = 20_000, 200, 500, 16
@@ -248,6 +247,7 @@ class Reader:
     def _recovery(self, t_s: float, data: Mapping[str, Any]) -> None:
         self._steps.recovery(t_s, data)
         self._trees.remedied(t_s)
+        self.run.recoveries += 1
 
     def _board(self, t_s: float, data: Mapping[str, Any]) -> None:
         key, value = clipped(str(data["key"])), _brief(data["value"])

@@ -143,6 +143,10 @@ class Task(msgspec.Struct, kw_only=True):
         return [one for one in self.attempts if one.same_step(step)]
 
 
+OVER = frozenset({"done", "failed", "cancelled"})
+"""States of a job that is over."""
+
+
 class RecordedJob(msgspec.Struct, kw_only=True, omit_defaults=True):
     """Something that was asked for, and its states with their times."""
 
@@ -181,7 +185,8 @@ class Run(msgspec.Struct, kw_only=True):
 
     `unreadable` lines could not be understood, the first of them in line `unreadable_line`; `cut`
     says that the last line was half written; `missing` events were never written. Of a very long
-    run only so much is held: `left_out` counts what was let go of. `tasks` are the newest ones, one
+    run only so much is held: `left_out` counts what was let go of. `recoveries` counts those of all
+    its jobs. `tasks` are the newest ones, one
     or more, the newest last.
     """
 
@@ -195,6 +200,7 @@ class Run(msgspec.Struct, kw_only=True):
     unreadable_line: int = 0
     cut: bool = False
     left_out: int = 0
+    recoveries: int = 0
     roots: list[int] = []
     nodes: dict[int, Node] = {}
     board: list[BoardChange] = []

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import msgspec
 
-from executive.journal.run import Run
+from executive.journal.run import OVER, Run
 from executive.journal.tree import Change, Node, State
 
 _GUARDS = frozenset({"sequence", "selector"})
@@ -48,6 +48,22 @@ def snapshot(run: Run, t_s: float | None = None, *, everything: bool = False) ->
     when_s = run.end_s if t_s is None else t_s
     hidden: set[int] = set() if everything else inner(run) | _idle(run, when_s)
     return _tree(run.walk(t_s=when_s), hidden, lambda node: _shown(node, when_s))
+
+
+def come_to_rest(run: Run) -> None:
+    """Let what stands around the jobs of a whole run be over where all of them are.
+
+    The last tick, in which that is noted, tells no more of itself; of a run that was cut off what
+    ran last is what it was at.
+    """
+    if not run.endings or any(job.states and job.states[-1][1] not in OVER for job in run.jobs):
+        return
+    around = {node.parent for node in run.nodes.values() if node.kind == "jobs"}
+    below = {number for parent in around if parent >= 0 for number in run.nodes[parent].children}
+    guards = [number for number in below if run.nodes[number].kind in _GUARDS]
+    for _, node in run.walk(guards):
+        if _last(node).state == "running":
+            node.changes.append(Change(run.end_s, "done"))
 
 
 def at_work(run: Run) -> list[Shown]:

@@ -109,7 +109,7 @@ def _failed(run: Run) -> Explanation:
 def _stopped(run: Run) -> Explanation:
     task = run.task
     cause = task.reason.cause if task.reason else "stopped on request"
-    lines = _doing(run)
+    lines = _doing(run) + _troubles("What had gone wrong:", task)
     asked = [note for note in task.notes if note.kind in ("stop", "cancel", "abort")]
     if asked and run.end_s > asked[-1].t_s:
         lines.append(f"It came to rest in {run.end_s - asked[-1].t_s:.1f} s.")
@@ -250,10 +250,18 @@ def _doing(run: Run, opening: str = "It was doing") -> list[str]:
     if going is None and task.attempts and task.attempts[-1].result == "stopped":
         going = task.attempts[-1]
     if going is None:
-        return ["Nothing was being done at that moment."]
+        return [_waiting_for_help(task) or "Nothing was being done at that moment."]
     since_s = run.end_s - going.began_s
     text = f'{opening} "{going.step}" since {going.began_s:.1f} s ({since_s:.1f} s)'
     return [f"{text}, {_phase(going)}." if going.phase else f"{text}."]
+
+
+def _waiting_for_help(task: Task) -> str:
+    """What a person had been asked for and had not done by the end; empty if nothing."""
+    asked = [note for note in task.notes if note.kind in ("help", "answer")]
+    if not asked or asked[-1].kind == "answer":
+        return ""
+    return f"It was waiting for a person since {asked[-1].t_s:.1f} s: {asked[-1].text}."
 
 
 # --- words -------------------------------------------------------------------------------------

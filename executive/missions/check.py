@@ -6,6 +6,7 @@ import gc
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -14,7 +15,7 @@ from executive.missions import fault_plans
 from executive.missions.compiling import Compiler
 from executive.missions.fault_plans import FaultPlan
 from executive.missions.load import Mission, load
-from executive.missions.names import Names
+from executive.missions.names import Names, NoNames
 from executive.missions.problems import Enough, Problems
 from executive.missions.values import Bound
 from executive.trees.build import before
@@ -126,6 +127,7 @@ def _check(
 ) -> Checked | None:
     where = _setting(mission, reality, options, problems=problems)
     if where is None:
+        _check_without_world(mission, reality, options, problems=problems)
         return None
     names = Names(where.knowledge)
     compiler = Compiler(names, where.description, problems)
@@ -134,6 +136,8 @@ def _check(
         mission, given, where=mission.node.key("parameters"), samples=options.samples
     )
     task = compiler.mission(mission, values)
+    if not options.first:  # else nobody knows how much of it is left
+        compiler.note_limits(task)
     _check_speed(mission, where, problems)
     plans = _faults(mission, where, problems)
     done = _done(task, options.first, problems)
@@ -149,13 +153,38 @@ def _check(
     )
 
 
+def _check_without_world(
+    mission: Mission, reality: Reality, options: Options, *, problems: Problems
+) -> None:
+    """Note what is wrong in a mission wherever it is done, where its world or robot is none."""
+    robot = mission.beside(mission.record.robot) if options.robot is None else options.robot
+    world = next(iter(reality.names()))
+    for stand_in in dict.fromkeys((robot, *description.shipped())):
+        try:
+            anywhere = setting(reality, world, robot=stand_in)
+        except ConfigError:
+            continue
+        names = NoNames(anywhere.knowledge)
+        compiler = Compiler(names, anywhere.description, problems)
+        given = {name: _typed(name, text) for name, text in options.params.items()}
+        values = compiler.calls.bound(
+            mission, given, where=mission.node.key("parameters"), samples=options.samples
+        )
+        compiler.mission(mission, values)
+        if stand_in == robot:
+            _check_speed(mission, anywhere, problems)
+        for node in mission.record.faults:
+            _check_fault(node, problems)  # pyright: ignore[reportArgumentType]
+        return
+
+
 def _setting(
     mission: Mission, reality: Reality, options: Options, *, problems: Problems
 ) -> Setting | None:
     """Robot and world; mistakes in them are noted, each where it is named.
 
-    The rest is then looked at for what was most likely meant, and not at all (None) where nothing
-    of a near name comes along.
+    The rest is then looked at for what was most likely meant; None where nothing of a near name
+    comes along.
     """
     said, named = options, mission.record
     robot = mission.beside(named.robot) if said.robot is None else said.robot
@@ -221,15 +250,8 @@ def _faults(mission: Mission, where: Setting, problems: Problems) -> tuple[Fault
 
 
 def _fault(node: Node, where: Setting, problems: Problems) -> FaultPlan | None:
-    if node.kind != "map":
-        cure = 'for example: {phase: "lifting*", fault: remove, target: red cup}'
-        problems.add(node, "a fault is a mapping", cure)
-        return None
-    data = node.plain_data
-    wrong = fault_plans.wrong_in(data)
-    for key, problem in wrong:
-        problems.add(node.get(key) or node, problem.message, problem.suggestion or "")
-    if wrong:
+    data = _check_fault(node, problems)
+    if data is None:
         return None
     plan = fault_plans.plan(data)
     try:
@@ -242,12 +264,26 @@ def _fault(node: Node, where: Setting, problems: Problems) -> FaultPlan | None:
     return plan
 
 
+def _check_fault(node: Node, problems: Problems) -> dict[str, Any] | None:
+    """A fault as plain data; None where it cannot be meant in any world, which is noted."""
+    if node.kind != "map":
+        cure = 'for example: {phase: "lifting*", fault: remove, target: red cup}'
+        problems.add(node, "a fault is a mapping", cure)
+        return None
+    data = node.plain_data
+    wrong = fault_plans.wrong_in(data)
+    for key, problem in wrong:
+        problems.add(node.get(key) or node, problem.message, problem.suggestion or "")
+    return None if wrong else data
+
+
 def _done(task: Part, first: str, problems: Problems) -> frozenset[str]:
     if not first:
         return frozenset()
     done = before(task, first)
     if done is None:
-        known = [path for path, part in walk(task) if path and not isinstance(part, Series)]
+        paths = (path for path, part in walk(task) if path and not isinstance(part, Series))
+        known = [*dict.fromkeys(paths)]  # what is retried or limited has the path of what it holds
         place = Node("text", "--from", 0, 0)
         problems.add(place, f"there is no step {first!r} in this mission", nearest(first, known))
         return frozenset()

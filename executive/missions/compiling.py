@@ -6,6 +6,8 @@ no third thing is taken with two hands. A mistake ends one step, not the check.
 
 from __future__ import annotations
 
+from math import floor
+
 import msgspec
 from msgspec.structs import replace
 
@@ -15,8 +17,10 @@ from executive.meaning.validation import check
 from executive.missions import schema as s
 from executive.missions.calling import Calls
 from executive.missions.conditions import Conditions
+from executive.missions.contradictions import contradicted
+from executive.missions.least_times import LeastTimes
 from executive.missions.load import Mission
-from executive.missions.names import Names
+from executive.missions.names import Names, NoNames
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.slots import Slots
@@ -60,6 +64,15 @@ class Compiler:
         self._conditions = Conditions(names, problems)
         self._meant: dict[tuple[goals.Goal, Hands], Meant] = {}
         self._count = 0
+        self._limits: list[tuple[p.Timeout, Node]] = []
+
+    def note_limits(self, task: p.Part) -> None:
+        """Note limits that are shorter than what they limit can take."""
+        nodes = {id(part): node for part, node in self._limits}
+        for limit, least_s in LeastTimes(self._description).too_short(task):
+            takes = f"{floor(100.0 * least_s) / 100.0:g} s at least"
+            text = f"{limit.limit_s:g} s: what is to be done takes {takes}"
+            self.problems.add(nodes[id(limit)], text, "a longer limit, or less to do")
 
     # --- missions ---
 
@@ -76,6 +89,9 @@ class Compiler:
             self._conditions.read(item, scope, self.scene) for item in _items(node.get("expect"))
         ]
         good = tuple(finding for finding in findings if finding is not None)
+        for item, other in contradicted(_items(node.get("expect")), self.names, self.scene):
+            text = f"this and what is expected in line {other.line} are never both so"
+            self.problems.add(item, text, "leave one of them out")
         if good:
             steps.append(p.Expect(name="expect", findings=good))
         if not self.calls.nested:
@@ -83,6 +99,8 @@ class Compiler:
         part: p.Part = p.Series(name=record.name, parts=tuple(steps))
         if record.limits.duration_s is not None:
             part = p.Timeout(name=record.name, part=part, limit_s=record.limits.duration_s)
+            limits = node.get("limits")
+            self._limits.append((part, (limits and limits.get("duration_s")) or node))
         if record.always:
             after = p.Series(name="always", parts=self.steps(record.always, scope))
             part = p.Always(name=record.name, part=part, after=after)
@@ -113,7 +131,7 @@ class Compiler:
             return None
         record = Reader(self.problems, scope.fill).record(node, s.STEPS[key])
         if record is None:
-            node = self._sound(node, s.STEPS[key], scope)
+            node = Reader(Problems(), scope.fill).readable(node, s.STEPS[key])
             record = Reader(Problems(), scope.fill).record(node, s.STEPS[key])
         if record is None:
             self._look_inside(node, scope)
@@ -141,13 +159,6 @@ class Compiler:
             self.problems.add(node.key(second), text, "begin another step with -")
             return None
         return found[0]
-
-    def _sound(self, node: Node, kind: type[s.StepRecord], scope: Scope) -> Node:
-        """The keys of a step that can be read, so that what they mean is looked at all the same."""
-        reader = Reader(Problems(), scope.fill)
-        sound = Node("map", node.file, node.line, node.column)
-        sound.entries = {k: v for k, v in node.entries.items() if reader.fits(node, kind, k)}
-        return sound
 
     def _look_inside(self, node: Node, scope: Scope) -> None:
         """Look for more mistakes inside a step that is wrong itself: conditions, and steps."""
@@ -179,6 +190,7 @@ class Compiler:
             part = p.Retry(name=name, part=part, attempts=int(record.retry) + 1)
         if record.timeout_s is not None:
             part = p.Timeout(name=name, part=part, limit_s=float(record.timeout_s))
+            self._limits.append((part, node.get("timeout_s") or node))
         if handlers:
             part = p.OnFail(name=name, part=part, handlers=handlers)
         if always:
@@ -223,6 +235,8 @@ class Compiler:
         return meant.part
 
     def _ground(self, goal: goals.Goal) -> Meant:
+        if isinstance(self.names, NoNames):
+            return Meant(part=None, after=self._hands)
         scene = self.scene
         try:
             part = part_of(goal, scene)
@@ -346,7 +360,8 @@ class Compiler:
             rounds.append(p.Series(name=f"with {value.value}", parts=parts))
         if not items:
             self.steps(record.do, scope.inside(record.for_each, None))
-        return p.Series(name=f"for each {record.for_each}", parts=tuple(rounds)) if rounds else None
+        name = f"for each {record.for_each}{'' if rounds else ', of which there is none'}"
+        return p.Series(name=name, parts=tuple(rounds))
 
     def each(self, record: s.ForEachStep, node: Node) -> list[Bound]:
         """The things of a for_each, by name."""

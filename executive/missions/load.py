@@ -83,13 +83,9 @@ def _as_it_is(node: Node) -> Node:
 
 
 def _sound(node: Node) -> Node:
-    """The outermost keys that can be read, so that the steps are looked at all the same."""
+    """What can be read of it, so that the steps are looked at all the same."""
     reader = Reader(Problems(), _as_it_is)
-    sound = Node("map", node.file, node.line, node.column)
-    for key, (at, value) in node.entries.items():
-        left = value if reader.fits(node, MissionRecord, key) else _sound_items(at, value, reader)
-        if left is not None:
-            sound.entries[key] = (at, left)
+    sound = reader.readable(node, MissionRecord)
     if "parameters" in node.entries and "parameters" not in sound.entries:
         key, parameters = node.entries["parameters"]
         if parameters.kind != "map":  # nobody knows what it declares
@@ -103,16 +99,3 @@ def _sound(node: Node) -> Node:
         sound.entries["parameters"] = (key, kept)
     sound.entries.setdefault("name", (node, text_node("mission", node)))
     return sound
-
-
-def _sound_items(key: Node, value: Node, reader: Reader) -> Node | None:
-    """The items of a list that can be read, as the list; None if there are none."""
-    left = Node("list", value.file, value.line, value.column)
-    for item in value.items:
-        alone = Node("list", item.file, item.line, item.column)
-        alone.items = [item]
-        holder = Node("map", item.file, item.line, item.column)
-        holder.entries = {key.text: (key, alone)}
-        if reader.fits(holder, MissionRecord, key.text):
-            left.items.append(item)
-    return left if left.items else None

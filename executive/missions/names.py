@@ -192,3 +192,27 @@ class Names:
 
 def _nearest(name: str, valid: list[str]) -> str:
     return nearest(name, valid) if valid else "there are none in this world"
+
+
+class NoNames(Names):
+    """Knows nothing and notes nothing: for what needs no world, where there is none to ask."""
+
+    def is_place(self, text: str) -> bool:
+        """Nobody knows."""
+        del text
+        return False
+
+    def is_person(self, text: str) -> bool:
+        """Nobody knows."""
+        del text
+        return False
+
+    def sample(self, kind: str) -> str | None:
+        """Nothing fits, but numbers."""
+        return super().sample(kind) if kind in ("text", "number", "integer", "flag") else None
+
+    def _look_up(
+        self, kind: str, look: Callable[[str], T], node: Node, problems: Problems
+    ) -> T | None:
+        del kind, look, node, problems
+        return None

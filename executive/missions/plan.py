@@ -43,11 +43,19 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Plan(msgspec.Struct, frozen=True, kw_only=True):
-    """A dry run: its rows, the time in all, and how many steps will not work."""
+    """A dry run: its rows, the time in all, and what is known against it.
+
+    Attributes:
+        rows: the steps.
+        total_s: the time in all.
+        problems: how many steps will not work.
+        problem: why the whole would fail, where that is not for one of its steps.
+    """
 
     rows: tuple[Row, ...]
     total_s: float
     problems: int
+    problem: str = ""
 
 
 def forecast(
@@ -66,9 +74,10 @@ def forecast(
         X_WS: where the robot stands before it (None: where the world file has it).
     """
     rows: list[Row] = []
-    total_s = _Forecaster(Rehearsal(where, X_WS=X_WS), done, rows).part(task, "", 0)
+    forecaster = _Forecaster(Rehearsal(where, X_WS=X_WS), done, rows)
+    total_s = round(forecaster.part(task, "", 0), 1)
     problems = sum(1 for row in rows if row.problem)
-    return Plan(rows=tuple(rows), total_s=round(total_s, 1), problems=problems)
+    return Plan(rows=tuple(rows), total_s=total_s, problems=problems, problem=forecaster.problem)
 
 
 def forecast_lines(task: p.Part, where: Setting) -> list[str]:
@@ -89,6 +98,8 @@ def lines(plan: Plan) -> list[str]:
     minutes, seconds = divmod(round(plan.total_s), 60)
     total = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
     found.append(f"In all about {total}, without recoveries.")
+    if plan.problem:
+        found.append(f"  will not work: {plan.problem}")
     return found
 
 
@@ -102,6 +113,7 @@ class _Forecaster:
     def __init__(self, outlook: Rehearsal, done: frozenset[str], rows: list[Row]) -> None:
         self._done, self._rows = done, rows
         self._outlook = outlook
+        self.problem = ""
 
     def part(self, part: p.Part, path: str, depth: int) -> float:
         """Add the rows of a part; returns how long it takes [s]."""
@@ -122,9 +134,9 @@ class _Forecaster:
                 return sum(self._rows_inside(part, path, depth))
             case p.Loop():
                 return self._loop(part, path, depth)
-            case p.Retry() | p.Timeout():
-                return self.part(part.part, path, depth)
-            case p.OnFail():
+            case p.Timeout():
+                return self._limited(part, path, depth)
+            case p.Retry() | p.OnFail():
                 return self.part(part.part, path, depth)
             case p.Always():
                 span_s = self.part(part.part, path, depth)
@@ -157,10 +169,20 @@ class _Forecaster:
             self._rows.append(row)
 
     def _series(self, part: p.Series, path: str, depth: int) -> float:
-        if path and part.parts:
+        if part.parts or path.rpartition(".")[2].isdigit():  # a step that is there, if of nothing
             self._row(path, depth, part.name, "series")
         inside = depth + 1 if path else depth
         return sum(self.part(child, at, inside) for at, child in p.children(part, path))
+
+    def _limited(self, part: p.Timeout, path: str, depth: int) -> float:
+        at, span_s = len(self._rows), self.part(part.part, path, depth)
+        if span_s > part.limit_s:
+            problem = f"it has {part.limit_s:g} s, and takes {_about(span_s)}"
+            if not path:
+                self.problem = problem
+            elif at < len(self._rows) and not self._rows[at].problem:
+                self._rows[at] = msgspec.structs.replace(self._rows[at], problem=problem)
+        return span_s
 
     def _loop(self, part: p.Loop, path: str, depth: int) -> float:
         self._row(path, depth, part.name, "loop")

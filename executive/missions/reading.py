@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any, TypeVar
 
@@ -44,14 +44,44 @@ class Reader:
         except Mistake:
             return None
 
-    def fits(self, node: Node, kind: type[Record], key: str) -> bool:
-        """Whether one key of a mapping can be read."""
-        field = next((f for f in _info(kind).fields if f.encode_name == key), None)
-        entry = node.get(key)
-        if field is None or entry is None:
-            return False
+    def readable(self, node: Node, kind: type[Record]) -> Node:
+        """What can be read of a mapping: of what it holds too, so that the rest is looked at."""
+        return self._pruned(node, _info(kind).fields) or Node(
+            "map", node.file, node.line, node.column
+        )
+
+    def _pruned(self, node: Node, fields: Iterable[types.Field]) -> Node | None:
+        """The keys of a mapping that can be read; None if there are none."""
+        left = Node("map", node.file, node.line, node.column)
+        known = {field.encode_name: field.type for field in fields}
+        for name, (key, value) in node.entries.items():
+            if name in known and (kept := self._readable(value, known[name])) is not None:
+                left.entries[name] = (key, kept)
+        return left if left.entries else None
+
+    def _readable(self, node: Node, info: types.Type) -> Node | None:
+        """What can be read of a value; None if it means nothing."""
+        if self._is_read(node, info):
+            return node
+        if isinstance(info, types.Metadata):
+            return self._readable(node, info.type)
+        if isinstance(info, types.UnionType):
+            try:
+                return self._readable(node, self._choose(node, info))
+            except Mistake:
+                return None
+        left = None
+        if isinstance(info, types.StructType) and node.kind == "map":
+            left = self._pruned(node, info.fields)
+        elif isinstance(info, types.VarTupleType | types.ListType) and node.kind == "list":
+            left = Node("list", node.file, node.line, node.column)
+            items = [self._readable(item, info.item_type) for item in node.items]
+            left.items = [item for item in items if item is not None]
+        return left if left is not None and self._is_read(left, info) else None
+
+    def _is_read(self, node: Node, info: types.Type) -> bool:
         try:
-            self._value(entry, field.type)
+            self._value(node, info)
         except Mistake:
             return False
         return True
@@ -199,7 +229,7 @@ class Reader:
         )
         if not fits:
             words = in_words(info)
-            limits = "" if words != in_words(type(info)()) else f" of less than {BEYOND:g}"
+            limits = "" if words != in_words(type(info)()) else f" of less than {BEYOND:,.0f}"
             text = f"{self._key}: {_shape(node)} where {words}{limits} should be"
             raise self._wrong(node, text)
         return value

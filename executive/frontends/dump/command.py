@@ -18,6 +18,7 @@ from executive.journal.dumps.formats import FORMATS, Wish, render
 from executive.journal.dumps.text import Style
 from executive.journal.journal import FILE
 from executive.journal.run import Run
+from executive.journal.snapshot import come_to_rest
 from executive.journal.why import why
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import write_ordinary
@@ -90,6 +91,7 @@ def load(folder: Path) -> Run:
     if not run.events:
         text = f"{folder / FILE} has no event"
         raise ConfigError([Problem(text, suggestion="choose another run")])
+    come_to_rest(run)
     return run
 
 

@@ -20,6 +20,7 @@ from executive.engine.executive import Executive
 from executive.frontends.output import say
 from executive.journal.dumps.formats import FORMATS, Format, Wish, render
 from executive.journal.journal import Event
+from executive.journal.snapshot import come_to_rest
 from executive.journal.why import why
 from executive.runs.task_run import Progress, Show
 from robot.closing import Closing
@@ -82,6 +83,7 @@ class Dumper(Closing):
         """Write the end; safe to call twice."""
         if not self._closed:
             self._closed = True
+            come_to_rest(self._run)
             self._write("end")
 
     def _heard(self, event: Event) -> None:

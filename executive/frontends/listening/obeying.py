@@ -112,7 +112,7 @@ class Conversation:
         try:
             self._listen(options)
         finally:
-            if self._shell.robot.lost is not None or self._shell.robot.interrupts.count:
+            if self._over:
                 self._shell.leave()
             self._worker.shutdown(wait=True)
         return self._status()
@@ -127,14 +127,20 @@ class Conversation:
                     self.take(one)
                 for one in self._ear.finish() if block.ends else ():
                     self.take(one)
-                if shell.robot.lost is not None or shell.robot.interrupts.count:
+                if self._over:
                     break
             else:
                 for one in self._ear.finish():
                     self.take(one)
 
+    @property
+    def _over(self) -> bool:
+        """Whether the robot is gone, or somebody wanted to leave; standing since ends no wish."""
+        robot = self._shell.robot
+        return robot.lost is not None or robot.interrupts.pressed > 0
+
     def take(self, one: Spoken) -> None:
-        """Do what was said."""
+        """Do what was said; of what comes after a wish to leave, only a stop."""
         shell = self._shell
         if one.kind == "ignored":
             if one.text:
@@ -143,6 +149,8 @@ class Conversation:
         say(f"> {one.text}")
         if one.kind == "stop" or shell.brake.is_cry(one.text):
             shell.brake.stop("a cry to stop was heard")
+        elif self._over:
+            return
         elif one.kind == "halt":
             shell.halt_at_once(one.text, spoken=True)
         elif one.kind == "halted":

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from executive.engine.executive import JobError
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.robot import AtWork
@@ -25,7 +27,6 @@ class Brake:
 
     Attributes:
         halt: whether it has halted for a cry, and waits to be told more.
-        stops: how often it was told to stop; a line from before the last one comes to nothing.
         stops_before: what `stops` was when the line that is being done was entered (None: as now).
     """
 
@@ -46,7 +47,7 @@ class Brake:
             model: is waited for no longer.
         """
         self.halt = Halt(robot.executive)
-        self.stops = 0
+        self._stops = 0
         self.stops_before: int | None = None
         self._robot = robot
         self._dialogue = dialogue
@@ -67,7 +68,7 @@ class Brake:
     def stop_unsaid(self, why: str) -> None:
         """Stop without a word; first the robot, then what only is in the way of hearing."""
         with self._lock:
-            self.stops += 1
+            self._stops += 1
             self._robot.executive.stop(why)
             self.halt.forget()
         self._ask_model_no_more()
@@ -107,10 +108,16 @@ class Brake:
     def leave(self) -> None:
         """Let nothing begin any more, and bring the robot to a stand."""
         with self._lock:
-            self.stops += 1
+            self._stops += 1
             if self._robot.busy:
                 self._robot.executive.stop("the operator leaves")
         self._ask_model_no_more()
+        self._people.speech.hush()
+
+    @property
+    def stops(self) -> int:
+        """How often it was told to stop, signals included; a line from before comes to nothing."""
+        return self._stops + self._robot.interrupts.pressed
 
     def stopped_since(self, stops: int | None) -> bool:
         """Whether there was a stop since there had been so many (None: since now)."""
@@ -124,7 +131,13 @@ class Brake:
     def unless_stopped(self, begin: Callable[[], int]) -> int | None:
         """What `begin` returns; None, and it is not called, if this line was `stopped`."""
         with self._lock:
-            return None if self.stopped else begin()
+            if self.stopped:
+                return None
+            number = begin()
+        if self.stopped:  # by a signal in between, which waits for no lock
+            with suppress(JobError):
+                self._robot.executive.cancel(number, "stopped on request")
+        return number
 
     def standing(self) -> str:
         """What is true of a robot that has nothing to stop."""

@@ -87,8 +87,10 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
             if on_terminal:
                 return _at_terminal(shell, options, handle, ahead)
             interrupts = shell.robot.interrupts
-            work_off(shell, lines_until(sys.stdin, lambda: interrupts.count > 0))
-            status = status_of(shell)
+            whole = work_off(shell, lines_until(sys.stdin, lambda: interrupts.pressed > 0))
+            if interrupts.pressed:
+                shell.leave()
+            status = status_of(shell) if whole else max(status_of(shell), ExitStatus.FAILED)
         speech.finish()
         return status
 

@@ -15,19 +15,27 @@ LOOK_S = 0.1
 CHUNK = 65536
 
 
-def work_off(shell: Shell, lines: Iterable[str]) -> None:
-    """Do every line; ends with the last, with `quit`, or when the robot is gone."""
+def work_off(shell: Shell, lines: Iterable[str]) -> bool:
+    """Do every line; ends with the last, with `quit`, when the robot is gone, or with a signal.
+
+    Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand
+    for it. Returns whether no line that came was left undone for that.
+    """
     for line in lines:
         text = line.strip()
         if not text or text.startswith("#"):
             continue
+        if shell.robot.interrupts.pressed:
+            shell.out(f"Not done: “{text}”, and what follows it: a signal says to leave")
+            return False
         shell.out(f"> {text}")
         shell.line(text)
         shell.robot.wait()
         if shell.gone:
             shell.out(shell.gone)
-        if shell.leaving or shell.gone or shell.robot.interrupts.count:
-            return
+        if shell.leaving or shell.gone:
+            break
+    return True
 
 
 def lines_until(stream: TextIO, over: Callable[[], bool]) -> Iterator[str]:

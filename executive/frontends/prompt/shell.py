@@ -188,8 +188,10 @@ class Shell(Answering):
 
         Args:
             text: what was typed.
-            stops: what `stops` was by then; a stop since then is about this line too.
+            stops: what `stops` was by then (None: as now); a stop since then is about this line
+                too.
         """
+        before = self.stops if stops is None else stops
         try:
             if self.stop_at_once(text):
                 return
@@ -197,7 +199,7 @@ class Shell(Answering):
             self.refuse(f"Not done: {error}")
             self.ask_to_go_on()
             return
-        with self._turn(stops):
+        with self._turn(before):
             halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
             if self.brake.stopped:
@@ -221,7 +223,7 @@ class Shell(Answering):
                 self.sentence(text)
 
     @contextmanager
-    def _turn(self, stops: int | None) -> Generator[None]:
+    def _turn(self, stops: int) -> Generator[None]:
         """One line: people at the terminal and at pages take turns."""
         with self._one_line:
             self.brake.stops_before = stops

@@ -21,7 +21,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
     jobs = executive.jobs
     under_way = [job for job in jobs if job.state in UNDER_WAY]
     over = [job for job in jobs if job.state in OVER]
-    power = link.power()
+    power, help_ = link.power(), executive.question
     state = state_of(executive.board, knowledge, skills=SKILLS)
     start = knowledge.map.start_X_WS
     x_m, y_m, _ = start.p
@@ -34,6 +34,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
         step=state.step if under_way else "",
         waiting=tuple(job.text for job in jobs if job.state == "waiting"),
         mode={"pausing": "paused", "stopping": "stopped"}.get(executive.state, executive.state),
+        problems=(*state.problems, *([f"I need help, {help_}"] if help_ else [])),
         battery=power.charge if power else None,
         last=_ending(over[-1]) if over else "",
         did=over[-1].text if over else "",

@@ -18,12 +18,13 @@ from typing import Any
 
 from prompt_toolkit import PromptSession
 from prompt_toolkit.auto_suggest import AutoSuggestFromHistory
+from prompt_toolkit.filters import is_searching
 from prompt_toolkit.formatted_text import StyleAndTextTuples
 from prompt_toolkit.history import FileHistory, History, InMemoryHistory
 from prompt_toolkit.key_binding import KeyBindings, KeyPress, KeyPressEvent
 from prompt_toolkit.keys import Keys
 from prompt_toolkit.patch_stdout import patch_stdout
-from prompt_toolkit.search import stop_search
+from prompt_toolkit.search import accept_search, stop_search
 from prompt_toolkit.shortcuts import CompleteStyle
 from prompt_toolkit.styles import Style
 
@@ -33,7 +34,7 @@ from executive.frontends.prompt.keyboard import HEEDED, Keyboard
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
-from intents.stopping import is_stay
+from intents.stopping import is_stay, is_stop
 from robot.errors import RobotError
 
 REFRESH_S = 0.2
@@ -261,6 +262,16 @@ class Terminal:
                 event.current_buffer.text = event.data
                 event.current_buffer.validate_and_handle()
 
+        def search(event: KeyPressEvent) -> None:
+            """A cry to stop that was typed into a search is a line, whatever the search found."""
+            typed = event.current_buffer.text
+            if not (is_stop(typed) or is_stay(typed)):
+                accept_search()
+                return
+            leave_modes(event)
+            event.current_buffer.text = typed
+            event.current_buffer.validate_and_handle()
+
         def paste(event: KeyPressEvent) -> None:
             """Each line that was pasted is a line; what follows the last end of one stays."""
             pasted = without_sequences(event.data)
@@ -282,6 +293,7 @@ class Terminal:
         for key in (Keys.ControlC, Keys.ControlBackslash):
             add(key, eager=True)(stop)
         add(HEEDED, eager=True)(heeded)
+        add(Keys.Enter, filter=is_searching)(search)
         add(Keys.ControlZ, eager=True)(suspend)
         add(Keys.BracketedPaste)(paste)
         add(Keys.Vt100MouseEvent)(ignore)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from executive.meaning.handlers.putting import part_of_floor
 from executive.meaning.identify import Scene, cannot
 from executive.skills.balance import BalanceParams
@@ -46,7 +48,8 @@ def _walk_words(step: Step) -> str:
         f"{abs(step.left_m):.2g} m {'left' if step.left_m > 0 else 'right'}" if step.left_m else "",
     ]  # fmt: skip
     walk = " and ".join(word for word in words if word)
-    turn = "turn " + ("left" if step.turn_rad > 0 else "right") if step.turn_rad else ""
+    side, turn_deg = "left" if step.turn_rad > 0 else "right", abs(math.degrees(step.turn_rad))
+    turn = f"turn {turn_deg:.0f}° {side}" if step.turn_rad else ""
     return ", ".join(word for word in (turn, f"walk {walk}" if walk else "") if word) or "stay"
 
 

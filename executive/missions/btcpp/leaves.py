@@ -25,7 +25,7 @@ class Leaf(msgspec.Struct, frozen=True, kw_only=True):
         ports: the slot of each.
         defaults: what ports are taken to be that are not given.
         negative: ports whose values count as negative, whatever their sign.
-        left_out: ports that change nothing here, each with the reason where it is worth a word.
+        left_out: ports that change nothing here, each with the reason, which is told.
     """
 
     step: str

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from executive.missions.btcpp import fitting, leaves
+from executive.missions.btcpp.ports import AUTOREMAP, OLDER, check_ports, reads, shares_all
 from executive.missions.btcpp.poses import poses_of
 from executive.missions.btcpp.steps import (
     NOTHING,
@@ -31,7 +32,6 @@ from robot.errors import ConfigError
 
 MAX_RECOVERIES = 5
 """In one another; what is in them is written out two to that power times."""
-_AUTOREMAP = ("_autoremap", "__autoremap", "__shared_blackboard")
 _FOR_PEOPLE = ("_description", "_uid", "_fullpath")
 """What Groot2 writes."""
 
@@ -109,6 +109,7 @@ class Importer:
         make = NODES.get(kind)
         before = len(self._problems)
         if make is not None:
+            check_ports(element, kind, attributes)
             step = make(self, element, attributes, ports)
         elif element.children:
             raise element.wrong(f"{kind} has no equivalent", nearest(kind, sorted(NODES)))
@@ -128,7 +129,7 @@ class Importer:
             if leaf is not None and key in leaf.left_out:
                 self._note(element, key, kind, leaf.left_out[key])
                 continue
-            if key.startswith("_") and key not in _AUTOREMAP:
+            if key.startswith("_") and key not in AUTOREMAP:
                 raise element.wrong(f"the condition {key!r} has no equivalent", "use IfThenElse")
             entry = re.fullmatch(r"\{(\w+)\}", text)
             if entry is None:
@@ -141,9 +142,9 @@ class Importer:
         return found
 
     def _note(self, element: Element, port: str, kind: str, why: str) -> None:
-        """Tell that a port was left out, where anybody would miss it."""
+        """Tell that a port was left out."""
         note = f"left out: line {element.line}, {port} of {kind}: {why}"
-        if why and note not in self._notes:
+        if note not in self._notes:
             self._notes.append(note)
 
     # --- nodes ---
@@ -247,9 +248,13 @@ class Importer:
         remapped = {
             key: self._remapped(element, key, text, ports)
             for key, text in attributes.items()
-            if key not in ("ID", "name", *_AUTOREMAP)
+            if key not in ("ID", "name", *AUTOREMAP)
         }
-        shared = any(attributes.get(key) in ("1", "true") for key in _AUTOREMAP)
+        for key in remapped:
+            if not reads(self._trees, name, key, older=self._older):
+                why = f"nothing in the tree {name!r} reads it"
+                self._note(element, key, element.tag, why)
+        shared = shares_all(attributes)
         inherited = ports if shared else {}
         steps = self.tree(name, element, {**inherited, **remapped})
         return named({"do": flat(steps)}, attributes)
@@ -290,7 +295,11 @@ class Importer:
             element.tag == "NavigateThroughPoses" or attributes.get("ID") == "NavigateThroughPoses"
         )
         port = "goals" if several else "goal"
-        steps = [{"go_to": {"pose": pose}} for pose in poses_of(element, attributes.get(port, ""))]
+        poses = poses_of(element, attributes.get(port, ""))
+        for height_m in dict.fromkeys(pose.pop("z_m") for pose in poses):
+            if height_m:
+                self._note(element, f"z {height_m:g}", port, "the robot walks on the floor")
+        steps = [{"go_to": {"pose": pose}} for pose in poses]
         for step in steps:
             fitting.check(element, element.tag, attributes, step)
         if len(steps) > 1 and not several:
@@ -358,6 +367,7 @@ class Importer:
         if kind not in _CONDITIONS:
             raise element.wrong(f"the condition {kind!r} has no equivalent",
                                 nearest(kind, sorted(_CONDITIONS)))  # fmt: skip
+        check_ports(element, kind, attributes)
         return _CONDITIONS[kind](element, attributes)
 
 
@@ -403,12 +413,6 @@ _CONDITIONS: dict[str, Callable[[Element, Ports], Any]] = {
     "IsHolding": lambda _, ports: {"holding": ports.get("object", True)},
     "IsAt": lambda _, ports: {"robot_at": ports.get("place", "")},
 }
-OLDER: dict[str, str] = {
-    "SequenceStar": "SequenceWithMemory",
-    "RetryUntilSuccesful": "RetryUntilSuccessful",
-    "SubTreePlus": "SubTree",
-}
-"""What nodes of format 3 are called since."""
 
 
 def _some(ports: Ports, *keys: str) -> dict[str, str]:

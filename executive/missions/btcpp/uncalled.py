@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from executive.missions.btcpp import leaves
-from executive.missions.btcpp.nodes import KINDS, NODES, OLDER
+from executive.missions.btcpp.nodes import KINDS, NODES
+from executive.missions.btcpp.ports import OLDER
 from executive.missions.btcpp.xml import Element
 from executive.missions.problems import Problems
 from robot.config import nearest

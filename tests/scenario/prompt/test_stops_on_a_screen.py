@@ -103,6 +103,22 @@ def test_the_rest_of_a_heeded_line_says_nothing(evening: Evening, typed: str):
     assert evening.text.count("Queued") == 0
 
 
+def test_a_cry_in_a_search_is_a_line_also_when_the_robot_stands(evening: Evening):
+    for line in ("watch body", "stop"):  # so that the search finds one
+        evening.press(line + ENTER)
+    evening.press(f"unwatch body{ENTER}\x0c")
+    evening.press("\x12stop")
+    assert evening.shows("reverse-i-search"), evening.text
+    evening.press(ENTER)
+    assert evening.shows("I stand already"), evening.text
+    assert eventually(lambda: evening.line.rstrip() == ">"), evening.text
+    evening.press("\x12watch")
+    assert evening.shows("reverse-i-search"), evening.text
+    evening.press(ENTER)  # what is no cry is found, to be edited
+    assert eventually(lambda: evening.line.endswith("watch body")), evening.text
+    evening.press("\x05" + CTRL_U)
+
+
 def test_the_late_end_of_a_paste_is_no_text(evening: Evening):
     evening.walk()
     evening.press("\x1b[200~walk to")

@@ -174,7 +174,7 @@ function head() {
   if (ending?.cause) badge.title = ending.cause;
   const about = run.about || {}, facts = [about.world, about.runtime, about.seed !== undefined ? `seed ${words(about.seed)}` : "", clock(END - BEGIN)];
   facts.push(`${order.length} nodes`);
-  if (ending?.recoveries) facts.push(ending.recoveries === 1 ? "1 recovery" : `${ending.recoveries} recoveries`);
+  if (run.recoveries) facts.push(run.recoveries === 1 ? "1 recovery" : `${run.recoveries} recoveries`);
   if (run.left_out) facts.push(`a very long run: ${run.left_out} details are left out`);
   if (run.unreadable) facts.push(`${run.unreadable} unreadable lines`);
   if (run.cut) facts.push("cut off in its last line");

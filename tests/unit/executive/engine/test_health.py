@@ -1,6 +1,8 @@
 """Health follows from the ages of messages and from what they say."""
 
 import itertools
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from msgspec.structs import replace
@@ -16,7 +18,8 @@ from executive.engine.health_monitor import (
     HealthMonitor,
     _Flow,
 )
-from executive.health import Level
+from executive.engine.sense import Sense
+from executive.health import Health, Level
 from robot.bus.topics import TOPICS
 from robot.failures import CATALOGUE
 from robot.messages import LoopTiming, PowerState, WorldState
@@ -251,3 +254,21 @@ def test_a_rate_that_wavers_is_told_once():
     assert any(thin)
     assert not thin[-1]
     assert changes == 2
+
+
+def test_how_hot_a_motor_is_by_now_is_journalled(robot):
+    """A page of a run shows what was true by then, not when it came up."""
+    told = []
+    watch, heat = monitor(), (79.0, 80.0, 81.0, 84.9, 85.0, 86.0, 91.0, 87.0, 85.9, 60.0)
+    sense = SimpleNamespace(
+        _health=Health(),
+        _told_c={},
+        _stage=SimpleNamespace(record=lambda _kind, **data: told.append(data)),
+    )
+    for hot_c in heat:
+        body = replace(robot.body(), temperature_c=(hot_c,))
+        Sense._journal(cast(Sense, sense), watch.look(1.0, {}, body=body, world=None))
+    said = [
+        data["evidence"]["temperature_c"] if "evidence" in data else data["level"] for data in told
+    ]
+    assert said == [80.0, 85.0, 91.0, 85.9, "OK"]

@@ -41,6 +41,21 @@ def test_what_is_submitted_while_stopping_begins_when_the_robot_stands():
     assert rig.troupe.names() == ["navigate", "stop", "navigate"]
 
 
+def test_a_stop_of_what_is_stopping_already_is_told_once():
+    rig = Rig({NavigateParams: [Script(steps=LONG, stop_steps=15)]})
+    rig.begin(WALK).tick(5)
+    for _ in range(3):
+        rig.executive.stop("the operator leaves")
+        rig.tick(2)
+    assert rig.run().cause == "the operator leaves"
+    told = [event.event for event in rig.stage.journal.recent]
+    assert told.count("stop") == 1
+    rig.begin(WALK).tick(5)
+    rig.executive.stop("the operator leaves")
+    rig.run()
+    assert [event.event for event in rig.stage.journal.recent].count("stop") == 2
+
+
 @pytest.mark.parametrize("ticks", [0, 1, 3, 8, 30])
 def test_a_stop_while_pausing_or_paused_ends_everything(ticks):
     rig = Rig({NavigateParams: [Script(steps=LONG, stop_steps=5)]})

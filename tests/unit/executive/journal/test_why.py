@@ -143,6 +143,25 @@ def test_a_stop_tells_who_wanted_it_and_how_long_it_took():
     assert "closing the left fingers, for 3.0 s" in told.text
 
 
+def test_a_stop_while_it_waited_for_help_tells_for_what_and_what_had_gone_wrong():
+    blocked = {**PICK, "code": "goal_in_collision", "cause": "forearm and table overlap"}
+    events = (
+        *FAILS[:4],
+        (32.0, "failure", blocked),
+        (32.0, "help", {**PICK, "question": "please make room, then say continue"}),
+        (40.0, "stop", {"why": "the operator leaves"}),
+        (40.1, "outcome", {"code": "cancelled", "cause": "the operator leaves", "took_s": 39.0}),
+    )
+    told = explained(journal(*events))
+    assert told.status == "stopped"
+    assert "It was waiting for a person since 32.0 s" in told.text
+    assert "please make room" in told.text
+    assert "forearm and table overlap (goal_in_collision)" in told.text
+    assert "Nothing was being done" not in told.text
+    answered = (*events[:-2], (35.0, "answer", {**PICK, "answer": "continue"}), *events[-2:])
+    assert "waiting for a person" not in explained(journal(*answered)).text
+
+
 def test_a_failure_from_above_tells_what_it_interrupted_and_what_was_measured():
     lost = {
         "code": "localisation_lost",

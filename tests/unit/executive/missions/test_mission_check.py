@@ -259,6 +259,103 @@ def test_a_mistake_in_a_step_hides_no_other_one_in_it(write):
         assert words in said
 
 
+EVERYWHERE = """limits: {duration_s: -4, speed_m_s: 99}
+steps:
+  - go_to: {pose: {x_m: 99999, y_m: 2, yaw_deg: 7200000}}
+  - wait: 1e12
+  - {repeat: 0, do: [wait: -3]}
+  - pick: red cup
+faults: [{at_s: 1, fault: meteor}]
+expect: [{holding: true}, {holding: false}]
+"""
+"""What is wrong in it needs no world, but that the pose is outside of one."""
+
+
+@pytest.mark.parametrize("world", ["kitchen", "kitchn", "zzzzzz", "broken.yaml"])
+def test_neither_a_mistake_beside_it_nor_the_world_hides_a_mistake(world, write):
+    write("objects: [", "broken.yaml")
+    found = problems(write(f"name: it\nworld: {world}\n{EVERYWHERE}"))
+    wanted = [":3:22: duration_s: -4", ":3:37: speed_m_s 99", ":5:49: yaw_deg: 7200000",
+              ":6:11: wait: 1e12", ":7:14: repeat: 0", ":7:28: wait: -3", ":9:27: unknown fault",
+              ":10:27: this and what is expected in line 10 are never both so"]  # fmt: skip
+    wanted += [":5:5: (99999, 2) is outside"] if world.startswith("kit") else []
+    wanted += [] if world == "kitchen" else ["broken.yaml:2:" if ".yaml" in world else ":2:8:"]
+    for words in wanted:
+        assert any(words in text for text in found), (words, found)
+    assert len(found) == len(wanted), found
+
+
+@pytest.mark.parametrize(
+    ("steps", "words"),
+    [
+        (
+            "  - wait: 60\n    timeout_s: 59\n",
+            ":4:16: 59 s: what is to be done takes 60 s at least",
+        ),
+        ("  - go_to: {person: Anna}\n    timeout_s: 0.001\n", "takes 0.05 s at least"),
+        ("  - do: [{repeat: 3, do: [wait: 5]}]\n    timeout_s: 14\n", "takes 15 s at least"),
+        ("  - go_to: {by: {forward_m: 2}}\n    timeout_s: 3.9\n", "takes 4 s at least"),
+        ("  - parallel: [wait: 5, wait: 7]\n    timeout_s: 6\n", "takes 7 s at least"),
+        ("  - {do: [balance: {mode: squat, duration_s: 9}], timeout_s: 8}\n", "9 s at least"),
+    ],
+)
+def test_a_limit_that_cannot_be_kept_is_a_mistake(steps, words, write):
+    (said,) = problems(write(mission(steps)))
+    assert words in said
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        "  - {wait: 60, timeout_s: 61}\n",
+        "  - {wait: 60, timeout_s: 5, on_fail: {timeout: [nod]}}\n",  # it is meant to end it
+        "  - {do: [{wait: 60, timeout_s: 5}], on_fail: {any: []}}\n",
+        "  - {if: {holding: true}, then: [wait: 60], timeout_s: 5}\n",  # or not at all
+        "  - {while: {holding: true}, at_most: 9, do: [wait: 60], timeout_s: 5}\n",
+        "  - {say: x, timeout_s: 0.001}\n",
+    ],
+)
+def test_a_limit_that_may_be_kept_is_none(steps, write):
+    check(write(mission(steps)))
+
+
+def test_the_limit_of_the_whole_is_held_against_all_steps(write):
+    (said,) = problems(write(mission("  - wait: 40\n  - wait: 30\n", "limits: {duration_s: 60}\n")))
+    assert said.startswith(":2:22: 60 s: what is to be done takes 70 s at least")
+    check(write(mission("  - wait: 40\n  - wait: 30\n", "limits: {duration_s: 60}\n")),
+          Options(first="2"))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "both"),
+    [
+        ("holding: true", "holding: false", False),
+        ("holding: red cup", "holding: false", False),
+        ("holding: red cup", "not: {holding: red cup}", False),
+        ("seen: red cup, on: table", "seen: red cup, on: shelf", False),
+        ("seen: red cup, on: table", "all: [the red cup is on the shelf]", False),
+        ("holding: red cup", "holding: blue cup", True),
+        ("holding: red cup", "holding: true", True),
+        ("seen: red cup, on: table", "seen: blue cup, on: shelf", True),
+        ("all: [a cup is on the table]", "all: [a cup is on the shelf]", True),
+        ("holding: true", "any: [{holding: false}, {robot_at: table}]", True),
+    ],
+)
+def test_expectations_that_exclude_one_another_are_a_mistake(one, other, both, write):
+    path = write(mission("  - wave\n", f"expect: [{{{one}}}, {{{other}}}]\n"))
+    if both:
+        check(path)
+    else:
+        (said,) = problems(path)
+        assert "are never both so" in said
+
+
+def test_steps_to_begin_at_are_named_once(write):
+    path = write(mission("  - {nod: , retry: 2}\n".replace("nod: ", "say: x") * 2))
+    (said,) = problems(path, first="9")
+    assert "(valid: 1, 2)" in said
+
+
 def test_words_that_are_misspelt_are_told(write):
     path = write(
         mission("  - go to the tabel\n  - if: the red cup is on the tabel\n    then: []\n")

@@ -325,6 +325,43 @@ def test_what_is_left_out_stands_above_the_mission(tmp_path):
     assert yaml_nodes.parse(text, "a.yaml").kind == "map"
 
 
+SILENT = [
+    ('<NavigateToPose goal="0;map;1;0;0.9;0;0;0;1"/>', "z 0.9 of goal"),
+    ('<NavigateToPose goal="0;map;1;0;0;0;0;0;1" planner_id="G"/>', "planner_id of NavigateToPose"),
+    ('<NavigateToPose goal="0;map;1;0;0;0;0;0;1" server_timeout="9"/>', "server_timeout of"),
+    ('<Spin disable_collision_checks="true"/>', "disable_collision_checks of Spin"),
+    ('<BackUp is_recovery="true"/>', "is_recovery of BackUp"),
+    ('<Wait error_code_id="code"/>', "error_code_id of Wait"),
+    ('<SubTree ID="B" words="hi" spare="7"/>', "spare of SubTree: nothing in the tree 'B' reads"),
+]
+
+
+def test_no_port_is_dropped_in_silence(tmp_path):
+    path = tmp_path / "a.xml"
+    other = '<BehaviorTree ID="B"><SubTree ID="C" _autoremap="1"/></BehaviorTree>'
+    other += '<BehaviorTree ID="C"><Say text="{words}"/></BehaviorTree>'
+    text = tree("\n".join(node for node, _ in SILENT)).replace("</root>", f"{other}</root>")
+    path.write_text(text.replace("<root ", '<root main_tree_to_execute="A" '))
+    notes = [line for line in importing.mission_of(path).splitlines() if line.startswith("#")]
+    for line, (said, (_, words)) in enumerate(zip(notes, SILENT, strict=True), start=3):
+        assert said.startswith(f"# left out: line {line}, {words}")
+
+
+@pytest.mark.parametrize(
+    "node",
+    [
+        '<Sequence foo="bar"><Say text="a"/></Sequence>',
+        '<Repeat num_cycles="2" foo="bar"><Say text="a"/></Repeat>',
+        '<NavigateToPose goal="0;map;1;2;0;0;0;0;1" foo="bar"/>',
+        '<IfThenElse><Check condition="holding" foo="bar"/><Say text="a"/></IfThenElse>',
+        '<AlwaysSuccess foo="bar"/>',
+    ],
+)
+def test_a_port_that_a_node_does_not_have_is_refused(node, problems):
+    (said,) = problems(tree(node))
+    assert "the port 'foo' of" in said
+
+
 def test_no_node_is_both_known_and_refused():
     assert not leaves.refused().keys() & (leaves.table().keys() | nodes.NODES.keys())
 

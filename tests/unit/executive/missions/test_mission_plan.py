@@ -13,12 +13,14 @@ from executive.skills.catalogue import skill_of
 from executive.skills.gesture import Gesture, GestureKind, GestureParams
 from executive.skills.motions.pacing import walking_s
 from executive.skills.navigate import NavigateParams, Step
+from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from executive.trees.parts import errands
 from robot.model.description import load
 from robot.planning.requests import BasePath
 from sim.simulation import SimulatedWorld, Simulation
 from sim.world import load as load_world
+from tests.fakes.missions import check
 
 JUNO = load("juno")
 KITCHEN = request.setting(Simulation(), "kitchen", robot="juno")
@@ -127,3 +129,24 @@ def test_a_step_out_of_the_map_is_told_and_the_rest_goes_on_from_where_it_began(
     out, on = forecast(p.Series(name="all", parts=(there, back)), KITCHEN).rows
     assert "outside this world" in out.problem
     assert on.problem == ""
+
+
+def test_a_limit_that_is_shorter_than_the_forecast_is_told():
+    wait = p.Errand(name="wait", params=WaitParams(duration_s=9.0))
+    limited = p.Timeout(name="wait", part=wait, limit_s=8.0)
+    made = forecast(
+        p.Timeout(name="all", part=p.Series(name="all", parts=(limited,)), limit_s=5.0), KITCHEN
+    )
+    assert [row.problem for row in made.rows] == ["it has 8 s, and takes about 9 s"]
+    assert lines(made)[-1] == "  will not work: it has 5 s, and takes about 9 s"
+
+
+def test_every_step_has_its_row_and_a_turn_its_angle(tmp_path):
+    path = tmp_path / "it.yaml"
+    path.write_text("""name: it
+steps: [{go_to: {by: {turn_deg: 720}}}, {for_each: x, in: [], do: [wave]}]
+""")
+    made = forecast(check(path).task, KITCHEN)
+    assert [(row.path, row.name) for row in made.rows] == [
+        ("1", "turn 720° left"), ("2", "for each x, of which there is none")
+    ]  # fmt: skip

@@ -18,7 +18,7 @@ from executive.journal.dumps.dot import quoted
 from executive.journal.dumps.formats import FORMATS, Wish, render
 from executive.journal.dumps.text import picture
 from executive.journal.run import Run
-from executive.journal.snapshot import Shown, snapshot
+from executive.journal.snapshot import Shown, come_to_rest, snapshot
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.trees.build import build
@@ -48,6 +48,34 @@ def many() -> Run:
 def named(name: str) -> list[Shown]:
     leaf = Shown(id=1, kind="skill", name=name, state="failed", note=name)
     return [Shown(id=0, kind="sequence", name=name, state="running", children=[leaf])]
+
+
+def test_nothing_is_at_work_at_the_end_of_a_run_that_was_stopped():
+    rig = Recorded({PickParams: [Script(steps=20, stop_steps=2)]})
+    rig.begin(PICK).tick(3)
+    rig.executive.stop("enough")
+    rig.run()
+    run = rig.read()
+    assert any(one.state == "running" for root in snapshot(run) for _, one in root.walk())
+    come_to_rest(run)
+    assert not [one for root in snapshot(run) for _, one in root.walk() if one.state == "running"]
+
+
+def test_what_a_run_that_was_cut_off_was_at_stays_at_work():
+    rig = Recorded({PickParams: [Script(steps=20)]})
+    rig.begin(PICK).tick(3)
+    run = rig.read()
+    come_to_rest(run)
+    assert [one.name for _, one in snapshot(run)[0].walk() if one.state == "running"] == [
+        "task", "pick"
+    ]  # fmt: skip
+
+
+def test_recoveries_of_all_jobs_are_counted():
+    rig = Recorded({PickParams: [Script(steps=2, code="grasp_missed"), Script(steps=5)] * 2})
+    for _ in range(2):
+        rig.begin(PICK).run()
+    assert rig.read().recoveries == 2
 
 
 def test_people_see_the_steps_and_not_what_holds_them_together(recovered):

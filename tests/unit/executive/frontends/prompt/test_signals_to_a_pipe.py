@@ -1,0 +1,83 @@
+"""A signal to a prompt that reads a pipe, or to one that listens, is a wish to leave."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Generator
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
+
+from executive.frontends.listening.obeying import Conversation
+from executive.frontends.prompt.plain import work_off
+from executive.frontends.prompt.shell import Shell
+from intents.speech.ear import Ear, Spoken
+from tests.fakes.puppet_shell import puppet_shell
+
+LINES = ["walk 1.5 m forward", "walk 1.5 m back", "where are you?", "wave"]
+SIGNALS = [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
+
+
+@pytest.fixture
+def shell(tmp_path) -> Generator[Shell]:
+    """It hears signals, and what it says is in `said`."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may be run under nohup
+    try:
+        with puppet_shell(tmp_path, said, world="empty") as made, made.robot.interrupts.listen():
+            yield made
+    finally:
+        signal.signal(signal.SIGHUP, before)
+        said.clear()
+
+
+said: list[str] = []
+
+
+def signal_while_it_walks(shell: Shell, number: int) -> None:
+    """Send one signal, as soon as it walks."""
+    sent: list[int] = []
+
+    def look() -> None:
+        if not sent and shell.robot.session.runtime.link.body().mode == "walk":
+            sent.append(number)
+            os.kill(os.getpid(), number)
+
+    shell.robot.session.on_tick(look)
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_no_line_is_done_after_a_signal(shell: Shell, number: int):
+    signal_while_it_walks(shell, number)
+    assert not work_off(shell, LINES)
+    jobs = shell.robot.executive.jobs
+    assert [(job.text, job.state) for job in jobs] == [("walk 1.5 m forward", "cancelled")]
+    assert said[-1] == "Not done: “walk 1.5 m back”, and what follows it: a signal says to leave"
+
+
+def test_a_line_that_is_understood_as_the_signal_comes_comes_to_nothing(shell: Shell):
+    submit = shell.robot.submit
+
+    def late(*args, **kwargs) -> int:  # the signal comes just before it, and is carried out
+        os.kill(os.getpid(), signal.SIGTERM)
+        return submit(*args, **kwargs)
+
+    shell.robot.submit = late
+    assert not work_off(shell, LINES)
+    assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+
+
+def test_lines_without_a_signal_are_all_done(shell: Shell):
+    assert work_off(shell, ["say hello", "# nothing", "say good night"])
+    assert [job.state for job in shell.robot.executive.jobs] == ["done", "done"]
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_nothing_that_is_heard_after_a_signal_is_done(shell: Shell, number: int):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=True, confirm=False)
+    signal_while_it_walks(shell, number)
+    for text in LINES:
+        talk.take(Spoken(kind="sentence", text=text))
+    assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
