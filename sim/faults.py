@@ -29,7 +29,7 @@ from robot.reality.faults import (
 )
 from robot.se3 import SE3, Vector3
 from sim import atlas, furniture
-from sim.body_sensors import ImuFlaws
+from sim.flaws import ImuFlaws
 from sim.world_schema import World
 
 if TYPE_CHECKING:

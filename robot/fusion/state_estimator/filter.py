@@ -334,7 +334,7 @@ class ContactFilter:
         HP = H.dot(covariance)
         S = HP.dot(H.T)
         S.reshape(-1)[:: rows + 1] += self._noise[:rows]
-        inverse = np.linalg.inv(S)
+        inverse = np.asarray(np.linalg.inv(S), dtype=np.float64)
         weighed = inverse.dot(z)
         if float(weighed.dot(z)) > gate + 1.5 * (rows - 6):
             return False
