@@ -15,6 +15,8 @@ from sim.realities import Body, Imu, Joints, Profile, Range
 
 PINION_RADIUS_M = 0.01
 """Of the drive of a joint that slides: so far it goes for a radian of its motor."""
+NO_END_RAD_S = 1e9
+"""The speed at which no torque is left, of a motor that gives it at any."""
 FLANK_SHARE = 0.01
 """Of the peak torque: from about this on a gear lies on one flank of its play."""
 
@@ -38,7 +40,7 @@ class JointFlaws(NamedTuple):
         lag_s: time constant of the velocities' filter.
         friction_nm: Coulomb friction.
         strength: torque given for torque asked.
-        no_load_rad_s: the speed at which no torque is left; infinite: there is none.
+        no_load_rad_s: the speed at which no torque is left.
         delay_s: from a measurement to its torque.
     """
 
@@ -116,7 +118,7 @@ def _joints(
         lag_s=joints.velocity_lag_s,
         friction_nm=peak_nm * _each(joints.friction_share, n, rng),
         strength=_each(joints.strength, n, rng),
-        no_load_rad_s=fastest * share if share else np.full(n, math.inf),
+        no_load_rad_s=fastest * share if share else np.full(n, NO_END_RAD_S),
         delay_s=float(rng.uniform(*joints.delay_ms)) / 1000.0,
     )
 

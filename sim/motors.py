@@ -73,7 +73,11 @@ def install(spec: mujoco.MjSpec, description: RobotDescription) -> None:
 
 
 class Motors:
-    """The firmware of all motors of one robot in one simulation."""
+    """The firmware of all motors of one robot in one simulation.
+
+    Attributes:
+        later: does after the delay what a command leads to; None: there is no delay.
+    """
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, description: RobotDescription
@@ -110,27 +114,20 @@ class Motors:
         self._offset: Array = np.zeros(self.count)
         self._no_load: Array = np.zeros(self.count)
         self._bend: Array = np.zeros(self.count)
-        self._later: Callable[[Callable[[], None]], None] | None = None
+        self.later: Callable[[Callable[[], None]], None] | None = None
         self._orders = 0
         self._qvel, self._range = data.qvel, model.actuator_forcerange
         self.damp()
 
-    def spoil(
-        self,
-        flaws: JointFlaws,
-        fastest_rad_s: Array,
-        later: Callable[[Callable[[], None]], None] | None,
-    ) -> None:
+    def spoil(self, flaws: JointFlaws, fastest_rad_s: Array) -> None:
         """From now on encoders and torques are off.
 
         Args:
             flaws: by how much.
             fastest_rad_s: the speed limits, from which torques fall, shape (motors,).
-            later: does what a command leads to after the delay; None: there is no delay.
         """
         self._strength, self._offset = flaws.strength, flaws.offset
         self._no_load, self._bend = flaws.no_load_rad_s, np.array(fastest_rad_s)
-        self._later = later
         self._taken = ()
         self.damp()
 
@@ -140,7 +137,7 @@ class Motors:
             return
         speed = self._qvel[self.qd_index]
         left = (self._no_load - np.abs(speed)) / np.maximum(1e-9, self._no_load - self._bend)
-        share = np.where(np.isinf(self._no_load), 1.0, np.minimum(1.0, np.maximum(0.0, left)))
+        share = np.minimum(1.0, np.maximum(0.0, left))
         self._range[:, 0] = -self.limit_nm * np.where(speed < 0.0, share, 1.0)
         self._range[:, 1] = self.limit_nm * np.where(speed > 0.0, share, 1.0)
 
@@ -169,12 +166,12 @@ class Motors:
         np.minimum(flat, self._upper, out=flat)
         np.maximum(flat, self._lower, out=flat)
         self._taken, self._sent = fields, tuple(flat.reshape(5, -1))
-        if self._later is None:
+        if self.later is None:
             self._obey(flat)
             return
         self._orders += 1
         order = self._orders
-        self._later(lambda: self._obey(flat) if order > self._forgotten else None)
+        self.later(lambda: self._obey(flat) if order > self._forgotten else None)
 
     def _obey(self, flat: Array) -> None:
         self._flat[:] = flat

@@ -18,13 +18,14 @@ from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
 from robot.messages import Message, Place
 from robot.model.description import RobotDescription
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array
 from sim import atlas
 from sim.assembly import compile_scene
 from sim.atlas import start_pose
 from sim.battery import Battery
 from sim.body_sensors import BodySensors
-from sim.flaws import Flaws, ImuFlaws, draw, weigh
+from sim.flaws import Flaws, ImuFlaws, draw, load, settle, weigh
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.people import People
@@ -128,8 +129,8 @@ class Plant:
         """Let motors and sensors be as they are in this reality."""
         joints = flaws.joints
         fastest = np.array([motor.velocity_limit_rad_s for motor in self.robot.motors.values()])
-        later = partial(self.after, joints.delay_s) if joints.delay_s > 0.0 else None
-        self.motors.spoil(joints, fastest, later)
+        self.motors.spoil(joints, fastest)
+        self.delay(joints.delay_s)
         self.model.dof_frictionloss[self.motors.qd_index] += joints.friction_nm
         self.sending.spoil(self.profile.lidar, self.profile.camera)
         self._tires = True
@@ -210,6 +211,21 @@ class Plant:
     def spoil_imu(self, flaws: ImuFlaws) -> None:
         """From now on the IMU is off by that, besides its noise."""
         self._body.spoil_imu(flaws)
+
+    def lean(self, rise_rad: float, uphill_rad: float) -> None:
+        """Let the floor rise towards an angle of the world: gravity leans the other way."""
+        across = GRAVITY_M_S2 * math.sin(rise_rad)
+        x, y = across * math.cos(uphill_rad), across * math.sin(uphill_rad)
+        self.model.opt.gravity[:] = -x, -y, -GRAVITY_M_S2 * math.cos(rise_rad)
+
+    def load(self, body: str, more_kg: float) -> None:
+        """Let a body weigh more from now on."""
+        load(self.model, int(self.model.body(body).id), more_kg)
+        settle(self.model)
+
+    def delay(self, delay_s: float) -> None:
+        """Let the motors obey so much later from now on."""
+        self.motors.later = partial(self.after, delay_s) if delay_s > 0.0 else None
 
     def step(self, count: int = 1) -> None:
         """Advance `count` milliseconds, a multiple of the physics' time step.
