@@ -189,4 +189,5 @@ def add_sills(spec: mujoco.MjSpec) -> None:
             friction=FLOOR_FRICTION,
             condim=3,
             rgba=[0.55, 0.42, 0.3, 1.0],
+            mass=0.0,
         )
