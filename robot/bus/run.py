@@ -23,7 +23,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     world: str
     seed: int = 0
     variation_seed: int | None = None
-    reality: str = ""
+    reality: str = "ideal"
     simulated: bool = True
 
     @property

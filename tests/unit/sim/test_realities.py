@@ -12,7 +12,7 @@ from robot.model import description
 from robot.se3 import quat_to_matrix
 from sim import flaws, realities
 from sim.plant import Plant
-from sim.reality import Simulation
+from sim.simulation import Simulation
 from sim.world import empty
 
 
