@@ -31,10 +31,17 @@ class Rig:
         X_WN: where the odometry frame truly began.
     """
 
-    def __init__(self, *, seed: int = 0, world: World | None = None, robot: str = "juno") -> None:
-        """Stand at the world's start; noise is drawn from `seed`."""
+    def __init__(
+        self,
+        *,
+        seed: int = 0,
+        world: World | None = None,
+        robot: str = "juno",
+        reality: str = "ideal",
+    ) -> None:
+        """Stand at the world's start; noise, and what is wrong, is drawn from `seed`."""
         self.robot = description.load(robot)
-        self.plant = Plant(world or empty(), self.robot, seed=seed)
+        self.plant = Plant(world or empty(), self.robot, seed=seed, reality=reality)
         self.loop = ControlLoop(self.robot)
         self.X_WN = self.X_WS
         self._last_id = 0

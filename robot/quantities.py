@@ -97,6 +97,10 @@ Strength: TypeAlias = Annotated[float, _between(0.0, 1000.0, "N s")]  # 1000: a 
 GyroOffset: TypeAlias = Annotated[float, _between(-20.0, 20.0, "deg/s")]
 AccelerationOffset: TypeAlias = Annotated[float, _between(-5.0, 5.0, "m/s²")]
 Askew: TypeAlias = Annotated[float, _between(-45.0, 45.0, "degrees")]
+Incline: TypeAlias = Annotated[float, _between(0.0, 45.0, "degrees")]
+Step: TypeAlias = Annotated[float, _between(0.0, 0.2, "m")]
+Burden: TypeAlias = Annotated[float, _between(-50.0, 50.0, "kg")]
+Lag: TypeAlias = Annotated[float, _between(0.0, 0.2, "s")]
 Heat: TypeAlias = Annotated[float, _between(-50.0, 500.0, "°C")]
 Span: TypeAlias = Annotated[float, Meta(ge=0.01, extra={"unit": "s"})]  # for ever, left out
 Moment: TypeAlias = Annotated[float, _between(0.0, 1e6, "s")]

@@ -47,6 +47,7 @@ def furnish(spec: mujoco.MjSpec, world: World) -> None:
         bodies.add_furniture(spec, item, paint)
     for person in world.people:
         bodies.add_person(spec, person, paint)
+    bodies.add_sills(spec)
     poses = placing.object_poses(world)
     for item in world.objects:
         bodies.add_object(spec, item, poses[item.id], paint)

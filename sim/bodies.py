@@ -173,3 +173,21 @@ def _body(spec: mujoco.MjSpec, name: str, pose: SE3) -> mujoco.MjsBody:
 def _free(body: Any, name: str) -> None:
     """Let a body move."""
     body.add_freejoint(name=name)
+
+
+SILL, BUMP = "sill", "bump"
+SILL_HALF_HEIGHT_M = 0.1
+
+
+def add_sills(spec: mujoco.MjSpec) -> None:
+    """What a fault can put into the robot's way; until then it lies under the floor."""
+    for name, half_width_m, half_depth_m in ((SILL, 0.6, 0.03), (BUMP, 0.06, 0.06)):
+        body = spec.worldbody.add_body(name=name, mocap=True, pos=[0.0, 0.0, -1.0])
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[half_depth_m, half_width_m, SILL_HALF_HEIGHT_M],
+            friction=FLOOR_FRICTION,
+            condim=3,
+            rgba=[0.55, 0.42, 0.3, 1.0],
+            mass=0.0,
+        )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
 
 import mujoco
 import numpy as np
@@ -13,24 +13,16 @@ from robot.drivers.motor_bus import MotorState
 from robot.errors import DescriptionError, Problem
 from robot.model.body import SIDES
 from robot.model.description import RobotDescription
-from robot.se3 import Array, Quaternion, Vector3, quat_to_matrix
+from robot.se3 import Array, quat_to_matrix
+from sim.flaws import PINION_RADIUS_M, Flaws, ImuFlaws, JointFlaws, slides
 from sim.motors import Motors
 
 # 1 sigma, where the description has no figure. Velocity: encoder difference over 20 ms, averaged.
 VELOCITY_PER_ENCODER_S = 50.0
-PINION_RADIUS_M = 0.01
 TORQUE_SHARE = 0.005
 FORCE_N = 0.3
 TORQUE_NM = 0.01
 NOISE_BLOCK = 256
-
-
-class ImuFlaws(NamedTuple):
-    """What is wrong with an IMU besides noise, in its own frame; `askew` turns what it feels."""
-
-    gyro_rad_s: Vector3 = (0.0, 0.0, 0.0)
-    accel_m_s2: Vector3 = (0.0, 0.0, 0.0)
-    askew: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
 class BodySensors:
@@ -44,8 +36,19 @@ class BodySensors:
         *,
         motors: Motors,
         rng: np.random.Generator | None,
+        flaws: Flaws | None = None,
+        wander: np.random.Generator | None = None,
     ) -> None:
         """Find every sensor that the description names.
+
+        Args:
+            model: of the scene.
+            data: of the scene.
+            description: of the robot.
+            motors: of the robot.
+            rng: of the noise.
+            flaws: what is wrong besides noise.
+            wander: of what drifts.
 
         Raises:
             DescriptionError: naming the sensors that the MJCF has not.
@@ -65,12 +68,40 @@ class BodySensors:
         self._at_once: Array = np.zeros(n)
         self._noise: Array = np.empty((0, len(self._sigma)))
         self._drawn = 0
-        self._flaws: tuple[Array, Array] | None = None
+        self._own = ImuFlaws() if flaws is None else flaws.imu
+        self._imu: tuple[Array, Array] | None = None
+        self._joints = None if flaws is None else _Encoders(flaws.joints)
+        self._forces = None if flaws is None else flaws.forces
+        self._wander = wander
+        self._drift: Array = np.zeros(len(self._sigma) - 3 * n - 6)
+        self._last_s = 0.0
+        if flaws is not None:
+            self.spoil_imu(ImuFlaws())
 
     def spoil_imu(self, flaws: ImuFlaws) -> None:
-        """From now on the IMU is off by that."""
-        offset = np.array((*flaws.gyro_rad_s, *flaws.accel_m_s2))
-        self._flaws = quat_to_matrix(flaws.askew).T, offset
+        """From now on the IMU is off by that, besides what it is off by itself."""
+        own = self._own
+        turn = quat_to_matrix(flaws.askew).T @ quat_to_matrix(own.askew).T
+        offsets = [
+            np.array((*one.gyro_rad_s, *one.accel_m_s2), dtype=np.float64) for one in (flaws, own)
+        ]
+        self._imu = turn, offsets[0] + offsets[1]
+
+    def _spoil(self, values: Array, stamp_s: float) -> None:
+        """What is wrong with the senses besides noise, done to a measurement."""
+        n = self._motors.count
+        dt_s, self._last_s = max(0.0, stamp_s - self._last_s), stamp_s
+        if self._joints is not None:
+            self._joints.spoil(values[:n], values[n : 2 * n], self._tau, dt_s)
+        if self._forces is not None and self._wander is not None:
+            step = math.sqrt(dt_s) * self._forces.drift_rts
+            self._drift += step * self._wander.standard_normal(len(step))
+            values[3 * n + 6 :] += self._forces.offset + self._drift
+        if self._imu is not None:
+            turn, offset = self._imu
+            gyro, accel = values[3 * n : 3 * n + 3], values[3 * n + 3 : 3 * n + 6]
+            gyro[:], accel[:] = turn @ gyro, turn @ accel
+            values[3 * n : 3 * n + 6] += offset
 
     def measure(self, stamp_s: float) -> BodySample:
         """Measure everything; forces and accelerations are those of the last physics step."""
@@ -82,6 +113,8 @@ class BodySensors:
         self._sensordata.take(self._addresses, out=self._rest, mode="clip")
         np.negative(self._wrenches, out=self._wrenches)  # MuJoCo's wrench: parent on child
         values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
+        if self._imu is not None:
+            self._spoil(values, stamp_s)
         rest = values[3 * n :]
         wrists = np.zeros((2, 6))
         wrists[self._wrists] = rest[18:].reshape(-1, 6)
@@ -95,10 +128,6 @@ class BodySensors:
             watchdog=motors.watchdog,
             command_stamp_s=motors.command_stamp_s,
         )
-        if self._flaws is not None:
-            turn, offset = self._flaws
-            rest[:3], rest[3:6] = turn @ rest[:3], turn @ rest[3:6]
-            rest[:6] += offset
         imu = ImuReading(stamp_s, rest[:3], rest[3:6])
         force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), wrists)
         return BodySample(state, imu, force)
@@ -110,6 +139,28 @@ class BodySensors:
             self._noise = rng.standard_normal((NOISE_BLOCK, len(self._sigma))) * self._sigma
             self._drawn = 0
         return self._noise[self._drawn]
+
+
+class _Encoders:
+    """What encoders make of joints: offsets, steps, play, and velocities that lag."""
+
+    def __init__(self, flaws: JointFlaws) -> None:
+        self._flaws = flaws
+        self._speed: Array = np.zeros_like(flaws.offset)
+
+    def spoil(self, q: Array, qd: Array, tau: Array, dt_s: float) -> None:
+        """Change positions and velocities in place.
+
+        An encoder sits on the motor's side of the gear: pushing, the motor is ahead of the joint by
+        half the play.
+        """
+        flaws, speed = self._flaws, self._speed
+        q += flaws.offset
+        q += 0.5 * flaws.play * np.tanh(tau / flaws.flank_nm)
+        steps = flaws.step > 0.0
+        q[steps] = np.round(q[steps] / flaws.step[steps]) * flaws.step[steps]
+        speed += dt_s / (flaws.lag_s + dt_s) * (qd - speed) if dt_s > 0.0 else 0.0
+        qd[:] = speed
 
 
 def _addresses(model: mujoco.MjModel, description: RobotDescription) -> NDArray[np.int64]:
@@ -136,9 +187,7 @@ def _addresses(model: mujoco.MjModel, description: RobotDescription) -> NDArray[
 def _sigma(model: mujoco.MjModel, description: RobotDescription, motors: Motors) -> Array:
     """Standard deviation of every measured value, in the order of `measure`."""
     sensors = description.sensors
-    joints = [model.joint(motor.joint) for motor in description.motors.values()]
-    slide = np.array([joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE for joint in joints])
-    encoder = np.where(slide, PINION_RADIUS_M, 1.0) * sensors.encoder_noise_rad
+    encoder = np.where(slides(model, description), PINION_RADIUS_M, 1.0) * sensors.encoder_noise_rad
     wrench = [FORCE_N] * 3 + [TORQUE_NM] * 3
     return np.concatenate(
         [

@@ -10,11 +10,13 @@ from robot.drivers.registry import SENSES
 from robot.errors import ConfigError
 from robot.model.description import RobotDescription
 from robot.reality.faults import (
+    Delay,
     Discharge,
     Fault,
     Heat,
     Kill,
     KnockOver,
+    Load,
     Mislead,
     MotorOff,
     Move,
@@ -24,12 +26,15 @@ from robot.reality.faults import (
     Remove,
     Shove,
     Silence,
+    Sill,
+    Slope,
     StandInWay,
     check_name,
 )
 from robot.se3 import SE3, Vector3
 from sim import atlas, furniture
-from sim.body_sensors import ImuFlaws
+from sim.bodies import BUMP, SILL, SILL_HALF_HEIGHT_M
+from sim.flaws import ImuFlaws
 from sim.world_schema import World
 
 if TYPE_CHECKING:
@@ -97,11 +102,8 @@ def apply(plant: Plant, fault: Fault) -> None:
         case Mislead():
             X = SE3.from_xy_yaw(*fault.by_m, math.radians(fault.by_deg))
             plant.oracle.mislead(X, until_s=plant.time_s + fault.duration_s)
-        case OffsetImu():
-            roll, pitch, yaw = (math.radians(angle) for angle in fault.askew_deg)
-            x, y, z = (math.radians(rate) for rate in fault.gyro_deg_s)
-            askew = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).quat_wxyz
-            plant.spoil_imu(ImuFlaws((x, y, z), fault.accel_m_s2, askew))
+        case OffsetImu() | Sill() | Slope() | Load() | Delay():
+            _worsen(plant, fault)
         case Heat() | MotorOff():
             names = list(plant.robot.motor_names)
             check_name(fault.motor, names, "motor")
@@ -116,6 +118,27 @@ def apply(plant: Plant, fault: Fault) -> None:
             plant.battery.charge = fault.charge
         case Kill():
             raise ConfigError(f"the {fault.process} is not the plant's; the runtime kills it")
+
+
+def _worsen(plant: Plant, fault: OffsetImu | Sill | Slope | Load | Delay) -> None:
+    match fault:
+        case OffsetImu():
+            roll, pitch, yaw = (math.radians(angle) for angle in fault.askew_deg)
+            x, y, z = (math.radians(rate) for rate in fault.gyro_deg_s)
+            askew = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).quat_wxyz
+            plant.spoil_imu(ImuFlaws((x, y, z), fault.accel_m_s2, askew))
+        case Sill():
+            name = BUMP if fault.round_bump else SILL
+            X = plant.oracle.X_WB().flat() @ SE3.from_xy_yaw(fault.ahead_m, fault.left_m, 0.0)
+            high_m = fault.height_m or -1.0  # of none it lies under the floor
+            plant.put(name, _shifted(X, (0.0, 0.0, high_m - SILL_HALF_HEIGHT_M)))
+        case Slope():
+            uphill_rad = plant.oracle.X_WB().yaw_rad + math.radians(fault.towards_deg)
+            plant.lean(math.radians(fault.rise_deg), uphill_rad)
+        case Load():
+            plant.load(plant.robot.torso_body, fault.mass_kg)
+        case Delay():
+            plant.delay(fault.delay_s)
 
 
 def _push(plant: Plant, fault: Push | Shove | KnockOver) -> None:

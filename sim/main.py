@@ -18,7 +18,7 @@ def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     config, stop = run.load(run_file), Stop()
-    world = Simulation().world(config.world, vary_seed=config.variation_seed)
+    world = Simulation().under(config.reality).world(config.world, vary_seed=config.variation_seed)
     robot = description.load(config.robot)
     plant = world.plant(robot, seed=config.seed)
     with ZenohBus("plant", config.sockets) as bus, PlantServer(robot, config.memory) as body:

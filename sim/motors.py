@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -19,6 +20,7 @@ from robot.drivers.motor_bus import MotorCommand
 from robot.errors import DescriptionError, DriverError, Problem
 from robot.model.description import RobotDescription
 from robot.se3 import Array
+from sim.flaws import JointFlaws
 
 WATCHDOG_S = 0.020
 AMBIENT_C = 25.0
@@ -71,7 +73,11 @@ def install(spec: mujoco.MjSpec, description: RobotDescription) -> None:
 
 
 class Motors:
-    """The firmware of all motors of one robot in one simulation."""
+    """The firmware of all motors of one robot in one simulation.
+
+    Attributes:
+        later: does after the delay what a command leads to; None: there is no delay.
+    """
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, description: RobotDescription
@@ -104,7 +110,36 @@ class Motors:
         self._upper: Array = bounds.reshape(-1)
         self._lower: Array = -self._upper
         self._lower[3 * self.count :] = 0.0
+        self._strength: Array | None = None
+        self._offset: Array = np.zeros(self.count)
+        self._no_load: Array = np.zeros(self.count)
+        self._bend: Array = np.zeros(self.count)
+        self.later: Callable[[Callable[[], None]], None] | None = None
+        self._orders = 0
+        self._qvel, self._range = data.qvel, model.actuator_forcerange
         self.damp()
+
+    def spoil(self, flaws: JointFlaws, fastest_rad_s: Array) -> None:
+        """From now on encoders and torques are off.
+
+        Args:
+            flaws: by how much.
+            fastest_rad_s: the speed limits, from which torques fall, shape (motors,).
+        """
+        self._strength, self._offset = flaws.strength, flaws.offset
+        self._no_load, self._bend = flaws.no_load_rad_s, np.array(fastest_rad_s)
+        self._taken = ()
+        self.damp()
+
+    def tire(self) -> None:
+        """Let a motor that turns fast push no further than it can; braking it can as ever."""
+        if self._strength is None:
+            return
+        speed = self._qvel[self.qd_index]
+        left = (self._no_load - np.abs(speed)) / np.maximum(1e-9, self._no_load - self._bend)
+        share = np.minimum(1.0, np.maximum(0.0, left))
+        self._range[:, 0] = -self.limit_nm * np.where(speed < 0.0, share, 1.0)
+        self._range[:, 1] = self.limit_nm * np.where(speed > 0.0, share, 1.0)
 
     def write(self, command: MotorCommand) -> MotorCommand:
         """Take a command from the bus; returns it as the packets could carry it.
@@ -130,14 +165,23 @@ class Motors:
             raise DriverError(f"a command is not finite: {_not_finite(flat.reshape(5, -1))}")
         np.minimum(flat, self._upper, out=flat)
         np.maximum(flat, self._lower, out=flat)
+        self._taken, self._sent = fields, tuple(flat.reshape(5, -1))
+        if self.later is None:
+            self._obey(flat)
+            return
+        self._orders += 1
+        order = self._orders
+        self.later(lambda: self._obey(flat) if order > self._forgotten else None)
+
+    def _obey(self, flat: Array) -> None:
         self._flat[:] = flat
         self._apply()
-        self._taken, self._sent = fields, tuple(flat.reshape(5, -1))
 
     def damp(self) -> None:
         """What the watchdog does: no stiffness, velocity target zero."""
         self.watchdog = True
         self._taken = ()
+        self._forgotten = self._orders
         self._command[:4] = 0.0
         self._command[4] = self._damping
         self._apply()
@@ -172,6 +216,11 @@ class Motors:
         ctrl += tau_ff
         np.negative(kp, out=self._bias_kp)
         np.negative(kd, out=self._bias_kd)
+        if self._strength is not None:
+            ctrl -= kp * self._offset  # its loop is closed on what the encoder says
+            ctrl *= self._strength
+            self._bias_kp *= self._strength
+            self._bias_kd *= self._strength
 
 
 def _not_finite(rows: Array) -> str:

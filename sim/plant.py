@@ -6,6 +6,7 @@ import heapq
 import itertools
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import mujoco
@@ -17,16 +18,19 @@ from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
 from robot.messages import Message, Place
 from robot.model.description import RobotDescription
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array
 from sim import atlas
 from sim.assembly import compile_scene
 from sim.atlas import start_pose
 from sim.battery import Battery
-from sim.body_sensors import BodySensors, ImuFlaws
+from sim.body_sensors import BodySensors
+from sim.flaws import Flaws, ImuFlaws, draw, load, settle, weigh
 from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.people import People
 from sim.placing import placed
+from sim.realities import IDEAL, profile
 from sim.sending import Sending
 from sim.somebody import PERIOD_S as PEOPLE_PERIOD_S
 from sim.world_schema import World
@@ -46,6 +50,7 @@ class Plant:
     Attributes:
         world: the world, every object with its spot.
         robot: the robot's description.
+        profile: the reality it is of.
         model, data: the simulation; only `sim`, tests and views touch them.
         motors: the motors' firmware.
         battery: an emulated one, if the robot describes one.
@@ -63,6 +68,7 @@ class Plant:
         noisy: bool = True,
         pose_error_m: float = POSE_ERROR_M,
         physics_ms: int = PHYSICS_MS,
+        reality: str = IDEAL,
     ) -> None:
         """Build the scene and stand the robot on its soles at the world's start.
 
@@ -74,12 +80,15 @@ class Plant:
             noisy: whether motors and body sensors have noise.
             pose_error_m: how far from the truth the oracle sights objects.
             physics_ms: time step of the physics; 2 is a third faster, 1 is finer.
+            reality: how far it is from what is described (`sim.realities`).
 
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
-            ConfigError: if a place is too full for the objects that want a random spot.
+            ConfigError: if there is no such reality, or a place is too full for the objects that
+                want a random spot.
         """
-        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(4)]
+        seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(7)]
+        self.profile = profile(reality)
         self.world = placed(world, seeds[0])
         self.robot = robot
         # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
@@ -87,9 +96,11 @@ class Plant:
         self.model = compile_scene(self.world, robot, timestep_s=physics_ms / 1000.0)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
+        flaws = None if reality == IDEAL else draw(self.profile, self.model, robot, seeds[4])
         self._body = BodySensors(
-            self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None
-        )
+            self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None,
+            flaws=flaws, wander=seeds[5],
+        )  # fmt: skip
         self.battery = Battery(robot.battery) if robot.battery else None
         self.sending = Sending(
             self.model, self.data, self.world, robot=robot, rng=seeds[2],
@@ -97,6 +108,7 @@ class Plant:
         )  # fmt: skip
         self.people = People(self.model, self.data, self.world, robot=robot, rng=seeds[3])
         self._people_ms = NEVER
+        self._tires = False
         self._physics_ms = physics_ms
         self._now_ms = 0
         self._watchdog_ms, self._patience_ms = NEVER, self._ms(WATCHDOG_S)
@@ -108,7 +120,20 @@ class Plant:
         self._base = int(self.model.body(robot.base_body).id)
         self._commander: object | None = None
         self._sample: BodySample | None = None
+        if flaws is not None:
+            weigh(self.model, self.profile.body, robot, seeds[6])
+            self._spoil(flaws)
         self.stand(start_pose(world), posture=posture)
+
+    def _spoil(self, flaws: Flaws) -> None:
+        """Let motors and sensors be as they are in this reality."""
+        joints = flaws.joints
+        fastest = np.array([motor.velocity_limit_rad_s for motor in self.robot.motors.values()])
+        self.motors.spoil(joints, fastest)
+        self.delay(joints.delay_s)
+        self.model.dof_frictionloss[self.motors.qd_index] += joints.friction_nm
+        self.sending.spoil(self.profile.lidar, self.profile.camera)
+        self._tires = True
 
     @property
     def time_s(self) -> float:
@@ -187,6 +212,21 @@ class Plant:
         """From now on the IMU is off by that, besides its noise."""
         self._body.spoil_imu(flaws)
 
+    def lean(self, rise_rad: float, uphill_rad: float) -> None:
+        """Let the floor rise towards an angle of the world: gravity leans the other way."""
+        across = GRAVITY_M_S2 * math.sin(rise_rad)
+        x, y = across * math.cos(uphill_rad), across * math.sin(uphill_rad)
+        self.model.opt.gravity[:] = -x, -y, -GRAVITY_M_S2 * math.cos(rise_rad)
+
+    def load(self, body: str, more_kg: float) -> None:
+        """Let a body weigh more from now on."""
+        load(self.model, int(self.model.body(body).id), more_kg)
+        settle(self.model)
+
+    def delay(self, delay_s: float) -> None:
+        """Let the motors obey so much later from now on."""
+        self.motors.later = partial(self.after, delay_s) if delay_s > 0.0 else None
+
     def step(self, count: int = 1) -> None:
         """Advance `count` milliseconds, a multiple of the physics' time step.
 
@@ -197,6 +237,8 @@ class Plant:
         if count % self._physics_ms:
             raise ValueError(f"{count} ms are no multiple of {self._physics_ms} ms")
         end = self._now_ms + count
+        if self._tires:
+            self.motors.tire()
         while self._now_ms < end:
             later_ms = self._later[0][0] if self._later else NEVER
             pause = min(

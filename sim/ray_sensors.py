@@ -14,13 +14,11 @@ from robot.messages import DepthImage, LidarScan, Message
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.rays import Rays
+from sim.realities import Camera, Lidar
 
 # Every third pixel of the camera, in both directions: a ray costs about half a microsecond, so
 # 53 x 40 take 1.2 ms where 160 x 120 take 10.
 DEPTH_STRIDE = 3
-# 1 sigma grows with the square of the depth: an active stereo camera has 2 mm at 1 m.
-DEPTH_NOISE_PER_M = 0.002
-LIDAR_NOISE_M = 0.01
 LAID_OUT = ("geom_xpos", "geom_xmat", "xipos", "ximat")  # all that a ray asks of where things are
 
 
@@ -62,6 +60,7 @@ class DepthCamera:
         rng: np.random.Generator,
     ) -> None:
         """Lay out the rays, one through each pixel's middle."""
+        self.flaws = Camera()
         camera = robot.sensors.camera
         self._rng = rng
         self._site = data.site(camera.site)
@@ -106,7 +105,7 @@ class DepthCamera:
         ):
             distances, _ = self._rays.cast(eye, self._rays_C @ rotation.T, range_m=reach_m)
         depth = distances * self._rays_C[:, 2]
-        depth += DEPTH_NOISE_PER_M * depth * depth * noise
+        depth += self.flaws.noise_per_m * depth * depth * noise
         depth[(distances < 0.0) | (depth > self._range_m)] = 0.0
         return depth.astype(np.float32).reshape(self.height, self.width)
 
@@ -123,6 +122,7 @@ class PlanarLidar:
         rng: np.random.Generator,
     ) -> None:
         """Lay out the beams, counter-clockwise from -pi in the site's plane."""
+        self.flaws = Lidar()
         lidar = robot.sensors.lidar
         self._rng = rng
         self._site = data.site(lidar.site)
@@ -138,8 +138,11 @@ class PlanarLidar:
         """One turn."""
         directions = self._beams @ self._site.xmat.reshape(3, 3).T
         ranges, geoms = self._rays.cast(self._site.xpos, directions, range_m=self._range_m)
-        missed = (geoms < 0) | self._own[geoms]
-        ranges += LIDAR_NOISE_M * self._rng.standard_normal(len(ranges))
+        flaws = self.flaws
+        missed = (geoms < 0) | self._own[geoms] | (ranges < flaws.least_m)
+        if flaws.dropouts:
+            missed |= self._rng.random(len(ranges)) < flaws.dropouts
+        ranges += flaws.noise_m * self._rng.standard_normal(len(ranges))
         ranges[missed] = math.inf
         return LidarScan(
             stamp_s=stamp_s,

@@ -20,6 +20,7 @@ from sim.battery import Battery
 from sim.oracle import Oracle
 from sim.ray_sensors import DepthCamera, PlanarLidar
 from sim.rays import Rays
+from sim.realities import Camera, Lidar
 from sim.world_schema import World
 
 M = TypeVar("M", bound=Message)
@@ -88,6 +89,10 @@ class Sending:
         ]
         if battery is not None:
             self._sources.append(_Source(topics.POWER, battery.report))
+
+    def spoil(self, lidar: Lidar, camera: Camera) -> None:
+        """From now on they are as good as that."""
+        self.lidar.flaws, self.camera.flaws = lidar, camera
 
     def topics(self) -> list[str]:
         """Names of the topics that the plant, or a driver of its sensors, sends."""

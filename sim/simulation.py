@@ -13,7 +13,7 @@ from robot.reality.contract import Begin, Cast, Home
 from robot.reality.faults import Fault
 from robot.reality.scene import Scene
 from robot.reality.studio import Studio
-from sim import atlas, faults, placing, world
+from sim import atlas, faults, placing, realities, world
 from sim.homes import catalogue
 from sim.world_schema import World
 
@@ -25,7 +25,20 @@ _MADE = re.compile(r"(?P<kind>[a-z_]+):(?P<seed>[0-9]{1,9})")
 
 
 class Simulation:
-    """Shipped worlds, and anybody's own (docs/worlds.md), in MuJoCo."""
+    """Shipped worlds, and anybody's own (docs/worlds.md), in MuJoCo.
+
+    Attributes:
+        profile: how far what is felt and done there is from what is described (`sim.realities`).
+    """
+
+    def __init__(self, profile: str = realities.IDEAL) -> None:
+        """Raises ConfigError for a profile that is none."""
+        realities.profile(profile)
+        self.profile = profile
+
+    def under(self, profile: str) -> Simulation:
+        """The same with another profile. Raises ConfigError, with the nearest name."""
+        return Simulation(profile)
 
     def names(self) -> list[str]:
         """Names of the shipped worlds."""
@@ -46,7 +59,7 @@ class Simulation:
             entries = world.load(name_or_path)
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
-        return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed)
+        return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile)
 
     def home_kinds(self) -> list[str]:
         """Kinds of homes that can be made (sim/homes/kinds)."""
@@ -82,14 +95,23 @@ class SimulatedWorld:
         entries: of the file.
         name: by which it was asked for.
         vary_seed: what it was shuffled by.
+        profile: of the reality it is in.
         map: the prior map.
     """
 
-    def __init__(self, entries: World, *, name: str = "", vary_seed: int | None = None) -> None:
+    def __init__(
+        self,
+        entries: World,
+        *,
+        name: str = "",
+        vary_seed: int | None = None,
+        profile: str = realities.IDEAL,
+    ) -> None:
         """Make the map."""
         self.entries = entries
         self.name = name or entries.name
         self.vary_seed = vary_seed
+        self.profile = profile
         self.map = atlas.world_map(entries)
 
     def content(self) -> bytes:
@@ -106,7 +128,9 @@ class SimulatedWorld:
     ) -> SimulatedWorld:
         """The same, begun a little otherwise."""
         entries = placing.nudged(self.entries, seed, start=start)
-        return SimulatedWorld(entries, name=self.name, vary_seed=self.vary_seed)
+        return SimulatedWorld(
+            entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile
+        )
 
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
@@ -128,4 +152,6 @@ class SimulatedWorld:
         """Build the scene and stand the robot in it. Raises RobotError as `sim.plant.Plant`."""
         from sim.judged_plant import JudgedPlant  # MuJoCo, which a list of worlds needs not
 
-        return JudgedPlant(self.entries, robot, seed=seed, physics_ms=physics_ms)
+        return JudgedPlant(
+            self.entries, robot, seed=seed, physics_ms=physics_ms, reality=self.profile
+        )

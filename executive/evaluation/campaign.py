@@ -31,6 +31,8 @@ SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
 LIMIT_S = 420.0
 """Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
+IDEAL = "ideal"
+"""The reality where nobody says otherwise."""
 BENCH, JUNO = "bench", "juno"
 """Where a sentence is done, and by whom, if nothing else is said."""
 
@@ -98,13 +100,15 @@ def key_of(case: str, seed: int, *, recovery: bool) -> str:
 class Run(msgspec.Struct, frozen=True, kw_only=True):
     """One run of a case: all that a worker needs to know.
 
-    `robot`, by name or path, stands for that of the mission where it is not empty.
+    `robot`, by name or path, stands for that of the mission where it is not empty. `reality` is a
+    profile (docs/realities.md), left out where it is the one without flaws.
     """
 
     case: Case
     seed: int
     recovery: bool = True
     robot: str = ""
+    reality: str | msgspec.UnsetType = msgspec.UNSET
 
     @property
     def key(self) -> str:
@@ -234,7 +238,9 @@ def problems_of(case: Case, settings: Settings) -> list[str]:
     return found
 
 
-def runs(cases: tuple[Case, ...], *, seeds: int, without_too: bool, robot: str) -> list[Run]:
+def runs(
+    cases: tuple[Case, ...], *, seeds: int, without_too: bool, robot: str, reality: str = IDEAL
+) -> list[Run]:
     """Every case with every seed, the seeds outermost, so that all cases get on evenly.
 
     Args:
@@ -242,10 +248,12 @@ def runs(cases: tuple[Case, ...], *, seeds: int, without_too: bool, robot: str) 
         seeds: how many of each, from 0.
         without_too: whether to run everything a second time without recovery.
         robot: who does it.
+        reality: in which.
     """
     ways = (True, False) if without_too else (True,)
+    profile = msgspec.UNSET if reality == IDEAL else reality
     return [
-        Run(case=case, seed=seed, recovery=recovery, robot=robot)
+        Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile)
         for seed in range(seeds)
         for case in cases
         for recovery in ways

@@ -114,7 +114,12 @@ def _begun(handle: Handle | None) -> Prepared | None:
     there = under_way(handle)
     if there is None:
         return None
-    where = request.setting(REALITY, there.world, robot=there.robot, vary_seed=there.variation_seed)
+    where = request.setting(
+        REALITY.under(there.reality),
+        there.world,
+        robot=there.robot,
+        vary_seed=there.variation_seed,
+    )
     left = left_in(Path(there.folder))
     assignment = left.newest(where)
     if assignment is None:

@@ -33,7 +33,10 @@ def do(options: Do, handle: Handle | None = None) -> int:
 
     def prepare() -> Prepared | int:
         where = request.setting(
-            REALITY, options.world, robot=options.robot, vary_seed=options.vary_seed
+            REALITY.under(options.reality),
+            options.world,
+            robot=options.robot,
+            vary_seed=options.vary_seed,
         )
         understood = _understood(options, where)
         if isinstance(understood, request.Refused):

@@ -40,10 +40,15 @@ def evaluate(options: Eval) -> int:
         ProcessError: a worker died.
     """
     options = evaluation_asked.as_before(options)
+    REALITY.under(options.reality)  # so that one that is not there is said before anything is run
     moved = _moved(options) if options.homes else None
     cases = moved.cases if moved else chosen(options)
     wanted = campaign.runs(
-        cases, seeds=options.seeds, without_too=options.no_recovery, robot=options.robot
+        cases,
+        seeds=options.seeds,
+        without_too=options.no_recovery,
+        robot=options.robot,
+        reality=options.reality,
     )
     root = Path(executive.__file__).parent.parent
     with Results(_folder(options), fingerprint=fingerprint(root)) as results:
@@ -231,12 +236,11 @@ def _go_through(
     results: Results, runs: list[Run], options: Eval, screen: Screen, *, ending: Ending
 ) -> None:
     """Do the runs that are left, keeping each record as it comes."""
+    there = REALITY.under(options.reality)
     work = (
-        pool.on_ray(runs, REALITY, stop=lambda: ending.asked)
+        pool.on_ray(runs, there, stop=lambda: ending.asked)
         if options.ray
-        else pool.in_processes(
-            runs, REALITY, processes=options.processes, stop=lambda: ending.asked
-        )
+        else pool.in_processes(runs, there, processes=options.processes, stop=lambda: ending.asked)
     )
     done = len(results.records)
     columns = (

@@ -26,6 +26,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     homes: str = ""
     world: str = ""
     robot: str = ""
+    reality: str = "ideal"
     seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
     no_recovery: bool = False
 
@@ -43,6 +44,7 @@ def keep(folder: Path, options: Eval) -> None:
         homes=options.homes,
         world=options.world,
         robot=options.robot,
+        reality=options.reality,
         seeds=options.seeds,
         no_recovery=options.no_recovery,
     )
@@ -78,6 +80,7 @@ def as_before(options: Eval) -> Eval:
         tasks=[Path(word) for word in asked.tasks] or None,
         faults=asked.faults,
         homes=asked.homes,
+        reality=asked.reality,
         world=asked.world,
         robot=options.robot or asked.robot,
         seeds=max(options.seeds, asked.seeds),

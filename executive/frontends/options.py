@@ -38,6 +38,14 @@ MOST_SEED = 2**53 - 1
 Seed = Annotated[
     int, typer.Option("--seed", "-s", min=0, max=MOST_SEED, help="Of everything random.")
 ]
+InReality = Annotated[
+    str,
+    typer.Option(
+        "--reality",
+        help="How far robot and senses are from their descriptions: ideal, real or harsh "
+        "(docs/realities.md).",
+    ),
+]
 Model = Annotated[
     Path | None,
     typer.Option(
@@ -66,6 +74,7 @@ class Seeded:
     """How time passes, and what is drawn."""
 
     seed: Seed = 0
+    reality: InReality = "ideal"
     fast: Annotated[
         bool,
         typer.Option(
@@ -233,6 +242,7 @@ class Eval:
     robot: Annotated[
         str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
     ] = ""
+    reality: InReality = "ideal"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )

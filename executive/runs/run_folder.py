@@ -32,6 +32,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a run was started with: enough to start it again (`run.json`).
 
     What was asked for stands here as `text` for people; what jobs are made of, in the journal.
+    `reality`: the profile of the simulated one (docs/realities.md).
     `attended`: a person was there, to ask for more and to inject faults.
     """
 
@@ -41,6 +42,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     seed: Annotated[int, Meta(ge=0)]
     runtime: str
     varied: bool = False
+    reality: str = "ideal"
     attended: bool = False
     origin: Origin | None = None
 
@@ -55,6 +57,7 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
         seed=setup.seed,
         runtime=setup.kind,
         varied=where.world.vary_seed is not None,
+        reality=where.world.profile,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

@@ -104,6 +104,7 @@ class LiveRuntime(Closing):
             world=world.name,
             seed=seed,
             variation_seed=world.vary_seed,
+            reality=world.profile,
             simulated=simulated,
         )
         self._handle = handle

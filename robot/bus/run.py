@@ -14,7 +14,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
 
     `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
     sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
-    `simulated` says whether reality is.
+    `reality` is the profile of the simulated one; `simulated` says whether there is one.
     """
 
     folder: str
@@ -23,6 +23,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     world: str
     seed: int = 0
     variation_seed: int | None = None
+    reality: str = "ideal"
     simulated: bool = True
 
     @property

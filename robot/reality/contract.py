@@ -25,6 +25,19 @@ from robot.se3 import SE3
 class Reality(Protocol):
     """Where worlds come from. A value without a state: it can be pickled, and sent to a worker."""
 
+    @property
+    def profile(self) -> str:
+        """How far robots and senses there are from their descriptions, by name."""
+        ...
+
+    def under(self, profile: str) -> Reality:
+        """The same with another profile (docs/realities.md).
+
+        Raises:
+            ConfigError: there is none of that name, with the nearest one.
+        """
+        ...
+
     def names(self) -> list[str]:
         """Names of the shipped worlds."""
         ...
@@ -112,6 +125,11 @@ class World(Protocol):
     @property
     def vary_seed(self) -> int | None:
         """What it was shuffled by; with the name all that another process needs to read it."""
+        ...
+
+    @property
+    def profile(self) -> str:
+        """Of the reality it was read from (`Reality.under`)."""
         ...
 
     @property

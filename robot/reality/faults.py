@@ -135,6 +135,37 @@ class OffsetImu(FaultRecord, frozen=True, kw_only=True):
     askew_deg: tuple[q.Askew, q.Askew, q.Askew] = (0.0, 0.0, 0.0)
 
 
+class Sill(FaultRecord, frozen=True, kw_only=True):
+    """A sill, 6 cm deep and 1.2 m wide, lies across the way of the robot; of no height: it is gone.
+
+    `round_bump`: only 12 cm wide, so that one foot steps on it and the other does not.
+    """
+
+    height_m: q.Step = 0.02
+    ahead_m: q.Place = 0.6
+    left_m: q.Place = 0.0
+    round_bump: bool = False
+
+
+class Slope(FaultRecord, frozen=True, kw_only=True):
+    """From now on the whole floor rises towards an angle from where the robot faces."""
+
+    rise_deg: q.Incline
+    towards_deg: q.Heading = 0.0
+
+
+class Load(FaultRecord, frozen=True, kw_only=True):
+    """From now on the robot's torso weighs more (or less), which nobody tells it."""
+
+    mass_kg: q.Burden
+
+
+class Delay(FaultRecord, frozen=True, kw_only=True):
+    """From now on motors do what they are told so much later; 0: at once."""
+
+    delay_s: q.Lag
+
+
 class Heat(FaultRecord, frozen=True, kw_only=True):
     """A motor's winding is suddenly that hot; it cools down as it does."""
 
@@ -163,7 +194,7 @@ class Kill(FaultRecord, frozen=True, kw_only=True):
 
 Fault = (
     Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead
-    | OffsetImu | Heat | Discharge | MotorOff | Kill
+    | OffsetImu | Sill | Slope | Load | Delay | Heat | Discharge | MotorOff | Kill
 )  # fmt: skip
 KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""

@@ -72,6 +72,7 @@ class MappedWorld:
     def __init__(self, name: str = "test") -> None:
         self.name = name
         self.vary_seed = None
+        self.profile = "ideal"
         self.map = world_map()
 
     def content(self) -> bytes:
@@ -80,6 +81,11 @@ class MappedWorld:
 
 class Mapped:
     """A reality of such worlds, whatever is asked for."""
+
+    profile = "ideal"
+
+    def under(self, profile: str) -> Mapped:
+        return self
 
     def names(self) -> list[str]:
         return ["test"]

@@ -138,7 +138,10 @@ def conversation(
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY, options.world, robot=options.robot, vary_seed=options.vary_seed
+        REALITY.under(options.reality),
+        options.world,
+        robot=options.robot,
+        vary_seed=options.vary_seed,
     )
     model = language_model(options.model)
     folder = folder_for(options.run_dir, about, handle)

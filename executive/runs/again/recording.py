@@ -122,7 +122,8 @@ def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]
 
 def _where(header: Header, reality: Reality) -> Setting:
     vary_seed = header.seed if header.varied else None
-    return request.setting(reality, header.world, robot=header.robot, vary_seed=vary_seed)
+    there = reality.under(header.reality)
+    return request.setting(there, header.world, robot=header.robot, vary_seed=vary_seed)
 
 
 @contextmanager

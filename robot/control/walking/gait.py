@@ -168,13 +168,8 @@ class Gait:
         if self.phase == "stand":
             self._replant(measured, load)
             self._update_stand(xi)
-        elif self.phase == "double" and not self._landings and self._escapes(xi):
-            self._begin(swing=self._trailing(xi), start_s=URGENT_START_S)
-        elif self.phase == "double" and self.phase_s >= self.duration_s:
-            if self._landings:
-                self._start_single()
-            else:
-                self._stand()
+        elif self.phase == "double":
+            self._update_double(xi, measured, load)
         elif self.phase == "single":
             self._update_single(dt_s, xi, measured, load)
         return self._reference(dt_s, xi)
@@ -201,14 +196,18 @@ class Gait:
         It slid, or hung in the air when another controller was replaced by this one and came down
         elsewhere. A walk that began from the old place would shift the weight beyond the new one.
         """
+        if self._moved(measured, load):
+            self._stand()
+
+    def _moved(self, measured: dict[Side, Sole], load: list[float]) -> bool:
+        """Take the soles that bear for where they are measured; whether one had moved."""
         moved: list[Side] = [
             side
             for side, share in zip(SIDES, load, strict=True)
             if share > STAMP_LOAD and _apart(self.planted[side], measured[side])
         ]
-        if moved:
-            self.planted.update({side: measured[side] for side in moved})
-            self._stand()
+        self.planted.update({side: measured[side] for side in moved})
+        return bool(moved)
 
     def _escapes(self, xi: Point) -> bool:
         """Is the DCM where no ZMP inside the support brings it back?"""
@@ -224,6 +223,23 @@ class Gait:
         if abs(lead) > 0.05:
             return "left" if (lead > 0.0) == (forward > 0.0) else "right"
         return "left" if left < 0.0 else "right"
+
+    def _update_double(self, xi: Point, measured: dict[Side, Sole], load: list[float]) -> None:
+        """Shift the weight, until the next foot lifts or both stay.
+
+        A foot that comes down fast to catch a push slides on by 2 cm while it takes the weight. It
+        carries the robot where it ends: with the support where it touched, the DCM would seem to
+        escape, and a second step would begin by shifting the weight back.
+        """
+        if self._moved(measured, load):
+            self._polygon = self._hull([self.planted["left"], self.planted["right"]])
+        if not self._landings and self._escapes(xi):
+            self._begin(swing=self._trailing(xi), start_s=URGENT_START_S)
+        elif self.phase_s >= self.duration_s:
+            if self._landings:
+                self._start_single()
+            else:
+                self._stand()
 
     def _update_single(
         self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]

@@ -27,8 +27,11 @@ LEFT_TURN, RIGHT_TURN = slice(15, 18), slice(18, 21)
 GYRO_BIAS, ACCEL_BIAS = slice(21, 24), slice(24, 27)
 SIZE = 27
 FOOT, FOOT_TURN = (LEFT, RIGHT), (LEFT_TURN, RIGHT_TURN)
-LEVEL_EVERY = 10
-"""Flatness and height of the soles are told once in so many updates: they change slowly."""
+LEVEL_EVERY_S = 0.05
+"""Flatness and height of the soles are told once in that time: they change slowly."""
+MOST_BEHIND_S = 0.01
+"""So long the covariance may lag behind the state, which costs a tenth to integrate; over 10 ms
+nothing in it changes (`python -m benchmarks.imu_offsets`)."""
 
 
 def _leg_rows(foot: slice, turn: slice) -> Array:
@@ -88,7 +91,8 @@ class ContactFilter:
         self.standing = [False, False]
         self._since_s = [0.0, 0.0]
         self._planted_s = 0.0
-        self._updates = 0
+        self._behind_s = 0.0
+        self._unlevelled_s = 0.0
         self._F: Array = np.eye(SIZE)
         self._FP: Array = np.zeros((SIZE, SIZE))
         self._levers: Array = np.zeros((15, 3))
@@ -107,6 +111,7 @@ class ContactFilter:
         self.standing = [False, False]
         self._since_s = [0.0, 0.0]
         self._planted_s = 0.0
+        self._behind_s = 0.0
         covariance = self.covariance
         covariance[:21, :] = 0.0
         covariance[:, :21] = 0.0
@@ -132,15 +137,27 @@ class ContactFilter:
             return
         rotation, v, p = self.rotation, self.v, self.p
         bx, by, bz = self.gyro_bias.tolist()
-        force = rotation @ (accel_m_s2 - self.accel_bias)
-        force[2] -= GRAVITY_M_S2
-        self._propagate_errors(dt_s)
-        p += dt_s * v + (0.5 * dt_s * dt_s) * force
-        v += dt_s * force
+        cx, cy, cz = self.accel_bias.tolist()
+        fx, fy, fz = rotation.dot((ax - cx, ay - cy, az - cz)).tolist()
+        fz -= GRAVITY_M_S2
+        (vx, vy, vz), (px, py, pz), half_s = v.tolist(), p.tolist(), 0.5 * dt_s
+        p[:] = (
+            px + dt_s * (vx + half_s * fx),
+            py + dt_s * (vy + half_s * fy),
+            pz + dt_s * (vz + half_s * fz),
+        )
+        v[:] = vx + dt_s * fx, vy + dt_s * fy, vz + dt_s * fz
         turn = exponential(dt_s * (gx - bx), dt_s * (gy - by), dt_s * (gz - bz))
-        self.rotation = rotation @ turn
+        self.rotation = rotation.dot(turn)
+        self._behind_s += dt_s
+        if self._behind_s > MOST_BEHIND_S + 1e-6:
+            self._catch_up()
 
-    def _propagate_errors(self, dt_s: float) -> None:
+    def _catch_up(self) -> None:
+        """Let the covariance be as old as the state."""
+        dt_s, self._behind_s = self._behind_s, 0.0
+        if dt_s <= 0.0:
+            return
         k, transition, levers = self.parameters, self._F, self._levers
         rotation = self.rotation
         _skew_into(levers, 3, self.v)
@@ -148,7 +165,7 @@ class ContactFilter:
         _skew_into(levers, 9, self.feet[0])
         _skew_into(levers, 12, self.feet[1])
         step = dt_s * rotation
-        np.negative(levers @ step, out=transition[:15, GYRO_BIAS])
+        np.negative(levers.dot(step), out=transition[:15, GYRO_BIAS])
         np.negative(step, out=transition[V, ACCEL_BIAS])
         transition[6, 3] = transition[7, 4] = transition[8, 5] = dt_s
         fall = GRAVITY_M_S2 * dt_s  # [g]x r with g = (0, 0, -g)
@@ -157,7 +174,9 @@ class ContactFilter:
         covariance = self.covariance
         np.dot(transition, covariance, out=self._FP)
         np.dot(self._FP, transition.T, out=covariance)
-        covariance[:15, :15] += (k.gyro_rad_s_rthz**2 * dt_s) * (levers @ levers.T)
+        turned = levers.dot(levers.T)
+        turned *= k.gyro_rad_s_rthz**2 * dt_s
+        covariance[:15, :15] += turned
         diagonal = self._diagonal
         diagonal[3:6] += k.accel_m_s2_rthz**2 * dt_s
         diagonal[21:24] += k.gyro_bias_walk_rad_s_rts**2 * dt_s
@@ -176,7 +195,8 @@ class ContactFilter:
             rotations: their orientations in I, shape (2, 3, 3).
             load: how surely each stands, 0 (in the air) to 1.
         """
-        self._updates += 1
+        self._catch_up()
+        self._unlevelled_s += dt_s
         planted = min(load) >= 1.0
         self._planted_s = self._planted_s + dt_s if planted else 0.0
         for side in (0, 1):
@@ -186,21 +206,23 @@ class ContactFilter:
             self.standing[side] = known
             if known:
                 self._creep(side, dt_s, load[side])
-        if not self._look(positions, rotations, dt_s):
-            self._look(positions, rotations, dt_s)  # again, with the foot that slipped set anew
+        if not self._look(positions, rotations):
+            self._look(positions, rotations)  # again, with the foot that slipped set anew
+        if self._unlevelled_s > LEVEL_EVERY_S - 1e-6:
+            self._unlevelled_s = 0.0
 
-    def _look(self, positions: Array, rotations: Array, dt_s: float) -> bool:
+    def _look(self, positions: Array, rotations: Array) -> bool:
         """Take in what the standing legs and the floor tell; False if a foot was found to slip."""
         row = 0
         for side in (0, 1):
             if self.standing[side]:
                 row = self._leg(row, side, positions[side], rotations[side])
         legs = row
-        if self._updates % LEVEL_EVERY == 0:
+        if self._unlevelled_s > LEVEL_EVERY_S - 1e-6:
             self._round_off()
             for side in (0, 1):
                 if self.standing[side]:
-                    row = self._floor(row, side, dt_s)
+                    row = self._floor(row, side, self._unlevelled_s)
         if not row or self._update(row, gate=self.parameters.slip_gate):
             return True
         self._set_anew(legs, positions, rotations)
@@ -270,17 +292,20 @@ class ContactFilter:
         """What a leg measures: the sole from the base; returns the next free row."""
         k, z = self.parameters, self._z
         self._H[row : row + 6] = LEG_ROWS[side]
-        seen = self.rotation @ position
+        seen = self.rotation.dot(position)
         seen += self.p
         seen -= self.feet[side]
         z[row : row + 3] = seen
-        z[row + 3 : row + 6] = small_turn(self.rotation @ rotation @ self.turns[side].T)
+        z[row + 3 : row + 6] = small_turn(self.rotation.dot(rotation).dot(self.turns[side].T))
         self._noise[row : row + 3] = k.foot_m**2
         self._noise[row + 3 : row + 6] = k.foot_rad**2
         return row + 6
 
-    def _floor(self, row: int, side: int, dt_s: float) -> int:
-        """What the floor tells of a sole: level, at height zero; returns the next free row."""
+    def _floor(self, row: int, side: int, since_s: float) -> int:
+        """What the floor tells of a sole: level, at height zero; returns the next free row.
+
+        `since_s`: for how long it has not been asked.
+        """
         k, H, z = self.parameters, self._H, self._z
         H[row : row + 3] = 0.0
         turn, foot = 15 + 3 * side, 9 + 3 * side
@@ -291,7 +316,7 @@ class ContactFilter:
         x, y, height = self.feet[side].tolist()
         H[row + 2, 0], H[row + 2, 1], H[row + 2, foot + 2] = y, -x, 1.0
         z[row + 2] = -height
-        repeats = max(1.0, 2.0 * k.flat_time_s / (LEVEL_EVERY * dt_s))
+        repeats = max(1.0, 2.0 * k.flat_time_s / since_s)
         tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
         raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
         self._noise[row] = self._noise[row + 1] = tilted * repeats * k.flat_rad**2
@@ -306,29 +331,31 @@ class ContactFilter:
         The gate is a squared distance for 6 rows; of more rows as many times more is normal.
         """
         H, z, covariance = self._H[:rows], self._z[:rows], self.covariance
-        HP = H @ covariance
-        S = HP @ H.T
+        HP = H.dot(covariance)
+        S = HP.dot(H.T)
         S.reshape(-1)[:: rows + 1] += self._noise[:rows]
-        inverse = np.linalg.inv(S)
-        if float(z @ inverse @ z) > gate + 1.5 * (rows - 6):
+        inverse = np.asarray(np.linalg.inv(S), dtype=np.float64)
+        weighed = inverse.dot(z)
+        if float(weighed.dot(z)) > gate + 1.5 * (rows - 6):
             return False
-        gain = HP.T @ inverse
-        self._move(gain @ z)
-        covariance -= gain @ HP
+        self._move(HP.T.dot(weighed))
+        covariance -= HP.T.dot(inverse.dot(HP))
         return True
 
     def _move(self, step: Array) -> None:
         """Apply an error: ``Exp(step) state_hat``."""
         rx, ry, rz = step[:3].tolist()
         turn = exponential(rx, ry, rz)
-        self.rotation = turn @ self.rotation
-        self.v = turn @ self.v + step[V]
-        self.p = turn @ self.p + step[P]
-        self.feet = self.feet @ turn.T
+        self.rotation = turn.dot(self.rotation)
+        self.v = turn.dot(self.v)
+        self.v += step[V]
+        self.p = turn.dot(self.p)
+        self.p += step[P]
+        self.feet = self.feet.dot(turn.T)
         self.feet += step[9:15].reshape(2, 3)
         for side in (0, 1):
             x, y, z = step[FOOT_TURN[side]].tolist()
-            self.turns[side] = exponential(x, y, z) @ self.turns[side]
+            self.turns[side] = exponential(x, y, z).dot(self.turns[side])
         self.gyro_bias += step[GYRO_BIAS]
         self.accel_bias += step[ACCEL_BIAS]
 

@@ -6,6 +6,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DescriptionError
 from robot.reality import faults
 from robot.se3 import SE3
@@ -156,3 +157,51 @@ def test_a_hot_motor_and_an_empty_battery(plant, robot):
     assert 0.0 < before - plant.battery.charge < 0.001
     with pytest.raises(ConfigError, match="from 0 to 1"):
         faults.parse({"fault": "discharge", "charge": 1.5})
+
+
+def test_a_sill_lies_across_the_way_and_goes_again(plant):
+    X_WB = plant.oracle.X_WB()
+    apply(plant, faults.Sill(height_m=0.03, ahead_m=0.8))
+    sill = plant.where("sill")
+    assert (X_WB.flat().inverse() @ sill).p[0] == pytest.approx(0.8)
+    assert sill.yaw_rad == pytest.approx(X_WB.yaw_rad)
+    top_m = sill.p[2] + plant.model.geom_size[plant.model.body("sill").geomadr[0]][2]
+    assert top_m == pytest.approx(0.03)
+    plant.put("object/red_cup", SE3((sill.p[0], sill.p[1], 0.12)))
+    plant.step(600)
+    assert plant.oracle.X_WO("red_cup").p[2] == pytest.approx(0.03 + 0.05, abs=0.02)
+    apply(plant, faults.Sill(height_m=0.0))
+    assert plant.where("sill").p[2] < -0.5
+
+
+def test_a_slope_leans_gravity_away_from_where_it_rises(plant):
+    apply(plant, faults.Slope(rise_deg=5.0, towards_deg=90.0))
+    g = plant.model.opt.gravity
+    yaw = plant.oracle.X_WB().yaw_rad + math.pi / 2
+    assert np.linalg.norm(g) == pytest.approx(9.81, abs=0.01)
+    assert -(g[0] * math.cos(yaw) + g[1] * math.sin(yaw)) == pytest.approx(
+        9.81 * math.sin(math.radians(5.0)), abs=0.01
+    )
+
+
+def test_a_load_weighs_on_the_torso(plant):
+    before = float(plant.model.body_mass.sum())
+    apply(plant, faults.Load(mass_kg=3.0))
+    assert float(plant.model.body_mass.sum()) == pytest.approx(before + 3.0)
+
+
+def test_a_delay_begins_and_ends(plant):
+    zero = np.zeros(plant.motors.count)
+
+    def told(torque):
+        plant.write(MotorCommand(plant.time_s, zero, zero, zero + torque, zero, zero))
+
+    apply(plant, faults.Delay(delay_s=0.01))
+    told(1.0)
+    plant.step(8)
+    assert not plant.data.ctrl.any()
+    plant.step(4)
+    assert plant.data.ctrl == pytest.approx(1.0)
+    apply(plant, faults.Delay(delay_s=0.0))
+    told(2.0)
+    assert plant.data.ctrl == pytest.approx(2.0)

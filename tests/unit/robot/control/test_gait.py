@@ -187,3 +187,24 @@ def test_a_dcm_that_escapes_ahead_hastens_the_step(pendulum, juno):
         pendulum.tick()
     assert gait.steps_taken == 0
     assert gait.duration_s < 0.8 * juno.walking.single_support_s
+
+
+def test_a_foot_that_slides_on_as_it_lands_carries_the_robot_where_it_ends(pendulum):
+    """Against the support where it touched the DCM would seem to escape, and another step begin."""
+    gait = pendulum.gait
+    pendulum.run(0.5)
+    pendulum.xi = [0.0, 0.16]
+    for _ in range(200):
+        if gait.steps_taken == 0:
+            pendulum.tick()
+    assert gait.phase == "double"
+    foot = gait.planted["left"]
+    pendulum.feet["left"] = Sole(foot.x, foot.y + 0.02, foot.yaw)
+    pendulum.xi[1] = foot.y + 0.05
+    for _ in range(20):
+        pendulum.tick()
+    assert gait.steps_taken == 1
+    assert gait.planted["left"].y == pytest.approx(foot.y + 0.02)
+    pendulum.run(3.0)
+    assert gait.steps_taken == 1
+    assert gait.phase == "stand"

@@ -1,0 +1,118 @@
+"""Realities by name: how far a robot, its senses and its floor are from their descriptions.
+
+`realities.yaml` holds ranges, each with its source; a run draws what is wrong with its own robot
+from them by its seed (`sim.flaws`).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import msgspec
+from msgspec import Meta
+
+from robot import config
+from robot.reality.faults import check_name
+
+FILE = Path(str(resources.files("sim"))) / "realities.yaml"
+IDEAL = "ideal"
+"""Where nobody says otherwise."""
+
+Size: TypeAlias = Annotated[float, Meta(ge=0.0, le=100.0)]
+Range: TypeAlias = tuple[Size, Size]
+SAME: Range = (1.0, 1.0)
+NONE: Range = (0.0, 0.0)
+
+
+class Imu(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of the IMU: the gyro is off by up to so much in any direction, and so on."""
+
+    gyro_offset_deg_s: Size = 0.0
+    accel_offset_m_s2: Size = 0.0
+    askew_deg: Size = 0.0
+
+
+class Joints(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of every motor; where a range stands, each motor has its own.
+
+    Attributes:
+        encoder_bits: steps of a turn, as a power of two; 0: none.
+        encoder_offset_rad: 1 sigma.
+        velocity_lag_s: time constant of the filter behind a velocity.
+        friction_share: Coulomb friction over the peak torque.
+        backlash_deg: play between motor and joint.
+        strength: torque given for torque asked.
+        delay_ms: from a measurement to the torque that it leads to; one for all motors.
+        no_load_speed_share: the speed at which no torque is left, over the speed limit, from
+            which the torque falls; 0: it does not.
+    """
+
+    encoder_bits: Annotated[int, Meta(ge=0, le=32)] = 0
+    encoder_offset_rad: Size = 0.0
+    velocity_lag_s: Size = 0.0
+    friction_share: Range = NONE
+    backlash_deg: Range = NONE
+    strength: Range = SAME
+    delay_ms: Range = NONE
+    no_load_speed_share: Annotated[float, Meta(ge=0.0, le=100.0)] = 0.0
+
+
+class Forces(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of ankles and wrists, each axis: 1 sigma of the offset, and of what it drifts in a second."""
+
+    offset_n: Size = 0.0
+    offset_nm: Size = 0.0
+    drift_n_rts: Size = 0.0
+
+
+class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of the lidar; `dropouts` is the share of beams that come back empty."""
+
+    noise_m: Size = 0.01
+    dropouts: Annotated[float, Meta(ge=0.0, le=1.0)] = 0.0
+    least_m: Size = 0.0
+
+
+class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of the depth camera: 1 sigma at a metre, growing with the square of the depth."""
+
+    noise_per_m: Size = 0.002
+
+
+class Body(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Of the robot's masses, each link by a factor, and of the floor under its soles.
+
+    `floor_friction` is the sliding friction of soles on the floor; none: as the world says.
+    """
+
+    link_mass: Range = SAME
+    torso_kg: Size = 0.0
+    torso_com_m: Size = 0.0
+    floor_friction: Range | None = None
+
+
+class Profile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One reality."""
+
+    summary: str
+    imu: Imu = Imu()
+    joints: Joints = Joints()
+    forces: Forces = Forces()
+    lidar: Lidar = Lidar()
+    camera: Camera = Camera()
+    body: Body = Body()
+
+
+@cache
+def profiles() -> dict[str, Profile]:
+    """Every reality by its name."""
+    return config.load(FILE, dict[str, Profile])
+
+
+def profile(name: str) -> Profile:
+    """One reality. Raises ConfigError for a name that is none, with the nearest that is."""
+    check_name(name, list(profiles()), "reality")
+    return profiles()[name]
