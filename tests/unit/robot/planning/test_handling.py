@@ -98,6 +98,22 @@ def test_spots_that_are_all_off_the_place_are_none(solver: Solver) -> None:
     assert "where it is wanted" in plan.cause
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Shape(kind="box", size_m=(0.05, 0.16, 0.03)),
+        Shape(kind="cylinder", size_m=(0.06, 0.06, 0.04)),
+    ],
+)
+def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
+    on = on_table(-0.1, 0.2).X_WO.p
+    z = on[2] - 0.5 * CUP.size_m[2] + 0.5 * shape.size_m[2]
+    flat = ObjectPose(id="cup", shape=shape, X_WO=SE3((on[0], on[1], z)))
+    plan = pick(solver, surroundings(flat))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.margin > 0.3
+
+
 @pytest.mark.parametrize("x", [-0.2, 0.0, 0.2])
 @pytest.mark.parametrize("y", [-0.5, 0.0, 0.5])
 def test_a_cup_anywhere_on_the_table(solver: Solver, x: float, y: float) -> None:
