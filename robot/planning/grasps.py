@@ -28,8 +28,8 @@ TILTS_RAD = (0.0, 0.35, 0.70)
 TILT_COST = (0.0, 0.12, 0.35)
 LYING_TILTS_RAD = (1.2, 0.9, 1.45)
 LOW_ABOVE_M = 0.025
-"""What stands and is lower than this above `lowest_m` is taken with the fingertips just above what it
-stands on: a hand that comes level leaves half of itself no room at a remote control of 3 cm."""
+"""What is no higher than this above `lowest_m` is taken with the fingertips just above what it
+stands on: half of a hand that comes level has no room beside a remote control of 3 cm."""
 LOW_TILTS_RAD, LOW_COST = (0.35, 0.70, 0.95, 1.2, 1.45), 0.2
 TIP_HEIGHT_M, FINGER_M = 0.008, 0.010
 """Between the fingertips and what the thing stands on then; half the height of a finger [m]."""
