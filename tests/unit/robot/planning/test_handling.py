@@ -114,6 +114,17 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     assert plan.margin > 0.3
 
 
+def test_a_bottle_with_4_cm_above_it_comes_out_from_under_a_board(solver: Solver) -> None:
+    board = BOARD[BOARDS_M[1]]
+    tall_m = board.clearance_m - 0.04
+    shape = Shape(kind="cylinder", size_m=(0.07, 0.07, tall_m))
+    at = board.X_WP.apply((0.03, 0.1, 0.5 * tall_m))
+    bottle = ObjectPose(id="cup", shape=shape, X_WO=SE3((float(at[0]), float(at[1]), float(at[2]))))
+    plan = pick(solver, surroundings(bottle))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.X_WG_lift.p[2] - plan.X_WG_grasp.p[2] < 0.04
+
+
 @pytest.mark.parametrize("x", [-0.2, 0.0, 0.2])
 @pytest.mark.parametrize("y", [-0.5, 0.0, 0.5])
 def test_a_cup_anywhere_on_the_table(solver: Solver, x: float, y: float) -> None:
