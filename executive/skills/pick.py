@@ -22,7 +22,8 @@ from executive.skills.motions.grasp import (
 )
 from executive.skills.motions.look_over import limit_s
 from executive.skills.motions.object_search import find
-from executive.skills.motions.planning import ask, stance_of
+from executive.skills.motions.past_people import ask_past_people
+from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.stow import HOME, stow_arms
@@ -163,7 +164,7 @@ class Pick(ScriptedSkill[PickParams]):
             walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
             seed=self.body.context.seed + attempt,
         )
-        return (yield from ask(self.body, request, PickPlan))
+        return (yield from ask_past_people(self.body, request, PickPlan))
 
     def _grasp(self, info: ObjectInfo, plan: PickPlan) -> Script[PickPlan]:
         """Take hold of it and lift it; tries again from where the body stands if it slips away."""

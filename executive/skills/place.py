@@ -15,7 +15,8 @@ from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import check_grips, open_fingers, set_payload
 from executive.skills.motions.gaze import look_at, see
-from executive.skills.motions.planning import ask, held_in, stance_of
+from executive.skills.motions.past_people import ask_past_people
+from executive.skills.motions.planning import held_in, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.stow import HOME, stow_arms
@@ -215,7 +216,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
             seed=self.body.context.seed + attempt,
         )
-        return (yield from ask(self.body, request, PlacePlan))
+        return (yield from ask_past_people(self.body, request, PlacePlan))
 
     def _reach_over(self, place: Place, plan: PlacePlan) -> Script[None]:
         """Bring the object above its spot; comes nearer if that is just out of reach."""

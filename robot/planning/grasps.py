@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -26,6 +27,14 @@ and then, and moved it by up to 23 mm (`python -m benchmarks --only mission`, se
 TILTS_RAD = (0.0, 0.35, 0.70)
 TILT_COST = (0.0, 0.12, 0.35)
 LYING_TILTS_RAD = (1.2, 0.9, 1.45)
+LOW_ABOVE_M = 0.025
+"""What is no higher than this above `lowest_m` is taken with the fingertips just above what it
+stands on: half of a hand that comes level has no room beside a remote control of 3 cm."""
+LOW_TILTS_RAD, LOW_COST = (0.35, 0.70, 0.95, 1.2, 1.45), 0.2
+TIP_HEIGHT_M, FINGER_M = 0.008, 0.010
+"""Between the fingertips and what the thing stands on then; half the height of a finger [m]."""
+STEEP_RAD = 0.7
+"""From here on the palm is above a low thing: a long one is taken at its middle."""
 LYING_LIFT_M = 0.01
 """The grasp is so far above the axis of what lies: the fingertips stay clear of the table."""
 UPRIGHT_COS = 0.95
@@ -150,6 +159,25 @@ def _lifts(height_m: float, gripping: Gripping) -> list[tuple[float, float]]:
     return sorted(lifts.items())
 
 
+def _is_low(height_m: float, gripping: Gripping) -> bool:
+    return height_m < gripping.lowest_m + LOW_ABOVE_M
+
+
+def _ways_down(height_m: float, gripping: Gripping) -> list[tuple[float, float, float]]:
+    """Tilts and lifts of the hand on what stands, with their costs; low things from above, too."""
+    low = _is_low(height_m, gripping)
+    ways = [
+        (tilt, lift, tilt_cost + lift_cost)
+        for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True)
+        for lift, lift_cost in _lifts(height_m, gripping)
+        if tilt == 0.0 or not low
+    ]
+    for tilt in LOW_TILTS_RAD if low else ():
+        below_m = gripping.fingertip_m * math.sin(tilt) + FINGER_M * math.cos(tilt)
+        ways.append((tilt, below_m + TIP_HEIGHT_M - 0.5 * height_m, LOW_COST))
+    return ways
+
+
 def _standing_cylinder(
     shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping
 ) -> list[HandOption]:
@@ -165,10 +193,9 @@ def _standing_cylinder(
             lift=lift,
             depth=0.5 * diameter,
             width=diameter,
-            cost=tilt_cost + lift_cost,
+            cost=cost,
         )
-        for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True)
-        for lift, lift_cost in _lifts(height, gripping)
+        for tilt, lift, cost in _ways_down(height, gripping)
     ]
 
 
@@ -211,20 +238,20 @@ def _box(
             continue
         direction = rotation[:, approach]
         yaw = math.atan2(direction[1], direction[0])
-        for turn in (0.0, math.pi):
-            for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True):
-                for lift, lift_cost in _lifts(height, gripping):
-                    result.append(
-                        _option(
-                            X_WO,
-                            np.array(X_WShape.p),
-                            gripping,
-                            heading=wrap_angle(yaw + turn),
-                            tilt=tilt,
-                            lift=lift,
-                            depth=0.5 * shape.size_m[approach],
-                            width=shape.size_m[closing],
-                            cost=tilt_cost + lift_cost,
-                        )
-                    )
+        reach_m = 0.5 * shape.size_m[approach]
+        for turn, (tilt, lift, cost) in product((0.0, math.pi), _ways_down(height, gripping)):
+            over = _is_low(height, gripping) and tilt >= STEEP_RAD
+            result.append(
+                _option(
+                    X_WO,
+                    np.array(X_WShape.p),
+                    gripping,
+                    heading=wrap_angle(yaw + turn),
+                    tilt=tilt,
+                    lift=lift,
+                    depth=min(reach_m, gripping.hold_depth_m) if over else reach_m,
+                    width=shape.size_m[closing],
+                    cost=cost,
+                )
+            )
     return result

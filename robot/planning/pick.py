@@ -18,7 +18,7 @@ from robot.planning.solids import Solid, solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import SE3, Array
 
-LIFTS_M = (0.10, 0.06, 0.04)
+LIFTS_M = (0.10, 0.06, 0.04, 0.025)
 CARRY_CLEARANCE_M = 0.02
 TUCK_STEPS = 4
 """How far the elbow swings in: a carried mug then is within 0.26 m, where it was 0.32."""

@@ -10,7 +10,8 @@ import numpy as np
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.gaze import check_camera, turn_head
 from executive.skills.motions.likelihood import surfaces_of
-from executive.skills.motions.planning import ask, stance_of
+from executive.skills.motions.past_people import ask_view_past_people
+from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import GaveUp, Script
 from executive.skills.motions.support import surroundings
 from executive.skills.motions.survey import Rows, Survey
@@ -84,7 +85,7 @@ def stand_to_see(body: Body, p_W: Vector3) -> Script[bool]:
     request = LookRequest(
         start=stance_of(body.X_WS), points_W=(p_W,), worth=(1.0,), around=surroundings(body)
     )
-    plan = yield from ask(body, request, LookPlan)
+    plan = yield from ask_view_past_people(body, request)
     if plan.stance is None:
         return False
     try:
@@ -106,7 +107,7 @@ def _next_view(body: Body, survey: Survey, *, stay: bool) -> Script[tuple[LookPl
             around=surroundings(body),
             stay=stay,
         )
-        plan = yield from ask(body, request, LookPlan)
+        plan = yield from ask_view_past_people(body, request)
         survey.cut_off(left[list(plan.cut_off)])
         if plan.stance is not None:
             return plan, left[list(plan.sees)]

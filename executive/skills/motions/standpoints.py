@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.obstructions import between, clearance_m
+from executive.skills.motions.past_people import ask_past_people
 from executive.skills.motions.planning import ask
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.walk import path_request, walk_to
 from robot.messages import PersonInfo, Place
-from robot.planning.requests import BasePath, Stance
+from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3
 
 AT_PERSON_M = 1.0
@@ -22,6 +24,8 @@ DIRECTIONS = 8
 TRIES, ELSEWHERE_M = 9, 1.2
 """So many places are tried at most; beside one that only a narrow way leads to, the next is not."""
 BAD_GOAL = ("goal_in_collision", "no_path")
+
+Asking: TypeAlias = Callable[[Body, BasePathRequest, type[BasePath]], Script[BasePath]]
 
 
 def stances_at(place: Place, X_WS: SE3, *, before_edge_m: float) -> list[Stance]:
@@ -67,29 +71,14 @@ def stances_before(body: Body, person: PersonInfo, *, distance_m: float) -> list
 
 
 def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[Stance]:
-    """Walk to the first stance that a wide way leads to, else any; gives up if none does."""
-    reasons: list[GaveUp] = []
-    squeezed: list[Stance] = []
-    chosen: Stance | None = None
-    tried = 0
-    for stance in _roomy_first(body, stances):
-        if tried == TRIES:
-            break
-        if any(math.dist(stance[:2], other[:2]) < ELSEWHERE_M for other in squeezed):
-            continue
-        tried += 1
-        try:
-            path = yield from ask(body, path_request(body, stance), BasePath)
-        except GaveUp as end:
-            if end.failure.code not in BAD_GOAL:
-                raise
-            reasons.append(end)
-            continue
-        if _between_ends_m(path) >= body.description.walking.room.passing_m:
-            chosen = stance
-            break
-        squeezed.append(stance)
-    chosen = chosen or next(iter(squeezed), None)
+    """Walk to the first stance that a wide way leads to, else any, else up to who closes the way.
+
+    Gives up if there is none.
+    """
+    order = list(_roomy_first(body, stances))
+    chosen, reasons = yield from _first_with_a_way(body, order, ask)
+    if chosen is None and body.map.people:
+        chosen, _ = yield from _first_with_a_way(body, order, ask_past_people)
     if chosen is not None:
         yield from walk_to(body, chosen)
         return chosen
@@ -100,6 +89,32 @@ def walk_to_any(body: Body, stances: Sequence[Stance], *, name: str) -> Script[S
         f"no free path leads to the {name}: tried {len(reasons)} places to stand",
         last=reasons[-1].failure.cause if reasons else "there is none",
     )
+
+
+def _first_with_a_way(
+    body: Body, stances: Sequence[Stance], asking: Asking
+) -> Script[tuple[Stance | None, list[GaveUp]]]:
+    """The first stance that a wide way leads to, else any; and why none leads to others."""
+    reasons: list[GaveUp] = []
+    squeezed: list[Stance] = []
+    tried = 0
+    for stance in stances:
+        if tried == TRIES:
+            break
+        if any(math.dist(stance[:2], other[:2]) < ELSEWHERE_M for other in squeezed):
+            continue
+        tried += 1
+        try:
+            path = yield from asking(body, path_request(body, stance), BasePath)
+        except GaveUp as end:
+            if end.failure.code not in BAD_GOAL:
+                raise
+            reasons.append(end)
+            continue
+        if _between_ends_m(path) >= body.description.walking.room.passing_m:
+            return stance, reasons
+        squeezed.append(stance)
+    return next(iter(squeezed), None), reasons
 
 
 def _between_ends_m(path: BasePath) -> float:

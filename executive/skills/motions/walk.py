@@ -15,6 +15,7 @@ from executive.skills.motions.final_steps import is_at_stance, miss, step_to
 from executive.skills.motions.fingers import check_grips
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.obstructions import in_the_way
+from executive.skills.motions.past_people import ask_past_people
 from executive.skills.motions.path_follower import Follower, Velocity, turn_towards
 from executive.skills.motions.personal_space import in_the_path, somebody_near
 from executive.skills.motions.planning import ask, pose_of, stance_of
@@ -102,14 +103,14 @@ def path_request(body: Body, goal: Stance) -> BasePathRequest:
 
 
 def plan_path(body: Body, goal: Stance) -> Script[BasePath]:
-    """Ask for a way from here, wide around people where there is one."""
+    """Ask for a way from here: wide around people, else close by, else up to who closes it."""
     request = path_request(body, goal)
     try:
         path = yield from ask(body, _around_people(body, request), BasePath)
     except GaveUp as end:
         if end.failure.code not in NO_ROOM:
             raise
-        path = yield from ask(body, request, BasePath)
+        path = yield from ask_past_people(body, request, BasePath)
     return facing_the_way(request.start, path, free_m=body.description.body_radius_m)
 
 

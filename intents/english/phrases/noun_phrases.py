@@ -344,6 +344,9 @@ def _extreme_side(text: Text, phrase: NounPhrase, at: int) -> int | None:
         follows = text.word(at + 1)
     if side is None or follows in ("of", "to", "leg", "foot", "arm", "hand"):
         return None
+    named = text.name_at(at)
+    if named and named.end > at + 1:
+        return None  # on the left desk
     beside = text.word(begun) == "to" and not far and phrase.noun != "person"
     if beside or phrase.noun in ("pronoun", "place", "body"):
         return None

@@ -101,6 +101,14 @@ def test_said_roundabout_it_is_the_same(said: str, plainly: str):
     assert _goals(said) == goals
 
 
+def test_a_side_that_belongs_to_a_name_is_no_side():
+    assert _goals("put the pen on the left file rack") == [
+        {"goal": "place", "object": {"name": "pen"}, "on": "left file rack"}
+    ]
+    (goal,) = _goals("pick up the pen on the left")
+    assert goal == {"goal": "pick", "object": {"name": "pen", "superlative": "leftmost"}}
+
+
 def test_what_is_not_there_is_fetched_from_wherever_it_is():
     for said in (
         "if the pen is not on the desk, put it there",

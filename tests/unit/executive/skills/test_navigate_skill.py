@@ -105,6 +105,33 @@ def test_the_planners_failure_is_the_skills(stage):
     assert stage.commands(Walk) == []
 
 
+def test_who_closes_the_only_way_is_walked_up_to(stage):
+    closed = failure("no_path", "Ann closes every way", blocked_by="ann")
+    stage.planner.failures[BasePathRequest] = [closed, closed]
+    assert stage.run(to(2.0, 0.0, 0.0)).status == "succeeded"
+    wide, close, past = [r for r in stage.planner.requests if isinstance(r, BasePathRequest)][:3]
+    assert wide.around.map.people[0].radius_m > close.around.map.people[0].radius_m
+    assert "ann" not in close.around.ignored
+    assert "ann" in past.around.ignored
+
+
+def test_what_the_sensors_see_of_them_is_left_out_with_them(stage):
+    stage.puppet.unmapped = (box(0.05, 3.2, "in view 1"), box(2.5, -2.5, "in view 2"))
+    closed = failure("no_path", "Ann closes every way", blocked_by="ann")
+    stage.planner.failures[BasePathRequest] = [closed, closed]
+    stage.run(to(2.0, 0.0, 0.0))
+    past = [r for r in stage.planner.requests if isinstance(r, BasePathRequest)][2]
+    assert past.around.ignored == ("ann", "in view 1")
+
+
+def test_furniture_that_closes_the_way_is_no_person(stage):
+    closed = failure("goal_in_collision", "inside the table", blocked_by="table")
+    stage.planner.failures[BasePathRequest] = [closed, closed]
+    assert stage.run(to(2.0, 0.0, 0.0)).failure.code == "goal_in_collision"
+    asked = [r for r in stage.planner.requests if isinstance(r, BasePathRequest)]
+    assert len(asked) == 2
+
+
 def test_at_a_surface_it_faces_it_from_the_near_side(stage):
     report = stage.run(NavigateParams(place_id="table"))
     assert report.status == "succeeded"

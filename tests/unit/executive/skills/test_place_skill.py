@@ -152,10 +152,17 @@ def test_a_drop_on_the_way_is_a_drop(stage):
 
 @pytest.mark.parametrize("code", ["no_free_spot", "no_stance"])
 def test_the_planners_refusal_is_reported_and_the_object_kept(stage, code):
-    stage.planner.failures[PlaceRequest] = [failure(code, "as the planner says")]
+    stage.planner.failures[PlaceRequest] = [failure(code, "as the planner says")] * 2
     report = stage.run(ON_COUNTER)
     assert report.failure.code == code
     assert stage.puppet.holding
+
+
+def test_who_stands_before_the_place_is_walked_up_to(stage):
+    stage.planner.failures[PlaceRequest] = [failure("no_stance", "Ann stands there")]
+    assert stage.run(ON_COUNTER).status == "succeeded"
+    past = [r for r in stage.planner.requests if isinstance(r, PlaceRequest)][1]
+    assert past.around.ignored == ("cup", "ann")
 
 
 def test_an_unknown_place_moves_nothing(stage):

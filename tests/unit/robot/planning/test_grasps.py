@@ -59,6 +59,25 @@ def test_a_lying_bottle_is_taken_from_above(body: Body) -> None:
         assert option.R0[2, 0] < -0.7
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Shape(kind="box", size_m=(0.05, 0.16, 0.03)),
+        Shape(kind="cylinder", size_m=(0.06, 0.06, 0.04)),
+    ],
+)
+def test_what_lies_flat_is_taken_with_the_fingertips_just_above_the_table(
+    body: Body, shape: Shape
+) -> None:
+    gripping = body.description.handy.gripping
+    down = [option for option in options(body, shape) if option.R0[2, 0] < -0.6]
+    assert down
+    for option in down:
+        tip_m = option.offset[2] + gripping.fingertip_m * option.R0[2, 0]
+        assert 0.008 <= tip_m + 0.5 * shape.size_m[2] <= 0.02
+        assert np.hypot(*option.offset[:2]) < 0.01
+
+
 def test_what_is_too_wide_has_no_grasp(body: Body) -> None:
     hand, gripping = body.description.hands["right"], body.description.handy.gripping
     box = Shape(kind="box", size_m=(0.2, 0.3, 0.1))

@@ -98,6 +98,33 @@ def test_spots_that_are_all_off_the_place_are_none(solver: Solver) -> None:
     assert "where it is wanted" in plan.cause
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Shape(kind="box", size_m=(0.05, 0.16, 0.03)),
+        Shape(kind="cylinder", size_m=(0.06, 0.06, 0.04)),
+    ],
+)
+def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
+    on = on_table(-0.1, 0.2).X_WO.p
+    z = on[2] - 0.5 * CUP.size_m[2] + 0.5 * shape.size_m[2]
+    flat = ObjectPose(id="cup", shape=shape, X_WO=SE3((on[0], on[1], z)))
+    plan = pick(solver, surroundings(flat))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.margin > 0.3
+
+
+def test_a_bottle_with_4_cm_above_it_comes_out_from_under_a_board(solver: Solver) -> None:
+    board = BOARD[BOARDS_M[1]]
+    tall_m = board.clearance_m - 0.04
+    shape = Shape(kind="cylinder", size_m=(0.07, 0.07, tall_m))
+    at = board.X_WP.apply((0.03, 0.1, 0.5 * tall_m))
+    bottle = ObjectPose(id="cup", shape=shape, X_WO=SE3((float(at[0]), float(at[1]), float(at[2]))))
+    plan = pick(solver, surroundings(bottle))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.X_WG_lift.p[2] - plan.X_WG_grasp.p[2] < 0.04
+
+
 @pytest.mark.parametrize("x", [-0.2, 0.0, 0.2])
 @pytest.mark.parametrize("y", [-0.5, 0.0, 0.5])
 def test_a_cup_anywhere_on_the_table(solver: Solver, x: float, y: float) -> None:
