@@ -35,6 +35,7 @@ from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
 from executive.frontends.recordings import cli as recordings
 from executive.frontends.recordings import maps_cli, sensors_cli
+from executive.frontends.service import cli as services
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
@@ -247,6 +248,7 @@ def export(
 
 
 # After the commands above, so that `--help` lists first what people use first.
+services.register(app)
 worlds.register(app)
 missions.register(app)
 maps_cli.register(app)

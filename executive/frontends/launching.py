@@ -38,6 +38,7 @@ class FrontEnd(StrEnum):
     MISSION = "mission"
     PROMPT = "prompt"
     RESUME = "resume"
+    SERVICE = "service"
 
 
 def here(front: PlainFrontEnd, options: object) -> int:

@@ -7,6 +7,8 @@ from typing import Annotated
 import typer
 
 from executive.frontends.options import Model
+from executive.frontends.service import place
+from executive.frontends.service.options import Name
 
 Run = Annotated[
     str | None, typer.Argument(help="A run's folder or a part of its name (default: the newest).")
@@ -66,8 +68,13 @@ def replay(run: Run = None, *, as_json: AsJson = False) -> None:
     raise typer.Exit(printing.replay(run, as_json=as_json))
 
 
-def resume(run: Run = None, *, model: Model = None, as_json: AsJson = False) -> None:
-    """Go on with a run that was cut off: by kill -9, a crash, a power cut.
+def resume(
+    run: Run = None, *, name: Name = None, model: Model = None, as_json: AsJson = False
+) -> None:
+    """Go on: a robot that is up and paused; or a run that was cut off by kill -9, a power cut.
+
+    Without RUN, while a robot is up (`humanoid up`), that robot goes on with the step that was
+    paused. Otherwise it is a run:
 
     A --fast run is done again up to where it was, proved to be the same, and goes on. Of a live run
     only the journal is left: a new robot holds what was done against its world, and does again what
@@ -77,8 +84,14 @@ def resume(run: Run = None, *, model: Model = None, as_json: AsJson = False) -> 
 
       humanoid resume 20261121-134158
 
+      humanoid pause; humanoid resume      (a robot that is up)
+
     Exit status: as of humanoid do; 1 also if it does not repeat, 2 if nothing is left of it.
     """
+    if run is None and (name is not None or place.places_up()):
+        from executive.frontends.service import commands
+
+        raise typer.Exit(commands.button(name, "resume"))
     from executive.frontends.past_runs import resume as command
 
     raise typer.Exit(command.resume(run, model=model, as_json=as_json))

@@ -8,14 +8,14 @@ import select
 from collections.abc import Callable, Iterable, Iterator
 from typing import TextIO
 
-from executive.frontends.prompt.shell import Shell
+from executive.frontends.prompt.talk import Spoken
 
 LOOK_S = 0.1
 """How often it is asked, while no line comes, whether any is wanted still."""
 CHUNK = 65536
 
 
-def work_off(shell: Shell, lines: Iterable[str]) -> None:
+def work_off(shell: Spoken, lines: Iterable[str]) -> None:
     """Do every line; ends with the last, with `quit`, or when the robot is gone."""
     for line in lines:
         text = line.strip()

@@ -1,0 +1,25 @@
+"""The options of a robot that is up, and of those who reach it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import typer
+
+from executive.frontends.options import Prompt
+from executive.frontends.service.place import DEFAULT_NAME
+
+Name = Annotated[str | None, typer.Option("--name", help="Which robot, where more than one is up.")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Up(Prompt):
+    """The options of `humanoid up`."""
+
+    name: Annotated[
+        str, typer.Option("--name", help="What it is reached by, where more than one is up.")
+    ] = DEFAULT_NAME
+    detach: Annotated[
+        bool, typer.Option("--detach", "-d", help="Leave the terminal once it is up.")
+    ] = False
