@@ -157,12 +157,13 @@ def press(place: Place, button: m.Button, hear: Hear) -> int:
         RobotError: the robot does not answer.
     """
     meanwhile = leave_stop if button in ("stop", "estop") else wait
+    until_s = time.monotonic() + TAKE_OVER_S
     while True:
         with Connection(place, meanwhile=meanwhile) as connection:
             try:
                 return connection.ask(m.Press(button=button), hear).status
             except Cut:  # it died just now; the next one is told
-                if not places.is_up(place):
+                if not places.is_up(place) or time.monotonic() > until_s:
                     raise
 
 
