@@ -8,12 +8,23 @@ silent longest makes room, so that forgotten connections keep nobody from stoppi
 from __future__ import annotations
 
 import itertools
+import os
 import socket
+import struct
 import threading
 from collections.abc import Callable
 from contextlib import suppress
 
 from robot.closing import Closing
+
+_CREDENTIALS = struct.Struct("3i")
+"""Process, user and group of a socket's other end (unix(7), SO_PEERCRED)."""
+
+
+def is_own(connection: socket.socket) -> bool:
+    """Whether the other end of a socket is a process of this user."""
+    data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+    return _CREDENTIALS.unpack(data)[1] == os.geteuid()
 
 
 class Client:
@@ -52,7 +63,7 @@ class LineServer(Closing):
         *,
         heed: Callable[[Client, bytes], None],
         is_welcome: Callable[[socket.socket], bool],
-        greet: Callable[[Client], None] = lambda _: None,
+        greet: Callable[[Client], object] = lambda _: None,
         gone: Callable[[Client], None] = lambda _: None,
         most_clients: int,
         longest: int,

@@ -35,7 +35,7 @@ from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
 HISTORY = Path("~/.local/state/humanoid/history")
-WAY_BACK_S = 20.0
+WAY_BACK_S = 60.0
 """So long a line waits for an executive that takes over."""
 
 

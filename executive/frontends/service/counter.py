@@ -15,7 +15,7 @@ from typing import NamedTuple
 import msgspec
 
 from executive.engine.jobs import OVER
-from executive.frontends.line_server import Client, LineServer
+from executive.frontends.line_server import Client, LineServer, is_own
 from executive.frontends.output import as_mistake
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.service import messages as m
@@ -85,7 +85,7 @@ class Counter(Closing):
         self._server = LineServer(
             places.listen(place, running, backlog=MOST_CLIENTS),
             heed=self._heed,
-            is_welcome=places.is_own,
+            is_welcome=is_own,
             gone=self._forget,
             most_clients=MOST_CLIENTS,
             longest=m.MAX_REQUEST,

@@ -2,7 +2,7 @@
 
     $XDG_RUNTIME_DIR/humanoid/NAME/    mode 0700; `humanoid up` holds a lock on it while it lives
         service.sock                   mode 0600; of the executive, after a take-over of the next
-        service.json                   which run it is (`Running`), written by the executive
+        service.json                   which run it is, or was (`Running`), by the executive
         up.log                         what a detached one writes to its standard output
 
 Whoever finds the folder unlocked knows that nobody is there, whatever a killed robot has left in
@@ -19,7 +19,6 @@ import os
 import re
 import socket
 import stat
-import struct
 import time
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -29,6 +28,7 @@ from typing import NamedTuple
 
 import msgspec
 
+from executive.frontends.line_server import is_own
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_secret, write_ordinary
 
@@ -41,8 +41,6 @@ MOST_PLACES = 1000
 TRIES, AGAIN_S = 20, 0.01
 """Of claiming a name: whoever looks whether it is taken holds its lock for a moment."""
 _NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,31}")
-_CREDENTIALS = struct.Struct("3i")
-"""Process, user and group of a socket's other end (unix(7), SO_PEERCRED)."""
 
 
 class Place(NamedTuple):
@@ -134,9 +132,8 @@ def claimed(name: str) -> Generator[Place]:
         try:
             yield Place(name, folder)
         finally:
-            for left in (SOCKET, RUNNING):
-                with contextlib.suppress(OSError):
-                    (folder / left).unlink(missing_ok=True)
+            with contextlib.suppress(OSError):
+                (folder / SOCKET).unlink(missing_ok=True)
             os.close(lock)
         return
     cure = "set XDG_RUNTIME_DIR to a folder of your own"
@@ -254,7 +251,7 @@ def last(name: str | None) -> Place:
         return find(name)
     except ConfigError:
         wanted = name or DEFAULT_NAME
-        there = [one for one in _places() if one.name == wanted and (one.folder / LOG).exists()]
+        there = [one for one in _places() if one.name == wanted and running(one)]
         if not there:
             raise
         return there[0]
@@ -314,9 +311,3 @@ def connect(place: Place) -> socket.socket:
     finally:
         os.close(folder)
     return connection
-
-
-def is_own(connection: socket.socket) -> bool:
-    """Whether the other end of a socket is a process of this user."""
-    data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
-    return _CREDENTIALS.unpack(data)[1] == os.geteuid()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import socket
 
 import pytest
 
+from executive.frontends.line_server import is_own
 from executive.frontends.service import place as places
 from executive.frontends.service.place import SOCKET, Place, Running, claimed
 from robot.errors import ConfigError
@@ -95,10 +97,10 @@ def test_who_is_another_user_is_not_heard_and_not_told(monkeypatch):
     with claimed("kitchen") as place, places.listen(place, RUNNING, backlog=1) as listening:
         here = places.connect(place)
         there, _ = listening.accept()
-        assert places.is_own(here) and places.is_own(there)
-        uid = places.os.geteuid()
-        monkeypatch.setattr(places.os, "geteuid", lambda: uid + 1)
-        assert not places.is_own(here) and not places.is_own(there)
+        assert is_own(here) and is_own(there)
+        uid = os.geteuid()
+        monkeypatch.setattr(os, "geteuid", lambda: uid + 1)
+        assert not is_own(here) and not is_own(there)
         there.close()
         here.close()
 
