@@ -18,7 +18,7 @@ from tests.fakes.executives import executives
 from tests.fakes.terminal import CTRL_C, CTRL_D, Terminal
 from tests.fakes.waiting import HANG_S, eventually
 
-pytestmark = [pytest.mark.live, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 ROUND = ", then ".join(["walk 1.5 m forward, then walk 1.5 m back"] * 4)
 
@@ -77,6 +77,7 @@ def test_a_fast_robot_is_talked_to_from_other_terminals(humanoid):
     assert humanoid("status")[0] == 2
 
 
+@pytest.mark.live
 def test_a_stop_reaches_a_robot_whose_executive_is_killed_and_nothing_goes_on(humanoid):
     assert humanoid("up", "--detach", "--world", "empty")[0] == 0
     assert humanoid("say", ROUND)[0] == 0
@@ -93,6 +94,7 @@ def test_a_stop_reaches_a_robot_whose_executive_is_killed_and_nothing_goes_on(hu
     assert [event.data["text"] for event in humanoid.events("said")] == ["Hello."]
 
 
+@pytest.mark.live
 def test_a_prompt_that_is_attached_shows_it_at_work_and_leaves_it_so(humanoid, monkeypatch):
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(humanoid.folder))
     assert humanoid("up", "--detach", "--world", "empty")[0] == 0

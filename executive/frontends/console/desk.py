@@ -28,7 +28,6 @@ FILE = "desk.json"
 """In the folder of a run: where its desk is."""
 SOCKET = "desk.sock"
 MOST_CLIENTS = 8
-
 MOST_LINES = 50
 """Lines that may wait; who types faster is told."""
 MAX_LINE = 1 << 14
