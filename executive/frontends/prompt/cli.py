@@ -15,6 +15,7 @@ from executive.frontends import carrying_out, speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.attending import attended
 from executive.frontends.console.beside import shown as viewed
+from executive.frontends.hooks import notified
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
     FrontEnd,
@@ -171,6 +172,7 @@ def conversation(
             shell.ask_again()
         robot.session.journal.listen(tell)
         robot.session.journal.listen(speech.note)
+        stack.enter_context(notified(robot.session.journal, folder))
         stack.enter_context(attended(shell, folder, handle))
         yield shell
 

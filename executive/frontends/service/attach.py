@@ -20,7 +20,7 @@ from executive.engine.loop import Interrupts
 from executive.frontends.output import say
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.plain import lines_until, work_off
-from executive.frontends.prompt.terminal import Terminal
+from executive.frontends.prompt.terminal import LEAVING, Terminal
 from executive.frontends.prompt.view import View
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
@@ -244,6 +244,9 @@ class RemoteShell:
 
     def line(self, text: str, *, stops: int | None = None) -> None:
         """Hand a line on, and wait until it is understood."""
+        if text.strip() in LEAVING:
+            self.leaving = True
+            return
         if stops not in (None, self.brake.stops):
             self.out(f"Not done: “{text}” was there when you said stop")
             return

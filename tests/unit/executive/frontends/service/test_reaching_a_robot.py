@@ -208,6 +208,9 @@ def test_lines_from_a_pipe_wait_for_what_comes_of_them_and_keep_the_worst_end():
         assert shell.status == ExitStatus.FAILED
         shell.line("where are you?")
         assert shell.status == ExitStatus.FAILED
+        shell.line("quit")
+        assert shell.leaving
+        assert told.did == ["bow (0)", "where are you? (0)"]
 
 
 def test_what_cannot_be_decoded_is_passed_over():
