@@ -48,7 +48,7 @@ from robot.printable import is_printable, printable
 app = typer.Typer(
     name="humanoid",
     invoke_without_command=True,
-    add_completion=False,
+    add_completion=True,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -327,6 +327,8 @@ def main() -> None:
     tell_of_mistakes()
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
-        app(prog_name="humanoid", default_map=defaults)
+        # what is completed needs no defaults, and a file that is wrong is no business of Tab's
+        completes = "_HUMANOID_COMPLETE" in os.environ
+        app(prog_name="humanoid", default_map=None if completes else defaults)
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

@@ -30,7 +30,7 @@ def up(options: Up) -> None:
 
       humanoid stop                  (what you would type first, in any terminal)
 
-      humanoid up --name second --world flat
+      humanoid up --name second --world bench
 
     It is the prompt without a terminal: what is said is one conversation, sentences queue up.
     Ctrl-C, SIGTERM and `humanoid down` bring the robot to a stand and end it.

@@ -7,10 +7,16 @@ from typing import Annotated
 
 import typer
 
+from executive.frontends import completing
 from executive.frontends.options import Prompt
 from executive.frontends.service.place import DEFAULT_NAME
 
-Name = Annotated[str | None, typer.Option("--name", help="Which robot, where more than one is up.")]
+Name = Annotated[
+    str | None,
+    typer.Option(
+        "--name", help="Which robot, where more than one is up.", autocompletion=completing.names
+    ),
+]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -38,7 +38,7 @@ def register(app: typer.Typer, settings: Settings) -> None:
 
           humanoid config
 
-          humanoid config --world flat       (what that option would change)
+          humanoid config --world bench      (what that option would change)
 
         Options come before variables of the environment, these before humanoid.toml of this folder,
         that before ~/.config/humanoid/config.toml, that before what is built in.
