@@ -42,6 +42,7 @@ from executive.frontends.settings.files import Settings
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
 from robot.ordinary_files import write_ordinary
 from robot.printable import is_printable, printable
 
@@ -325,10 +326,12 @@ def main() -> None:
     streams.steady()
     streams.sized()
     tell_of_mistakes()
+    completes = "_HUMANOID_COMPLETE" in os.environ
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
         # what is completed needs no defaults, and a file that is wrong is no business of Tab's
-        completes = "_HUMANOID_COMPLETE" in os.environ
         app(prog_name="humanoid", default_map=None if completes else defaults)
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
+        if completes:  # a shell's line is no place for words
+            sys.exit(ExitStatus.INVALID)
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

@@ -110,16 +110,19 @@ class Settings:
     """The values of both files; a folder's file comes before the user's.
 
     Attributes:
-        user: path of the user's file.
-        project: path of the folder's.
+        project: path of the folder's file.
         passed_over: why the folder's file is not read, if it is not.
     """
 
-    def __init__(self, *, user: Path | None = None, project: Path = PROJECT) -> None:
+    def __init__(self) -> None:
         """Read nothing yet."""
-        self.user = user or keys.path().with_name("config.toml")
-        self.project = project
+        self.project = PROJECT
         self.passed_over = ""
+
+    @property
+    def user(self) -> Path:
+        """Path of the user's file."""
+        return keys.path().with_name("config.toml")
 
     @cached_property
     def values(self) -> Mapping[str, Value]:

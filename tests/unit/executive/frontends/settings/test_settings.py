@@ -138,9 +138,8 @@ def config(user, monkeypatch, capsys):
     """What `humanoid config --json` says, by key."""
 
     def run(*words):
-        settings = Settings()
-        monkeypatch.setattr(cli.defaults, "_settings", settings)
-        monkeypatch.setattr(cli.settings, "__dict__", settings.__dict__)
+        fresh = Settings()
+        monkeypatch.setattr(cli.settings, "__dict__", fresh.__dict__)
         monkeypatch.setattr("sys.argv", ["humanoid", "config", "--json", *words])
         with pytest.raises(SystemExit) as end:
             cli.main()
