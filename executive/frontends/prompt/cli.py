@@ -190,9 +190,9 @@ def told(event: Event) -> str:
     return f"[{event.t_s:7.2f} s] {text}" if text else ""
 
 
-def _tell(event: Event, *, out: Callable[[str], None] = say) -> None:
+def _tell(event: Event, *, out: Callable[[str], None] | None = None) -> None:
     if text := told(event):
-        out(text)
+        (out or say)(text)
 
 
 def words(event: Event) -> str:
