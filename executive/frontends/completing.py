@@ -29,7 +29,7 @@ def _completes(find: Find) -> Callable[[str], list[str]]:
 @_completes
 def worlds() -> Iterable[str]:
     """Shipped worlds, and files of this folder."""
-    from executive.frontends.reality import REALITY
+    from executive.frontends.composition_root import REALITY
 
     return [*REALITY.names(), *_files()]
 
