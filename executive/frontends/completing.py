@@ -11,7 +11,7 @@ from robot.printable import is_printable
 Find = Callable[[], Iterable[str]]
 
 
-def _completes(find: Find) -> Callable[[str], list[str]]:
+def completes(find: Find) -> Callable[[str], list[str]]:
     """A completion: those of the names that begin as it is typed; a mistake offers nothing."""
 
     @wraps(find)
@@ -26,7 +26,7 @@ def _completes(find: Find) -> Callable[[str], list[str]]:
     return complete
 
 
-@_completes
+@completes
 def worlds() -> Iterable[str]:
     """Shipped worlds, and files of this folder."""
     from executive.frontends.composition_root import REALITY
@@ -34,7 +34,7 @@ def worlds() -> Iterable[str]:
     return [*REALITY.names(), *_files()]
 
 
-@_completes
+@completes
 def robots() -> Iterable[str]:
     """Shipped robots, and files of this folder."""
     from robot.model import description
@@ -42,15 +42,7 @@ def robots() -> Iterable[str]:
     return [*description.shipped(), *_files()]
 
 
-@_completes
-def names() -> Iterable[str]:
-    """Robots that are up."""
-    from executive.frontends.service import place
-
-    return [one.name for one in place.places_up()]
-
-
-@_completes
+@completes
 def runs() -> Iterable[str]:
     """Runs of this folder, the newest first."""
     from executive.journal import past_runs

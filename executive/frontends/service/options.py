@@ -7,15 +7,20 @@ from typing import Annotated
 
 import typer
 
-from executive.frontends import completing
+from executive.frontends.completing import completes
 from executive.frontends.options import Prompt
-from executive.frontends.service.place import DEFAULT_NAME
+from executive.frontends.service.place import DEFAULT_NAME, places_up
+
+
+@completes
+def _names() -> list[str]:
+    """Robots that are up."""
+    return [one.name for one in places_up()]
+
 
 Name = Annotated[
     str | None,
-    typer.Option(
-        "--name", help="Which robot, where more than one is up.", autocompletion=completing.names
-    ),
+    typer.Option("--name", help="Which robot, where more than one is up.", autocompletion=_names),
 ]
 
 

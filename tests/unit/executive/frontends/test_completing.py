@@ -20,7 +20,7 @@ def test_what_cannot_be_found_out_is_left_out(monkeypatch):
     def broken():
         raise OSError
 
-    assert completing._completes(broken)("x") == []
+    assert completing.completes(broken)("x") == []
 
 
 @pytest.mark.parametrize(
