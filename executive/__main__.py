@@ -15,6 +15,11 @@ def main() -> None:
 
     wrong = namesakes.elsewhere()
     if not wrong:
+        from executive.frontends.service import quick
+
+        if quick.is_meant(sys.argv[1:]):
+            signal.signal(signal.SIGINT, heard)
+            sys.exit(quick.run(sys.argv[1:]))
         try:
             from executive.frontends.cli import main as run  # not in a worker, which has no use
         except ImportError as error:

@@ -51,6 +51,10 @@ def front_end(name: str) -> PlainFrontEnd:
             from executive.frontends.past_runs import resume
 
             return resume.in_executive
+        case FrontEnd.SERVICE:
+            from executive.frontends.service import main as service
+
+            return service.in_executive
 
 
 def main(

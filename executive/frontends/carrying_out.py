@@ -15,6 +15,7 @@ from executive.frontends import speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.beside import shown as viewed
 from executive.frontends.dump.writer import along
+from executive.frontends.hooks import notified
 from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
@@ -152,6 +153,7 @@ def _work_off(
                 faults=assignment.faults,
             )
         )
+        stack.enter_context(notified(session.journal, prepared.setup.folder))
         stack.enter_context(attend(session))
         wall = WallClock()
         if left is None:

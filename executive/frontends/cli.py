@@ -36,6 +36,10 @@ from executive.frontends.output import say, tell_of_mistakes
 from executive.frontends.past_runs import cli as history
 from executive.frontends.recordings import cli as recordings
 from executive.frontends.recordings import maps_cli, sensors_cli
+from executive.frontends.service import cli as services
+from executive.frontends.settings import cli as configs
+from executive.frontends.settings.applied import Defaults
+from executive.frontends.settings.files import Settings
 from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
@@ -46,12 +50,15 @@ from robot.printable import is_printable, printable
 app = typer.Typer(
     name="humanoid",
     invoke_without_command=True,
-    add_completion=False,
+    add_completion=True,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog='Begin with:  humanoid do "pick up the red cup and put it on the shelf" --fast',
 )
+
+settings = Settings()
+defaults = Defaults(settings)
 
 model_app = typer.Typer(no_args_is_help=True, help="The robot's model, for other tools.")
 app.add_typer(model_app, name="model")
@@ -78,7 +85,7 @@ def humanoid(
 ) -> None:
     """What is common to all commands."""
     if context.invoked_subcommand is None:
-        repl()
+        repl(**defaults.of("repl"))
 
 
 @app.command(no_args_is_help=True)
@@ -143,6 +150,7 @@ def walk(options: Walk) -> None:
 
 @app.command()
 def parse(
+    context: typer.Context,
     sentence: Annotated[list[str] | None, typer.Argument(help="What was said.")] = None,
     *,
     world: WorldIfAny = None,
@@ -175,7 +183,7 @@ def parse(
 
     if sentence is None and file is None:
         raise typer.BadParameter("give a sentence, or --file")
-    if vocabulary is not None and world is not None:
+    if vocabulary is not None and is_given(context, "world") and world is not None:
         raise typer.BadParameter("names come from --world or from --vocabulary, not from both")
     texts = [" ".join(sentence)] if sentence is not None else []
     status = parse_all(
@@ -250,6 +258,7 @@ def export(
 
 
 # After the commands above, so that `--help` lists first what people use first.
+services.register(app)
 worlds.register(app)
 missions.register(app)
 maps_cli.register(app)
@@ -259,6 +268,7 @@ recordings.register(app)
 consoles.register(app)
 films.register(app)
 sensors_cli.register(app)
+configs.register(app, settings)
 
 
 @app.command(name="eval")
@@ -288,6 +298,11 @@ def evaluate(options: Eval) -> None:
 
 
 app.command()(listen)
+
+
+def is_given(context: typer.Context, name: str) -> bool:
+    """Whether an option stands on the command line, and not in a file."""
+    return getattr(context.get_parameter_source(name), "name", "") == "COMMANDLINE"
 
 
 def _checked(word: str) -> str:
@@ -322,10 +337,14 @@ def main() -> None:
     streams.steady()
     streams.sized()
     tell_of_mistakes()
+    completes = "_HUMANOID_COMPLETE" in os.environ
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
-        app(prog_name="humanoid")
+        # what is completed needs no defaults, and a file that is wrong is no business of Tab's
+        app(prog_name="humanoid", default_map=None if completes else defaults)
     except SystemExit as ended:
         sys.exit(_whole(ended.code))
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
+        if completes:  # a shell's line is no place for words
+            sys.exit(ExitStatus.INVALID)
         sys.exit(ended_by(error, as_json="--json" in sys.argv))

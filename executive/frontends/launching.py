@@ -18,7 +18,6 @@ import msgspec
 from executive.frontends import streams
 from executive.frontends.exit import last_words
 from executive.frontends.output import say
-from robot.bringup import launcher
 from robot.bringup.mailbox import Handle
 from robot.bus.run import Run
 
@@ -39,6 +38,7 @@ class FrontEnd(StrEnum):
     MISSION = "mission"
     PROMPT = "prompt"
     RESUME = "resume"
+    SERVICE = "service"
 
 
 def here(front: PlainFrontEnd, options: object) -> int:
@@ -63,6 +63,8 @@ def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
         options: of the front end, a struct or a dataclass.
         as_json: nothing but JSON goes to standard output.
     """
+    from robot.bringup import launcher  # half of what the command line would take to load
+
     plain = msgspec.to_builtins(options, enc_hook=str)
     ended = launcher.launch(front, plain, tell=lambda line: say(line, err=True))
     if ended.wished:
@@ -127,9 +129,11 @@ def new_folder(text: str) -> Path:
     Raises:
         ConfigError: if there is no such place.
     """
+    from executive.journal import places
     from executive.runs import run_folder
 
     base, why = run_folder.place_for_new()
     if why:
         say(why, err=True)
+    places.remember(base)
     return run_folder.folder_for(text, stamp=now_stamp(), base=base)

@@ -23,15 +23,27 @@ from typing import Annotated, TypeVar, get_type_hints
 
 import typer
 
+from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
 
 T = TypeVar("T")
 
-_WORLD = typer.Option("--world", "-w", help="A shipped world by name, or a world file (YAML).")
+_WORLD = typer.Option(
+    "--world",
+    "-w",
+    help="A shipped world by name, or a world file (YAML).",
+    autocompletion=completing.worlds,
+)
 World = Annotated[str, _WORLD]
 WorldIfAny = Annotated[str | None, _WORLD]
 Robot = Annotated[
-    str, typer.Option("--robot", "-r", help="A shipped robot by name, or a robot file (YAML).")
+    str,
+    typer.Option(
+        "--robot",
+        "-r",
+        help="A shipped robot by name, or a robot file (YAML).",
+        autocompletion=completing.robots,
+    ),
 ]
 MOST_SEED = 2**53 - 1
 """The largest whole number that every reader of JSON takes for the same."""

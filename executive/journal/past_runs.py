@@ -63,11 +63,11 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     took_s: float
 
 
-def runs(base: Path | None = None) -> list[Path]:
-    """Every run's folder under `base`, the oldest first (None: of the current folder)."""
-    places = all_places() if base is None else (base,)
+def runs(base: Path | None = None, *, places: tuple[Path, ...] = ()) -> list[Path]:
+    """Every run's folder under `base` or `places`, the oldest first (none: of this folder)."""
+    places = places or (all_places() if base is None else (base,))
     found = [path.parent for place in places for path in place.glob(f"*/{FILE}")]
-    return sorted(found, key=lambda folder: (_began_s(folder), folder.name))
+    return sorted(found, key=lambda folder: (began_s(folder), folder.name))
 
 
 def find(name: str | None, *, base: Path | None = None) -> Path:
@@ -116,7 +116,7 @@ def look(folder: Path) -> Past:
         else:
             ending = "idle" if run.idle else _ending(code, task.state)
     header = header or About()
-    began = datetime.fromtimestamp(_began_s(folder)).astimezone()
+    began = datetime.fromtimestamp(began_s(folder)).astimezone()
     return Past(
         folder=str(folder),
         began=began.isoformat(timespec="seconds"),
@@ -149,7 +149,7 @@ def _read(folder: Path) -> Run:
         return Run()
 
 
-def _began_s(folder: Path) -> float:
+def began_s(folder: Path) -> float:
     """Time of day of the first event; of the folder itself where nothing says so."""
     found = None
     with contextlib.suppress(OSError), open_ordinary(folder / WALL_FILE) as file:

@@ -2,14 +2,64 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import re
 from pathlib import Path
 
+from robot.ordinary_files import read_ordinary, write_ordinary
+
 HERE = Path("runs")
 NAMED = 40
 """Characters of the current folder's path that its place at home is called by."""
+
+
+INDEX = "places.txt"
+"""At home: the absolute paths of the folders in which runs were kept, a line each."""
+MAX_BYTES = 1_000_000
+
+
+def _state() -> Path | None:
+    """The folder for what this software keeps of this user's; None without a home."""
+    said = Path(os.environ.get("XDG_STATE_HOME", ""))
+    state = said if said.is_absolute() else Path(os.path.expanduser("~/.local/state"))  # noqa: PTH111
+    return state / "humanoid" if state.is_absolute() else None
+
+
+def remember(place: Path) -> None:
+    """Note that runs are kept in a folder, for `everywhere`; where that cannot be, do without."""
+    state, path = _state(), os.fsencode(place.absolute())
+    if state is None or b"\n" in path:
+        return
+    with contextlib.suppress(OSError):
+        known = _index(state)
+        if path in known:
+            return
+        state.mkdir(mode=0o700, parents=True, exist_ok=True)
+        there = [one for one in known if Path(os.fsdecode(one)).is_dir()]
+        lines = b"".join(one + b"\n" for one in [*there, path])
+        write_ordinary(state / INDEX, lines[-MAX_BYTES:])
+
+
+def everywhere() -> tuple[Path, ...]:
+    """Every folder in which this user's runs are known to be kept, the current one's first."""
+    state = _state()
+    if state is None:
+        return all_places()
+    noted = [Path(os.fsdecode(one)) for one in _index(state)]
+    with contextlib.suppress(OSError):
+        noted += sorted(path for path in (state / "runs").iterdir() if path.is_dir())
+    real = {os.path.realpath(place): place for place in reversed((*all_places(), *noted))}
+    return tuple(reversed([place for place in real.values() if place.is_dir()]))
+
+
+def _index(state: Path) -> list[bytes]:
+    try:
+        data = read_ordinary(state / INDEX, limit=MAX_BYTES, follow_links=False)
+    except OSError:
+        return []
+    return [line for line in data.split(b"\n") if line.startswith(b"/")]
 
 
 def at_home() -> Path | None:
@@ -17,15 +67,14 @@ def at_home() -> Path | None:
 
     Each folder has its own, so that `humanoid why` in one says nothing of a run in another.
     """
-    said = Path(os.environ.get("XDG_STATE_HOME", ""))
-    state = said if said.is_absolute() else Path(os.path.expanduser("~/.local/state"))  # noqa: PTH111
+    state = _state()
     try:
         here = str(Path.cwd())
     except FileNotFoundError:
         return None
     words = re.sub(r"[^A-Za-z0-9]+", "-", here).strip("-")[-NAMED:].strip("-")
     digest = hashlib.sha256(os.fsencode(here)).hexdigest()[:8]
-    return state / "humanoid" / "runs" / f"{words}-{digest}" if state.is_absolute() else None
+    return state / "runs" / f"{words}-{digest}" if state is not None else None
 
 
 def all_places() -> tuple[Path, ...]:

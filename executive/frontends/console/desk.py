@@ -18,6 +18,7 @@ from typing import Any, Protocol
 
 import msgspec
 
+from executive.frontends.line_server import LineServer, is_own
 from executive.frontends.output import as_mistake
 from robot.closing import Closing
 from robot.errors import RobotError
@@ -102,19 +103,24 @@ class Desk(Closing):
         self._folder = folder
         self._path = private / SOCKET
         self._path.unlink(missing_ok=True)  # what an executive before this one left
-        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        self._socket.bind(str(self._path))
-        self._socket.listen(MOST_CLIENTS)
-        self._clients: list[socket.socket] = []
-        self._lock = threading.Lock()
+        listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        listening.bind(str(self._path))
+        listening.listen(MOST_CLIENTS)
         self._closing = threading.Event()
         self._asks: bytes = _news(asks=None)
         self._waiting = 0
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="page lines")
+        self._server = LineServer(
+            listening,
+            heed=lambda _, line: self._take_order(line),
+            is_welcome=is_own,
+            greet=lambda client: client.send(self._asks),
+            most_clients=MOST_CLIENTS,
+            longest=MAX_ORDER,
+        )
         self._out, shell.out = shell.out, self._tee(shell.out)
         _write(folder / FILE, Place(socket=str(self._path)))
-        for target in (self._accept, self._look):
-            threading.Thread(target=target, name="desk", daemon=True).start()
+        threading.Thread(target=self._look, name="desk", daemon=True).start()
 
     def close(self) -> None:
         """Take no more orders."""
@@ -124,10 +130,7 @@ class Desk(Closing):
         self._shell.out = self._out
         with suppress(OSError):
             (self._folder / FILE).unlink(missing_ok=True)
-        for one in (self._socket, *self._clients):
-            with suppress(OSError):
-                one.shutdown(socket.SHUT_RDWR)
-            one.close()
+        self._server.close()
         self._path.unlink(missing_ok=True)
         self._worker.shutdown(wait=False, cancel_futures=True)
 
@@ -136,22 +139,9 @@ class Desk(Closing):
     def _tee(self, out: Callable[[str], None]) -> Callable[[str], None]:
         def tell(text: str) -> None:
             out(text)
-            self._tell(_news(out=text))
+            self._server.tell(_news(out=text))
 
         return tell
-
-    def _tell(self, line: bytes) -> None:
-        """To everyone; one whose buffer is full does not read, and is let go."""
-        with self._lock:
-            for client in tuple(self._clients):
-                try:
-                    if client.send(line, socket.MSG_DONTWAIT) == len(line):
-                        continue
-                except OSError:
-                    pass
-                self._clients.remove(client)
-                with suppress(OSError):
-                    client.shutdown(socket.SHUT_RDWR)
 
     def _look(self) -> None:
         """Tell what is asked of a person whenever that is something else."""
@@ -159,7 +149,7 @@ class Desk(Closing):
             asks = _news(asks=self._question())
             if asks != self._asks:
                 self._asks = asks
-                self._tell(asks)
+                self._server.tell(asks)
 
     def _question(self) -> dict[str, Any] | None:
         asked = self._shell.asked
@@ -167,33 +157,9 @@ class Desk(Closing):
 
     # --- what comes ---
 
-    def _accept(self) -> None:
-        while not self._closing.is_set():
-            try:
-                client, _ = self._socket.accept()
-            except OSError:
-                return
-            with self._lock:
-                full = len(self._clients) >= MOST_CLIENTS
-                if not full:
-                    self._clients.append(client)
-            if full:
-                client.close()
-                continue
-            with suppress(OSError):
-                client.send(self._asks, socket.MSG_DONTWAIT)
-            threading.Thread(
-                target=self._serve, args=(client,), name="desk client", daemon=True
-            ).start()
-
-    def _serve(self, client: socket.socket) -> None:
-        with suppress(OSError, ValueError), client, client.makefile("rb") as orders:
-            while line := orders.readline(MAX_ORDER):
-                with suppress(msgspec.DecodeError):
-                    self._heed(msgspec.json.decode(line, type=Order))
-        with self._lock:
-            if client in self._clients:
-                self._clients.remove(client)
+    def _take_order(self, line: bytes) -> None:
+        with suppress(msgspec.DecodeError, RecursionError):
+            self._heed(msgspec.json.decode(line, type=Order))
 
     def _heed(self, order: Order) -> None:
         """Do what can be done at once, here; a mistake in it ends nothing."""
@@ -221,7 +187,7 @@ class Desk(Closing):
     def _take(self, text: str) -> None:
         """A line: a stop and a halt act here, whatever else is being worked off."""
         shell, stops = self._shell, self._shell.stops
-        self._tell(_news(you=text))
+        self._server.tell(_news(you=text))
         self._out(f"(page) > {printable_line(text)}")
         if shell.stop_at_once(text):
             return

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager
+from pathlib import Path
 
 import msgspec
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -14,7 +16,7 @@ from rich.text import Text
 from executive.frontends.composition_root import REALITY
 from executive.frontends.long_journals import tell_of_length
 from executive.frontends.output import Screen, say, table_screen, write_json
-from executive.journal import failures, journal, past_runs
+from executive.journal import failures, journal, past_runs, places
 from executive.journal.journal import Event
 from executive.journal.past_runs import Past
 from executive.journal.places import HERE
@@ -40,9 +42,15 @@ def why(run: str | None, *, as_json: bool) -> int:
     return ExitStatus.DONE
 
 
-def history(*, count: int, as_json: bool) -> int:
-    """List the newest runs, the newest last; returns the exit status."""
-    known = past_runs.runs()
+def history(*, count: int, as_json: bool, everywhere: bool = False) -> int:
+    """List the newest runs, the newest last; returns the exit status.
+
+    Args:
+        count: how many.
+        as_json: for programs.
+        everywhere: those of every folder in which something was run.
+    """
+    known = past_runs.runs(places=places.everywhere() if everywhere else ())
     shown = [past_runs.look(folder) for folder in known[-count:]]
     if as_json:
         write_json(shown)
@@ -50,7 +58,7 @@ def history(*, count: int, as_json: bool) -> int:
     if not shown:
         say(f'There is no run in {HERE}/ yet. Begin with: humanoid do "squat" --fast')
         return ExitStatus.DONE
-    table_screen().print(_table(shown))
+    table_screen().print(_table(shown, located=everywhere))
     if len(known) > len(shown):
         say(f"{len(known) - len(shown)} older ones: humanoid history --all")
     return ExitStatus.DONE
@@ -102,6 +110,12 @@ def _short(event: Event) -> str:
     return f"{event.event} {text}"[:100]
 
 
+def _home_short(folder: Path) -> str:
+    """A path with ~ for the home."""
+    home, path = os.path.expanduser("~"), str(folder.absolute())  # noqa: PTH111 - it never raises
+    return path.replace(home, "~", 1) if path.startswith(f"{home}/") else path
+
+
 @contextmanager
 def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
     """A bar over the run's time, on standard error."""
@@ -117,13 +131,15 @@ def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
         yield follow
 
 
-def _table(shown: Iterable[Past]) -> Table:
+def _table(shown: Iterable[Past], *, located: bool) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold", expand=True)
     table.add_column("run", no_wrap=True, min_width=15)
     table.add_column("took", no_wrap=True, min_width=5, justify="right")
     table.add_column("", no_wrap=True, min_width=4, style="dim")
     table.add_column("how it ended", no_wrap=True, min_width=15)
     table.add_column("what", overflow="ellipsis", no_wrap=True, ratio=1)
+    if located:
+        table.add_column("where", overflow="fold")
     for one in shown:
         name = one.folder.rpartition("/")[2].replace("\n", "\\n")
         stamp = re.match(r"\d{8}-\d{6}", name)
@@ -133,5 +149,6 @@ def _table(shown: Iterable[Past]) -> Table:
             one.runtime,
             Text(one.code or one.ending, style=_STYLES.get(one.ending, "dim")),
             one.text,
+            *([_home_short(Path(one.folder).parent)] if located else []),
         )
     return table

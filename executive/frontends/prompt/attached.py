@@ -15,7 +15,7 @@ from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNLIMITED, Limits
 from executive.frontends.console.attending import attended
 from executive.frontends.prompt.commands import table
-from executive.frontends.prompt.robot import low_base_m
+from executive.frontends.prompt.robot import low_base_m, nobody_counts
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.view import Observer, View
 from executive.meaning.request import Understood
@@ -29,7 +29,7 @@ class Attached:
     """An `AtWork` on a session whose `run` is called by somebody else.
 
     Attributes:
-        session, where, view, observer, interrupts: as of any `AtWork`.
+        session, where, view, observer, interrupts, on_submit: as of any `AtWork`.
         ended_before: nothing is known of that.
     """
 
@@ -42,6 +42,7 @@ class Attached:
         self.view = View()
         self.observer = Observer(low_base_m=low_base_m(self.where.description))
         self.interrupts = session.interrupts
+        self.on_submit: Callable[[int], None] = nobody_counts
         self._wall = wall
         self._faults: deque[dict[str, Any]] = deque()
         session.on_tick(self._look)
@@ -70,7 +71,9 @@ class Attached:
         origin: Mapping[str, Any] | None = None,
     ) -> int:
         """Queue a task, as `Session.submit` does; returns its number."""
-        return self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
+        number = self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
+        self.on_submit(number)
+        return number
 
     def inject(self, fault: dict[str, Any]) -> None:
         """Let a fault happen with the next tick; `executive.runs.faults.verify` it first."""

@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from executive.frontends import carrying_out, speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.attending import attended
 from executive.frontends.console.beside import shown as viewed
+from executive.frontends.hooks import notified
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
     FrontEnd,
@@ -124,6 +126,7 @@ def conversation(
     handle: Handle | None = None,
     speech: Speech,
     stopped: bool = False,
+    out: Callable[[str], None] = say,
 ) -> Generator[Shell]:
     """A robot to talk to, and what comes of what is said.
 
@@ -133,6 +136,7 @@ def conversation(
         handle: of a live robot.
         speech: says aloud what is for ears.
         stopped: whether people said stop before this executive took over.
+        out: says a line to people.
 
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
@@ -165,29 +169,35 @@ def conversation(
             with Screen(err=True).status("starting the robot"):
                 stack.enter_context(robot)
             stack.enter_context(robot.interrupts.listen())
-        shell = Shell(robot, say, table=table.commands, folder=folder, model=model, speech=speech)
+        shell = Shell(robot, out, table=table.commands, folder=folder, model=model, speech=speech)
         shell.dialogue.agreed = options.yes
-        tell_what_goes_on(robot.session.journal)
+        tell = partial(_tell, out=out)
+        tell_what_goes_on(robot.session.journal, tell)
         if robot.halted_before:
             shell.ask_again()
-        robot.session.journal.listen(_tell)
+        robot.session.journal.listen(tell)
         robot.session.journal.listen(speech.note)
+        stack.enter_context(notified(robot.session.journal, folder))
         stack.enter_context(attended(shell, folder, handle))
         yield shell
 
 
-def tell_what_goes_on(journal: Journal) -> None:
+def tell_what_goes_on(journal: Journal, tell: Callable[[Event], None] | None = None) -> None:
     """Tell what is gone on with: that was written before anybody listened."""
     for event in tuple(journal.recent):  # at once: the robot's thread goes on writing
         if event.event == "resumed":
-            _tell(event)
+            (tell or _tell)(event)
 
 
-def _tell(event: Event) -> None:
-    """What happens, as it happens."""
-    told = words(event)
-    if told:
-        say(f"[{event.t_s:7.2f} s] {told}")
+def told(event: Event) -> str:
+    """What happens, as it happens: a line for people, or nothing."""
+    text = words(event)
+    return f"[{event.t_s:7.2f} s] {text}" if text else ""
+
+
+def _tell(event: Event, *, out: Callable[[str], None] | None = None) -> None:
+    if text := told(event):
+        (out or say)(text)
 
 
 def words(event: Event) -> str:

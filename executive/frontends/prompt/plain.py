@@ -8,14 +8,14 @@ import select
 from collections.abc import Callable, Iterable, Iterator
 from typing import TextIO
 
-from executive.frontends.prompt.shell import Shell
+from executive.frontends.prompt.talk import Spoken
 
 LOOK_S = 0.1
 """How often it is asked, while no line comes, whether any is wanted still."""
 CHUNK = 65536
 
 
-def work_off(shell: Shell, lines: Iterable[str]) -> bool:
+def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
     """Do every line; ends with the last, with `quit`, when the robot is gone, or with a signal.
 
     Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand

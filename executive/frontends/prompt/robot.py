@@ -30,6 +30,10 @@ LEAVE_S = 20.0
 """How long leaving may take: the robot comes to a stand first."""
 
 
+def nobody_counts(_number: int) -> None:
+    """Note no job."""
+
+
 class AtWork(Protocol):
     """A robot that is up and can be spoken to, whoever lets its time pass; from any thread.
 
@@ -39,6 +43,7 @@ class AtWork(Protocol):
         view: the newest view.
         observer: set `observer.tree_wanted` to have the tree in the views.
         interrupts: counts signals.
+        on_submit: is called with the number of every job, in the thread that asked for it.
     """
 
     session: Session
@@ -46,6 +51,7 @@ class AtWork(Protocol):
     view: View
     observer: Observer
     interrupts: Interrupts
+    on_submit: Callable[[int], None]
 
     @property
     def executive(self) -> Executive:
@@ -99,6 +105,7 @@ class Robot(Closing):
         view: the newest view.
         observer: set `observer.tree_wanted` to have the tree in the views.
         interrupts: counts signals; whoever leaves on them listens.
+        on_submit: as of any `AtWork`.
     """
 
     session: Session
@@ -125,6 +132,7 @@ class Robot(Closing):
         self.view = View()
         self.observer = Observer(low_base_m=low_base_m(setup.where.description))
         self.interrupts = Interrupts()
+        self.on_submit: Callable[[int], None] = nobody_counts
         self._setup = setup
         self._wall = wall
         self._time_of_day = time_of_day
@@ -177,6 +185,7 @@ class Robot(Closing):
     ) -> int:
         """Queue a task, as `Session.submit` does; returns its number."""
         number = self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
+        self.on_submit(number)
         self._wake.set()
         return number
 

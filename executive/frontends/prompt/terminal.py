@@ -31,7 +31,7 @@ from prompt_toolkit.styles import Style
 from executive.frontends.output import as_mistake
 from executive.frontends.prompt.completion import LineCompleter
 from executive.frontends.prompt.keyboard import HEEDED, Keyboard
-from executive.frontends.prompt.shell import Shell
+from executive.frontends.prompt.talk import Talk
 from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
 from intents.stopping import is_stay, is_stop
@@ -55,7 +55,7 @@ MOST_MISTAKES = 5
 class Terminal:
     """A prompt until the person leaves."""
 
-    def __init__(self, shell: Shell, *, history: Path | None, ahead: bytes = b"") -> None:
+    def __init__(self, shell: Talk, *, history: Path | None, ahead: bytes = b"") -> None:
         """Prepare.
 
         Args:
@@ -120,7 +120,7 @@ class Terminal:
 
     def _session(self, keyboard: Keyboard) -> PromptSession[str]:
         shell = self._shell
-        vocabulary = shell.robot.where.knowledge.vocabulary()
+        vocabulary = shell.dialogue.vocabulary
         return PromptSession(
             "> ",
             input=keyboard,

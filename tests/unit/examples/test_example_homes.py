@@ -12,7 +12,7 @@ from executive.meaning.knowledge import Knowledge
 from intents.context import Context
 from intents.outcomes import Goals
 from intents.parser import parse
-from sim.reality import Simulation
+from sim.simulation import Simulation
 
 FOLDER = Path(__file__).parents[3] / "examples" / "homes"
 EXAMS = sorted(FOLDER.glob("*.tasks.yaml"))

@@ -140,7 +140,6 @@ def test_what_makes_no_sense_ends_nothing(desk, told, folder):
         b'{"run": "rm"}',
         b"\xff\x00",
         b"[" * 5000,
-        b"x" * 200_000,
     )
     client.socket.sendall(b"\n".join(junk) + b"\n")
     client.order(do="dance")
@@ -153,6 +152,15 @@ def test_what_makes_no_sense_ends_nothing(desk, told, folder):
     assert "Not done: it is pressed" in told.said
     assert any("terminal" in one for one in told.said)  # a page does not end the prompt
     assert [one for one in told.did if one.startswith(("quit", "dance"))] == []
+
+
+def test_a_line_without_an_end_ends_a_connection_and_no_other(desk, told, folder):
+    endless, other = Client(folder), Client(folder)
+    endless.socket.sendall(b"x" * desks.MAX_ORDER)
+    with pytest.raises((EOFError, OSError)):
+        endless.next()
+    other.order(do="stop")
+    until(lambda: told.stops == 1)
 
 
 def test_more_lines_than_anybody_types_are_refused_and_a_stop_is_not(desk, told, folder):
@@ -216,7 +224,7 @@ def test_the_desk_of_an_executive_that_died_is_taken_over(told, folder):
     private = folder / "private"
     private.mkdir()
     first = Desk(told, folder=folder, private=private)
-    first._socket.close()  # as a killed process leaves it
+    first._server.close()  # as a killed process leaves it
     with Desk(told, folder=folder, private=private):
         Client(folder).order(do="stop")
         until(lambda: told.stops == 1)

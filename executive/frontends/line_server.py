@@ -1,0 +1,152 @@
+"""A unix socket on which others send lines and are sent lines: bounded in all that they can want.
+
+Each client has a thread that reads. One that does not read what it is sent, sends a line without
+an end, or is another user's, is let go. Where there are as many as there may be, the one that was
+silent longest makes room, so that forgotten connections keep nobody from stopping a robot.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import socket
+import struct
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+
+from robot.closing import Closing
+
+_CREDENTIALS = struct.Struct("3i")
+"""Process, user and group of a socket's other end (unix(7), SO_PEERCRED)."""
+
+
+def is_own(connection: socket.socket) -> bool:
+    """Whether the other end of a socket is a process of this user."""
+    data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+    return _CREDENTIALS.unpack(data)[1] == os.geteuid()
+
+
+class Client:
+    """Somebody who is connected."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        """Take a connection over."""
+        self._connection = connection
+        self._lock = threading.Lock()
+        self.last_heard = 0
+        """Counts what all clients said; the least is of who was silent longest."""
+
+    def send(self, line: bytes) -> bool:
+        """Send a line if there is room for it at once; else the client does not read, and goes."""
+        with self._lock:
+            try:
+                if self._connection.send(line, socket.MSG_DONTWAIT) == len(line):
+                    return True
+            except OSError:
+                pass
+        self.drop()
+        return False
+
+    def drop(self) -> None:
+        """Let it go; its thread notices."""
+        with suppress(OSError):
+            self._connection.shutdown(socket.SHUT_RDWR)
+
+
+class LineServer(Closing):
+    """A context manager: takes lines from clients inside."""
+
+    def __init__(
+        self,
+        listening: socket.socket,
+        *,
+        heed: Callable[[Client, bytes], None],
+        is_welcome: Callable[[socket.socket], bool],
+        greet: Callable[[Client], object] = lambda _: None,
+        gone: Callable[[Client], None] = lambda _: None,
+        most_clients: int,
+        longest: int,
+    ) -> None:
+        """Begin to listen.
+
+        Args:
+            listening: the socket, which is closed in the end.
+            heed: takes a line, in a thread of that client's.
+            is_welcome: whether a connection is let in.
+            greet: is called with a new client before anything that it says.
+            gone: is called with a client that left or was let go.
+            most_clients: that are connected at a time.
+            longest: bytes of a line.
+        """
+        self._listening = listening
+        self._heed = heed
+        self._is_welcome = is_welcome
+        self._greet = greet
+        self._gone = gone
+        self._most_clients = most_clients
+        self._longest = longest
+        self._clients: list[Client] = []
+        self._lock = threading.Lock()
+        self._count = itertools.count(1)
+        self._closing = False
+        threading.Thread(target=self._accept, name="line server", daemon=True).start()
+
+    def close(self) -> None:
+        """Let everybody go."""
+        self._closing = True
+        with suppress(OSError):
+            self._listening.shutdown(socket.SHUT_RDWR)
+        self._listening.close()
+        for client in self.clients:
+            client.drop()
+
+    @property
+    def clients(self) -> tuple[Client, ...]:
+        """Who is connected."""
+        with self._lock:
+            return tuple(self._clients)
+
+    def tell(self, line: bytes) -> None:
+        """Send a line to everybody."""
+        for client in self.clients:
+            client.send(line)
+
+    def _accept(self) -> None:
+        while not self._closing:
+            try:
+                connection, _ = self._listening.accept()
+            except OSError:
+                return
+            if self._is_welcome(connection):
+                self._admit(connection)
+            else:
+                connection.close()
+
+    def _admit(self, connection: socket.socket) -> None:
+        client = Client(connection)
+        client.last_heard = next(self._count)
+        with self._lock:
+            if len(self._clients) >= self._most_clients:
+                silent = min(self._clients, key=lambda one: one.last_heard)
+                self._clients.remove(silent)
+                silent.drop()
+            self._clients.append(client)
+        threading.Thread(
+            target=self._serve, args=(client, connection), name="client", daemon=True
+        ).start()
+
+    def _serve(self, client: Client, connection: socket.socket) -> None:
+        try:
+            with suppress(OSError, ValueError), connection, connection.makefile("rb") as lines:
+                self._greet(client)
+                while line := lines.readline(self._longest):
+                    if not line.endswith(b"\n"):  # longer than it may be, or left in the midst
+                        return
+                    client.last_heard = next(self._count)
+                    self._heed(client, line)
+        finally:
+            with self._lock:
+                if client in self._clients:
+                    self._clients.remove(client)
+            self._gone(client)

@@ -1,0 +1,104 @@
+"""`humanoid up --detach`: the same in a session of its own, which outlives the terminal.
+
+The options come on standard input, as JSON; once the name is claimed, all output goes into a file
+beside the socket.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import msgspec
+
+import robot
+from executive.frontends import streams
+from executive.frontends.exit import ended_by
+from executive.frontends.output import Screen, say, tell_of_mistakes
+from executive.frontends.service import place as places
+from executive.frontends.service.options import Up
+from robot.exit_status import ExitStatus
+from robot.ordinary_files import read_ordinary
+
+MODULE = "executive.frontends.service.detached"
+LOOK_S = 0.05
+MAX_LOG_BYTES = 1_000_000
+
+
+def up(options: Up) -> int:
+    """Start a robot in a session of its own, and wait until it listens; returns the exit status.
+
+    Ctrl-C meanwhile brings it down again.
+    """
+    process = subprocess.Popen(
+        [sys.executable, "-P", "-m", MODULE, options.name],
+        stdin=subprocess.PIPE,
+        start_new_session=True,
+        env={**os.environ, "PYTHONPATH": str(Path(robot.__file__).parent.parent)},
+    )
+    assert process.stdin is not None
+    with suppress(OSError), process.stdin as told:
+        told.write(msgspec.json.encode(msgspec.to_builtins(options, enc_hook=str)))
+    try:
+        with Screen(err=True).status("starting the robot"):
+            place = _until_listening(options.name, process)
+    except KeyboardInterrupt:
+        process.send_signal(signal.SIGTERM)
+        process.wait()
+        raise
+    if place is None:
+        _tell_output(options.name)
+        return process.returncode or ExitStatus.BROKEN
+    running = places.running(place)
+    say(f"{options.name} is up: {options.robot} in {options.world}, pid {process.pid}.")
+    if running is not None:
+        say(f"  {running.run}")
+    say('  humanoid say "...", status, stop, attach, logs, down')
+    return ExitStatus.DONE
+
+
+def _until_listening(name: str, process: subprocess.Popen[bytes]) -> places.Place | None:
+    """The place of a process, once it listens; None if it ends before."""
+    while process.poll() is None:
+        for place in places.places_up():
+            running = places.running(place) if place.name == name else None
+            if running is not None and running.pid == process.pid:
+                return place
+        time.sleep(LOOK_S)
+    return None
+
+
+def _tell_output(name: str) -> None:
+    """What it said before it ended."""
+    for base in places.bases():
+        with suppress(OSError):
+            data = read_ordinary(base / name / places.LOG, limit=MAX_LOG_BYTES)
+            say(data.decode(errors="replace").rstrip(), err=True)
+            return
+
+
+def main() -> None:
+    """The process in a session of its own."""
+    from executive.frontends.service.main import up as run
+
+    os.environ["PYTHONSAFEPATH"] = "1"
+    streams.steady()
+    tell_of_mistakes()
+    try:
+        options = msgspec.convert(
+            msgspec.json.decode(sys.stdin.buffer.read()),
+            Up,
+            dec_hook=lambda kind, value: kind(value),
+        )
+        sys.exit(run(options))
+    except (Exception, KeyboardInterrupt) as error:
+        sys.exit(ended_by(error, as_json=False))
+
+
+if __name__ == "__main__":
+    main()

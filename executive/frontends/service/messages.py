@@ -1,0 +1,165 @@
+"""What is asked of a robot that is up, and what it tells: a closed table, a line of JSON each.
+
+A request has a number of its asker's; what is told with that number is about it, and `Ended` is the
+last of that. What is told with the number 0 is for whoever `Watch`es; prompts are told more
+(`executive.frontends.service.views`).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, get_args
+
+import msgspec
+from msgspec import Meta
+
+MAX_TEXT = 1 << 14
+MAX_REQUEST = 1 << 16
+"""Bytes of a request; JSON may write a letter with six."""
+MAX_TOLD = 1 << 22
+
+Button = Literal["stop", "estop", "release", "reset", "pause", "resume", "cancel"]
+BUTTONS: tuple[Button, ...] = get_args(Button)
+Text = Annotated[str, Meta(max_length=MAX_TEXT)]
+
+
+class _Request(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True,
+               tag_field="ask"):  # fmt: skip
+    number: int = 0
+
+
+class Status(_Request, frozen=True, kw_only=True, tag="status"):
+    """How the robot is and what it does."""
+
+
+class Queue(_Request, frozen=True, kw_only=True, tag="queue"):
+    """What is to be done."""
+
+
+class Press(_Request, frozen=True, kw_only=True, tag="press"):
+    """A button: it acts at once, whatever the robot is about."""
+
+    button: Button
+
+
+class Say(_Request, frozen=True, kw_only=True, tag="say"):
+    """A line, as at the prompt; `wait`: it ends when all that comes of it is over."""
+
+    text: Text
+    wait: bool = False
+
+
+class Halt(_Request, frozen=True, kw_only=True, tag="halt"):
+    """A line that may be a cry to halt, heard before it is a line: it acts at once."""
+
+    text: Text
+
+
+class Await(_Request, frozen=True, kw_only=True, tag="await"):
+    """End when jobs are over that were asked for before, of an executive that is gone maybe."""
+
+    jobs: tuple[int, ...]
+
+
+class Watch(_Request, frozen=True, kw_only=True, tag="watch"):
+    """Be told from now on what is said, asked and done; `views`: and how the robot is."""
+
+    views: bool = False
+
+
+class Down(_Request, frozen=True, kw_only=True, tag="down"):
+    """Come to a stand, and end."""
+
+
+Request = Status | Queue | Press | Say | Halt | Await | Watch | Down
+
+
+class AnyTold(msgspec.Struct, frozen=True, kw_only=True, tag_field="tell"):
+    """Something that is told."""
+
+    number: int = 0
+
+
+class Words(AnyTold, frozen=True, kw_only=True, tag="words"):
+    """A line for people."""
+
+    text: str
+
+
+class Queued(AnyTold, frozen=True, kw_only=True, tag="queued"):
+    """The jobs that came of a line."""
+
+    jobs: tuple[int, ...]
+
+
+class Ended(AnyTold, frozen=True, kw_only=True, tag="ended"):
+    """A request is over, with what a command that made it exits with; `stops`: heard so far."""
+
+    status: int
+    stops: int = 0
+    standing: Standing | None = None
+
+
+class Asks(AnyTold, frozen=True, kw_only=True, tag="asks"):
+    """What the robot asks a person now; no question: nothing."""
+
+    question: str = ""
+    choices: tuple[str, ...] = ()
+
+
+class Waiting(msgspec.Struct, frozen=True, kw_only=True):
+    """A job, as it stands."""
+
+    number: int
+    state: str
+    text: str
+    urgent: bool = False
+
+
+class Standing(msgspec.Struct, frozen=True, kw_only=True):
+    """How a robot is, for programs: `humanoid status --json`.
+
+    Attributes:
+        state: of the executive: idle, working, pausing, paused, stopping; "gone".
+        mode: of the body: damping, stand, walk, fallen; "gone".
+        pose: estimated x [m], y [m] and heading [degrees] in the world.
+        health: what ails it; empty while all is well.
+        asks: what it asks a person.
+        jobs: that are not over.
+    """
+
+    name: str
+    run: str
+    robot: str
+    world: str
+    runtime: str
+    pid: int
+    state: str
+    mode: str
+    health: str
+    asks: str
+    estop: bool
+    time_s: float
+    pose: tuple[float, float, float] | None = None
+    held: tuple[str, ...] = ()
+    jobs: tuple[Waiting, ...] = ()
+
+
+Told = Words | Queued | Ended | Asks
+
+_requests = msgspec.json.Decoder(Request)
+_tellings = msgspec.json.Decoder(Told)
+
+
+def request(line: bytes) -> Request:
+    """What a line asks. Raises msgspec.DecodeError, RecursionError."""
+    return _requests.decode(line)
+
+
+def told(line: bytes) -> Told:
+    """What a line tells those who show no prompt. Raises msgspec.DecodeError, RecursionError."""
+    return _tellings.decode(line)
+
+
+def line_of(message: Request | AnyTold) -> bytes:
+    """A message as a line."""
+    return msgspec.json.encode(message) + b"\n"

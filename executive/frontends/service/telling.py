@@ -1,0 +1,88 @@
+"""What a robot says, to all who want to hear it: its own output, its log, and whoever watches.
+
+None of them may hold the robot up: lines are printed and written in threads of their own, and a
+watcher that does not read is let go.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+
+from executive.journal.files import BackgroundFile
+from robot.printable import printable_line
+
+LOG = "service.log"
+"""In `logs` of a run's folder: what was said to the robot and by it."""
+MOST_LOG_BYTES = 20_000_000
+MOST_WAITING = 5_000
+"""Lines for an output that nobody reads; older ones are left out."""
+CLOSE_S = 1.0
+
+
+class Printer:
+    """Says lines in a thread of its own, as long as somebody reads them."""
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        """Say lines by `say`, which may wait for a reader."""
+        self._say = say
+        self._lines: deque[str] = deque(maxlen=MOST_WAITING)
+        self._news = threading.Event()
+        self._closing = False
+        self._thread = threading.Thread(target=self._work, name="printer", daemon=True)
+        self._thread.start()
+
+    def __call__(self, text: str) -> None:
+        """Hand a line over; never waits."""
+        self._lines.append(text)
+        self._news.set()
+
+    def close(self) -> None:
+        """Say what is left, if somebody reads it."""
+        self._closing = True
+        self._news.set()
+        self._thread.join(CLOSE_S)
+
+    def _work(self) -> None:
+        while not (self._closing and not self._lines):
+            self._news.wait()
+            self._news.clear()
+            while self._lines:
+                self._say(self._lines.popleft())
+
+
+class Log:
+    """The file of what was said, with the time of day; it ends growing somewhere."""
+
+    def __init__(self, run: Path) -> None:
+        """Write into the folder of a run, if that can be."""
+        folder = run / "logs"
+        try:
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._room = MOST_LOG_BYTES - file_size(folder / LOG)
+        except OSError:
+            self._room = 0
+        self._file = BackgroundFile(folder / LOG, capacity=MOST_WAITING)
+
+    def append(self, text: str) -> None:
+        """Add the lines of a text."""
+        for line in text.split("\n"):
+            stamped = f"{time.strftime('%Y-%m-%d %H:%M:%S')}  {printable_line(line)}".encode()
+            self._room -= len(stamped)
+            if self._room > 0:
+                self._file.append(stamped)
+
+    def close(self) -> None:
+        """Write what can be written soon."""
+        self._file.close()
+
+
+def file_size(path: Path) -> int:
+    """Bytes of a file; none where there is none."""
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0

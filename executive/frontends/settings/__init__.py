@@ -1,0 +1,1 @@
+"""What people set once, in files, in place of options."""

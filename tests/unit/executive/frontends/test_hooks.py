@@ -1,0 +1,86 @@
+"""What is run on events: the user's commands, one after the other, and never in the robot's way."""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from executive.frontends import hooks
+from executive.frontends.hooks import Notifier, filled, happened, notified
+from executive.frontends.settings.files import Hooks
+from executive.journal.journal import Event, Journal
+from tests.fakes.waiting import HANG_S, eventually
+
+WRITE = "import sys, pathlib; pathlib.Path(sys.argv[1]).write_text(sys.stdin.read())"
+
+
+def event(kind, **data):
+    return Event(1, 2.5, kind, data)
+
+
+@pytest.mark.parametrize(
+    ("kind", "data", "what"),
+    [
+        ("job", {"state": "done"}, "done"),
+        ("job", {"state": "failed"}, "failed"),
+        ("job", {"state": "cancelled"}, ""),
+        ("job", {"state": "running"}, ""),
+        ("help", {"question": "please"}, "question"),
+        ("step", {"state": "done"}, ""),
+    ],
+)
+def test_people_are_told_of_ends_and_questions(kind, data, what):
+    assert happened(event(kind, **data)) == what
+
+
+def test_a_command_gets_the_event_on_its_standard_input(tmp_path):
+    journal = Journal(tmp_path)
+    write = (sys.executable, "-c", WRITE)
+    wanted = Hooks(
+        failed=(*write, str(tmp_path / "told")),
+        question=(*write, str(tmp_path / "{text}")),
+    )
+    with notified(journal, tmp_path, hooks=wanted):
+        journal.write(1.0, "job", job=1, state="done", text="bow")
+        journal.write(2.5, "job", job=2, state="failed", text="go", cause="no way")
+        journal.write(3.0, "help", id="1", question="Which cup")
+    assert json.loads((tmp_path / "Which cup").read_text())["event"] == "question"
+    assert json.loads((tmp_path / "told").read_text()) == {
+        "event": "failed", "text": "go", "cause": "no way", "job": 2, "t_s": 2.5,
+        "run": str(tmp_path),
+    }  # fmt: skip
+
+
+def test_what_was_said_is_neither_an_option_nor_a_shells():
+    told = {"event": "done", "text": "--urgency; $(id) {cause}", "cause": "-rf"}
+    assert filled("{text}", told) == "urgency; $(id) rf"
+    assert filled("{text}\x1b", {**told, "text": "a\x1b[2Jb\nc"}).count("\n") == 0
+
+
+def test_a_hook_that_hangs_holds_nobody_up_and_later_ones_are_passed_over(capsys):
+    go_on, did = threading.Event(), []
+
+    def slow(hook, told):
+        go_on.wait(HANG_S)
+        did.append(told["text"])
+
+    notifier = Notifier(Hooks(done=("x",)), None, notify=slow)
+    notifier.note(event("job", state="done", text="first"))
+    assert eventually(notifier._events.empty)
+    for number in range(hooks.MOST_WAITING + 5):
+        notifier.note(event("job", state="done", text=str(number)))
+    assert capsys.readouterr().err.count("is left out") == 5
+    go_on.set()
+    assert eventually(lambda: len(did) == hooks.MOST_WAITING + 1)
+
+
+@pytest.mark.parametrize("hook", [("/not/there",), ("false",), "http://127.0.0.1:9/x"])
+def test_what_does_not_work_is_said(hook, capsys):
+    notifier = Notifier(Hooks(done=hook), Path("/tmp"))
+    notifier.note(event("job", state="done", text="bow"))
+    notifier.finish()
+    assert "A hook did not work" in capsys.readouterr().err

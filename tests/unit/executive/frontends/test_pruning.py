@@ -1,0 +1,153 @@
+"""Removing old runs: those that are asked for, and nothing else whatever stands in their place."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.past_runs import printing, pruning
+from executive.journal import past_runs, places
+from executive.journal.journal import FILE, WALL_FILE
+from robot.errors import ConfigError
+from robot.exit_status import ExitStatus
+
+DAY_S = 86_400
+NOW_S = 1_800_000_000.0
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    folder = tmp_path / "here"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(pruning.time, "time", lambda: NOW_S)
+    return folder
+
+
+def run(name: str, *, days_ago: float = 0.0, base: Path = Path("runs")) -> Path:
+    folder = base / name
+    folder.mkdir(parents=True)
+    (folder / FILE).write_text("")
+    (folder / WALL_FILE).write_text(f'{{"n":0,"wall_s":{NOW_S - days_ago * DAY_S:.3f}}}\n')
+    (folder / "logs").mkdir()
+    (folder / "logs" / "plant.log").write_text("x" * 1000)
+    return folder
+
+
+def prune(**how):
+    said = {"keep": None, "older_than_days": None, "everywhere": False, "yes": True}
+    return pruning.prune(**{**said, "dry_run": False, **how})
+
+
+def names() -> list[str]:
+    return [folder.name for folder in past_runs.runs()]
+
+
+def test_the_newest_stay():
+    for age in range(5):
+        run(f"run-{age}", days_ago=age)
+    assert prune(keep=2) == ExitStatus.DONE
+    assert names() == ["run-1", "run-0"]
+
+
+def test_the_young_stay_and_so_do_the_newest():
+    for age in range(5):
+        run(f"run-{age}", days_ago=age)
+    assert prune(older_than_days=2.5, keep=4) == ExitStatus.DONE
+    assert names() == ["run-3", "run-2", "run-1", "run-0"]
+    assert prune(older_than_days=1.5) == ExitStatus.DONE
+    assert names() == ["run-1", "run-0"]
+
+
+def test_nothing_goes_unless_it_is_said_which_and_by_whom(monkeypatch):
+    run("a")
+    with pytest.raises(ConfigError, match="which runs may go"):
+        prune()
+    monkeypatch.setattr("sys.stdin", open(os.devnull))  # noqa: PTH123, SIM115
+    with pytest.raises(ConfigError, match=r"nobody is there.*--yes"):
+        prune(keep=0, yes=False)
+    assert prune(keep=0, dry_run=True) == ExitStatus.DONE
+    assert names() == ["a"]
+
+
+def test_a_run_that_is_under_way_stays(capsys):
+    folder = run("a")
+    lock = os.open(folder, os.O_RDONLY)
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    assert prune(keep=0) == ExitStatus.DONE
+    assert names() == ["a"]
+    assert "under way" in capsys.readouterr().err
+    os.close(lock)
+    prune(keep=0)
+    assert names() == []
+
+
+def test_a_link_is_neither_followed_nor_removed(tmp_path, capsys):
+    elsewhere = run("elsewhere", base=tmp_path)
+    Path("runs").mkdir()
+    Path("runs/link").symlink_to(elsewhere)
+    assert prune(keep=0) == ExitStatus.DONE
+    assert (elsewhere / FILE).exists()
+    assert Path("runs/link").is_symlink()
+    inner = run("b")
+    (inner / "kept").symlink_to(elsewhere)
+    prune(keep=0)
+    assert not inner.exists() and (elsewhere / FILE).exists()
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="takes root to give a file away")
+def test_another_users_run_stays(capsys):
+    folder = run("a")
+    os.chown(folder, 12345, 12345)
+    assert prune(keep=0) == ExitStatus.DONE
+    assert names() == ["a"]
+    assert "another user" in capsys.readouterr().err
+
+
+def test_what_is_no_run_is_not_looked_at():
+    notes = Path("runs/notes")
+    notes.mkdir(parents=True)
+    (notes / "mine.txt").write_text("kept")
+    assert prune(keep=0) == ExitStatus.DONE
+    assert (notes / "mine.txt").exists()
+
+
+# --- runs of every folder ---
+
+
+def test_history_is_of_this_folder_or_of_every_one(tmp_path, capsys):
+    run("mine")
+    there = tmp_path / "there" / "runs"
+    run("other", base=there)
+    places.remember(there)
+    printing.history(count=10, as_json=False)
+    assert "other" not in capsys.readouterr().out
+    printing.history(count=10, as_json=True, everywhere=True)
+    out = capsys.readouterr().out
+    assert "other" in out and "mine" in out
+
+
+def test_a_place_is_noted_once_and_forgotten_when_it_is_gone(tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    for place in (first, second, first):
+        place.mkdir(exist_ok=True)
+        places.remember(place)
+    assert {first, second} <= set(places.everywhere())
+    index = tmp_path / "state" / "humanoid" / places.INDEX
+    assert index.read_text().splitlines() == [str(first), str(second)]
+    first.rmdir()
+    places.remember(tmp_path)
+    assert index.read_text().splitlines() == [str(second), str(tmp_path)]
+
+
+@pytest.mark.parametrize("junk", [b"", b"\xff\n", b"relative\n\n../x\n", b"/not/there\n", b"\x00"])
+def test_an_index_that_is_none_adds_nothing(tmp_path, junk):
+    index = tmp_path / "state" / "humanoid" / places.INDEX
+    index.parent.mkdir(parents=True)
+    index.write_bytes(junk)
+    run("mine")
+    assert [folder.name for folder in past_runs.runs(places=places.everywhere())] == ["mine"]
