@@ -19,6 +19,13 @@ NINE = (
 )  # fmt: skip
 """American and Scottish, men and women, by rules, by diphones, and (slt, rms, awb) after recordings
 of people. What has no colon is a voice of espeak-ng."""
+HEARD = (
+    "en-us", "en-gb+f2", "en-gb-x-rp+m7", "flite:rms", "flite:kal16", "festival:kal_diphone",
+)  # fmt: skip
+UNHEARD = (
+    "en-us+f4", "en-gb-scotland+m3", "en-029+f1", "flite:slt", "flite:awb", "festival:ked_diphone",
+)  # fmt: skip
+"""Voices that the network which spots cries was trained with, and people it never heard."""
 _USUAL_WPM = 170
 """Words a minute of flite and festival, where nothing is asked."""
 
