@@ -35,15 +35,15 @@ def missing() -> list[str]:
     return [name for name in ("espeak-ng", "flite", "text2wave") if not shutil.which(name)]
 
 
-def spoken(text: str, voice: str, speed_wpm: int) -> Samples:
-    """A sentence, synthesised."""
+def spoken(text: str, voice: str, speed_wpm: int, *, pitch: int = 50) -> Samples:
+    """A sentence, synthesised; the pitch is espeak-ng's, from 0 to 99."""
     program, _, name = voice.rpartition(":")
     with TemporaryDirectory() as folder:
         words, sound = Path(folder, "words.txt"), Path(folder, "sound.wav")
         words.write_text(text, encoding="utf-8")
         stretch = _USUAL_WPM / speed_wpm
         commands = {
-            "": ["espeak-ng", "-v", name, "-s", speed_wpm, "-f", words, "-w", sound],
+            "": ["espeak-ng", "-v", name, "-s", speed_wpm, "-p", pitch, "-f", words, "-w", sound],
             "flite": ["flite", "-voice", name, "--setf", f"duration_stretch={stretch:.3f}",
                       "-f", words, "-o", sound],
             "festival": ["text2wave", "-eval", f"(voice_{name})", "-eval",
