@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from intents.speech.audio import RATE_HZ, Samples
 
@@ -62,9 +61,9 @@ class Filterbank:
             return np.zeros((0, BANDS), np.float32)
         frames = np.lib.stride_tricks.sliding_window_view(sound, WIDTH)[::HOP][:count]
         power = np.abs(np.fft.rfft(frames * _WINDOW, _FFT)) ** 2 @ _TO_BANDS + _FLOOR
-        before = power[0] if self._mean is None else self._mean
-        start = (1.0 - _SMOOTH) * before[None]
-        means, _ = lfilter([_SMOOTH], [1.0, _SMOOTH - 1.0], power, axis=0, zi=start)
-        self._mean = means[-1]
+        means, mean = np.empty_like(power), power[0] if self._mean is None else self._mean
+        for number, one in enumerate(power):
+            means[number] = mean = mean + _SMOOTH * (one - mean)
+        self._mean = mean
         ratio = power / (_EPSILON + means) ** _ALPHA
         return ((ratio + _DELTA) ** _ROOT - _DELTA**_ROOT).astype(np.float32)
