@@ -17,10 +17,11 @@ HOP = RATE_HZ // 100
 """Samples from frame to frame."""
 WIDTH, _FFT = 400, 512
 _LOWEST_HZ, _HIGHEST_HZ = 100.0, 7_600.0
-_SMOOTH, _ALPHA, _DELTA, _ROOT, _EPSILON = 0.025, 0.98, 2.0, 0.5, 1e-6
+SMOOTH, _ALPHA, _DELTA, _ROOT, _EPSILON = 0.025, 0.98, 2.0, 0.5, 1e-6
 """Constants of the paper; the running mean is that of 0.4 s."""
 _SCALE = 32_768.0**2
-_FLOOR = 1.0
+FLOOR = 1.0
+"""Added to each power, which is that of samples of 16 bits: what rounding leaves in silence."""
 
 Bands = NDArray[np.float32]
 """Shape (frames, 40): one row each 10 ms."""
@@ -40,7 +41,7 @@ def _mel(frequency_hz: float) -> float:
     return float(2_595.0 * np.log10(1.0 + frequency_hz / 700.0))
 
 
-_TO_BANDS = _filters()
+TO_BANDS = _filters()
 _WINDOW = np.hanning(WIDTH) * np.sqrt(_SCALE / WIDTH)
 
 
@@ -50,7 +51,7 @@ class Filterbank:
     def __init__(self) -> None:
         """Begin."""
         self._rest = np.zeros(0, np.float32)
-        self._mean: NDArray[np.float64] | None = None
+        self._mean: NDArray[np.float32] | None = None
 
     def push(self, sound: Samples) -> Bands:
         """The frames that are whole with this block."""
@@ -59,11 +60,22 @@ class Filterbank:
         self._rest = sound[count * HOP :]
         if not count:
             return np.zeros((0, BANDS), np.float32)
-        frames = np.lib.stride_tricks.sliding_window_view(sound, WIDTH)[::HOP][:count]
-        power = np.abs(np.fft.rfft(frames * _WINDOW, _FFT)) ** 2 @ _TO_BANDS + _FLOOR
+        power = powers(sound)
         means, mean = np.empty_like(power), power[0] if self._mean is None else self._mean
         for number, one in enumerate(power):
-            means[number] = mean = mean + _SMOOTH * (one - mean)
+            means[number] = mean = mean + SMOOTH * (one - mean)
         self._mean = mean
-        ratio = power / (_EPSILON + means) ** _ALPHA
-        return ((ratio + _DELTA) ** _ROOT - _DELTA**_ROOT).astype(np.float32)
+        return against(power, means)
+
+
+def powers(sound: Samples) -> Bands:
+    """The power of each band in each whole frame of at least one [32768^-2 of full scale]."""
+    frames = np.lib.stride_tricks.sliding_window_view(sound, WIDTH)[::HOP]
+    lines = np.abs(np.fft.rfft(frames * _WINDOW, _FFT)) ** 2
+    return (lines @ TO_BANDS + FLOOR).astype(np.float32)
+
+
+def against(power: Bands, means: Bands) -> Bands:
+    """Powers against their running means, of any shape."""
+    ratio = power / (_EPSILON + means) ** _ALPHA
+    return ((ratio + _DELTA) ** _ROOT - _DELTA**_ROOT).astype(np.float32)

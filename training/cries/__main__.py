@@ -16,7 +16,7 @@ import numpy as np
 
 from intents.speech import keywords
 from training.cries.learning import Weights, learn
-from training.cries.mixing import Mixer
+from training.cries.mixing import Mixer, heard
 from training.cries.sentences import cries, others
 from training.cries.takes import takes
 
@@ -29,18 +29,16 @@ def main() -> int:
     asked = argparse.ArgumentParser(prog="python -m training.cries", description=__doc__)
     asked.add_argument("--cries", type=int, default=3500, help="takes of cries")
     asked.add_argument("--others", type=int, default=4200, help="takes of errands and talk")
-    asked.add_argument("--steps", type=int, default=2000)
-    asked.add_argument("--batch", type=int, default=40, help="clips a step")
+    asked.add_argument("--steps", type=int, default=4000)
+    asked.add_argument("--batch", type=int, default=64, help="clips a step")
     asked.add_argument("--seed", type=int, default=2)
     options = asked.parse_args()
     rng = random.Random(options.seed)
-    told = [
-        list(takes(cries(options.cries, rng), rng)),
-        list(takes(others(options.others, rng), rng)),
-    ]
-    mixer, losses, begun_s = Mixer(told[0], told[1], options.seed), [float](), time.monotonic()
+    said = [heard(one) for one in takes(cries(options.cries, rng), rng)]
+    talk = [heard(one) for one in takes(others(options.others, rng), rng)]
+    mixer, losses, begun_s = Mixer(said, talk, options.seed), [float](), time.monotonic()
     weights: Weights = {}
-    made = learn(mixer.clip, steps=options.steps, batch=options.batch, seed=options.seed)
+    made = learn(mixer.clips, steps=options.steps, batch=options.batch, seed=options.seed)
     for step, one in enumerate(made, start=1):
         weights = one.weights
         losses.append(one.loss)

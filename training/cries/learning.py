@@ -12,13 +12,13 @@ import numpy as np
 from intents.speech.filterbank import BANDS
 from intents.speech.keywords import KEYWORDS
 from intents.speech.network import DILATIONS, STRIDE, TAPS
-from training.cries.mixing import Clip
+from training.cries.mixing import Clips
 
 CHANNELS = 64
 RATE, RATE_END = 2.5e-3, 1e-5
 _QUIET = 0.06
 """Weight of an answer that should be nothing; a cry weighs one."""
-_KEPT = 0.998
+_KEPT = 0.99
 """The weights that are used are a running mean of those learnt."""
 Weights = dict[str, Any]
 
@@ -79,11 +79,11 @@ class Step(NamedTuple):
     weights: Weights
 
 
-def learn(clips: Callable[[], Clip], *, steps: int, batch: int, seed: int) -> Iterator[Step]:
+def learn(clips: Callable[[int], Clips], *, steps: int, batch: int, seed: int) -> Iterator[Step]:
     """Adam [Kingma, Ba 2015], with decaying weights, over clips.
 
     Args:
-        clips: makes one.
+        clips: makes so many.
         steps: how many.
         batch: clips in each.
         seed: of the first weights.
@@ -111,8 +111,7 @@ def learn(clips: Callable[[], Clip], *, steps: int, batch: int, seed: int) -> It
     none = jax.tree.map(jnp.zeros_like, w)
     state = (w, none, none, w, jnp.float32(0.0))
     for number in range(steps):
-        made = [clips() for _ in range(batch)]
         turn = 0.5 + 0.5 * np.cos(np.pi * number / steps)
         rate = (RATE_END + (RATE - RATE_END) * turn) * min(1.0, (number + 1) / 100.0)
-        state, value = step(state, rate, tuple(np.stack(one) for one in zip(*made, strict=True)))
+        state, value = step(state, rate, tuple(clips(batch)))
         yield Step(float(value), state[3])

@@ -32,6 +32,8 @@ OTHERS = ("flite:rms", "flite:rms", "flite:kal16", "flite:kal")
 OTHERS_SHARE = 0.4
 _PAIRS = (("hold", "hang", "look", "watch"), 1)
 """Words that cry with the next one: look out, hang on."""
+LOUDEST = 20_000
+"""The loudest sample of each take."""
 _LOUD = 0.02
 _AT_ONCE = 4
 
@@ -71,7 +73,7 @@ def _take(said: Said, voice: str, speed_wpm: int, pitch: int) -> Spoken | None:
     if len(loud) < RATE_HZ // 20:
         return None
     sound = sound[loud[0] : loud[-1] + 1]
-    whole = (sound * (20_000.0 / np.abs(sound).max())).astype(np.int16)
+    whole = (sound * (LOUDEST / np.abs(sound).max())).astype(np.int16)
     if said.cries_at is None:
         return Spoken(whole)
     words = said.text.split()
