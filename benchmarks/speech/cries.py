@@ -23,6 +23,7 @@ from intents.halting import is_halt
 from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.dictation import Dictation
 from intents.speech.ear import Ear
+from intents.speech.keywords import Keywords
 from intents.speech.sphinx import Sphinx
 from intents.speech.spotting import Spotter
 from intents.stopping import is_stay, is_stop
@@ -63,7 +64,7 @@ class Listener:
     def answers(self, sound: Samples) -> Iterator[Answer]:
         """What is heeded, as it comes, `after_s` the beginning of the sound."""
         self._recogniser.speakers = ()
-        ear = Ear(self._recogniser, spotter=Spotter(self._dictation))
+        ear = Ear(self._recogniser, spotter=Spotter(self._dictation, Keywords()))
         self.sound_s += len(sound) / RATE_HZ
         for at in range(0, len(sound), BLOCK):
             begun_s = time.process_time()

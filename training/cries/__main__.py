@@ -1,7 +1,7 @@
 """`python -m training.cries`: train the network that spots cries, and write its weights.
 
-Needs espeak-ng and flite. With the numbers that stand here: about 15 minutes on one core for the
-voices, as long for the network.
+Needs espeak-ng and flite. With the numbers that stand here the voices and the network take about
+ten minutes of one core each.
 """
 
 from __future__ import annotations

@@ -85,19 +85,19 @@ def pushed(spotter, count):
 
 
 def test_what_the_network_is_sure_of_counts_at_once_and_once():
-    many = [("stop", SURE + 0.1)] * 5
+    many = [("stop", 1.0)] * 5
     found = pushed(Spotter(Writes(), Sure(*many)), 10)
     assert [(cry.text, cry.stops) for cry in found] == [("stop", True)]
     assert found[0].end_s == pytest.approx(0.1)
 
 
 def test_a_cry_to_stop_counts_right_after_one_to_halt():
-    told = Sure(("wait", SURE + 0.1), ("stop", SURE + 0.1), ("wait", SURE + 0.1))
+    told = Sure(("wait", 1.0), ("stop", 1.0), ("wait", 1.0))
     assert [cry.text for cry in pushed(Spotter(Writes(), told), 3)] == ["wait", "stop"]
 
 
 def test_what_is_cried_again_later_counts_again():
-    told = [("wait", SURE + 0.1)] * (2 + round(10 * ONCE_S))
+    told = [("wait", 1.0)] * (2 + round(10 * ONCE_S))
     assert len(pushed(Spotter(Writes(), Sure(*told)), len(told))) == 2
 
 
