@@ -29,7 +29,7 @@ def main() -> int:
     asked = argparse.ArgumentParser(prog="python -m training.cries", description=__doc__)
     asked.add_argument("--cries", type=int, default=3500, help="takes of cries")
     asked.add_argument("--others", type=int, default=4200, help="takes of errands and talk")
-    asked.add_argument("--steps", type=int, default=4000)
+    asked.add_argument("--steps", type=int, default=11_000)
     asked.add_argument("--batch", type=int, default=64, help="clips a step")
     asked.add_argument("--seed", type=int, default=2)
     options = asked.parse_args()
