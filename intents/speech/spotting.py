@@ -45,7 +45,7 @@ WORST, WORSE = -8.0, 1.6
 """How badly the first words of a cry may fit; how much worse than other words [nat/frame]."""
 INSIDE = 0.6
 """The last, for a cry that ends nothing and has other words before it: there most are misheard."""
-SURE, POSSIBLE = 0.97, 0.5
+SURE, POSSIBLE = 0.99, 0.5
 """So likely for the network is a cry that counts; one that the decoder is asked about."""
 ONCE_S = 1.0
 """For so long the network tells one cry once."""
