@@ -54,8 +54,8 @@ _PATTERNS = (
     r"around|under|until|till|(?:a|an) (?:hour|quarter)|half|\d+|one|two|three|four|five|six|"
     r"seven|eight|nine|ten|fifteen|twenty|thirty|forty|sixty)\b).*",
     rf"(?:(?:hold|hang) on|hang about|(?:just |only |give me )?(?:a|one|half a) {_SHORT_TIME})"
-    r"(?: (?:please|wait|i|you|that|there|no|not|stop|what|let|robot|before|we|it|now|a|just|one"
-    r"|for)\b.*)?",
+    r"(?: (?:please|wait|hold|hang|i|you|that|there|no|not|stop|what|let|robot|before|we|it|now|a"
+    r"|just|one|for)\b.*)?",
     r"(?:hold|stand) (?:fast|by|down|clear)|hold|stp|sto|stap|stahp|sotp",
     r"hold (?:(?:it|it )?(?:right )?there|it|up|everything|your \w+|the phone|the line|steady|"
     rf"back|off)(?: (?:will you|would you|(?:for )?(?:a|one) {_SHORT_TIME}|(?:you|i|thats) .*))?",

@@ -24,6 +24,7 @@ from intents.parser import parse
 from intents.speech.audio import RATE_HZ, Samples
 from intents.speech.dictation import Dictation
 from intents.speech.ear import Ear, Spoken
+from intents.speech.keywords import Keywords
 from intents.speech.sphinx import Sphinx
 from intents.speech.spotting import Spotter
 from intents.vocabulary import Vocabulary
@@ -55,7 +56,7 @@ def main(
         sound = _stream(take, noise, snr_db, number)
         begun_s = time.process_time()
         recogniser.speakers = ()
-        heard = _heard(Ear(recogniser, spotter=Spotter(dictation)), sound)
+        heard = _heard(Ear(recogniser, spotter=Spotter(dictation, Keywords())), sound)
         busy_s, sound_s = busy_s + time.process_time() - begun_s, sound_s + len(sound) / RATE_HZ
         count.update(_kinds(heard, take.line.text, vocabulary))
         if show:

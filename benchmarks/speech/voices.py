@@ -19,6 +19,13 @@ NINE = (
 )  # fmt: skip
 """American and Scottish, men and women, by rules, by diphones, and (slt, rms, awb) after recordings
 of people. What has no colon is a voice of espeak-ng."""
+HEARD = (
+    "en-us", "en-gb+f2", "en-gb-x-rp+m7", "flite:rms", "flite:kal16", "festival:kal_diphone",
+)  # fmt: skip
+UNHEARD = (
+    "en-us+f4", "en-gb-scotland+m3", "en-029+f1", "flite:slt", "flite:awb", "festival:ked_diphone",
+)  # fmt: skip
+"""Voices that the network which spots cries was trained with, and people it never heard."""
 _USUAL_WPM = 170
 """Words a minute of flite and festival, where nothing is asked."""
 
@@ -28,15 +35,15 @@ def missing() -> list[str]:
     return [name for name in ("espeak-ng", "flite", "text2wave") if not shutil.which(name)]
 
 
-def spoken(text: str, voice: str, speed_wpm: int) -> Samples:
-    """A sentence, synthesised."""
+def spoken(text: str, voice: str, speed_wpm: int, *, pitch: int = 50) -> Samples:
+    """A sentence, synthesised; the pitch is espeak-ng's, from 0 to 99."""
     program, _, name = voice.rpartition(":")
     with TemporaryDirectory() as folder:
         words, sound = Path(folder, "words.txt"), Path(folder, "sound.wav")
         words.write_text(text, encoding="utf-8")
         stretch = _USUAL_WPM / speed_wpm
         commands = {
-            "": ["espeak-ng", "-v", name, "-s", speed_wpm, "-f", words, "-w", sound],
+            "": ["espeak-ng", "-v", name, "-s", speed_wpm, "-p", pitch, "-f", words, "-w", sound],
             "flite": ["flite", "-voice", name, "--setf", f"duration_stretch={stretch:.3f}",
                       "-f", words, "-o", sound],
             "festival": ["text2wave", "-eval", f"(voice_{name})", "-eval",

@@ -118,7 +118,7 @@ class Ear:
         for at in range(0, len(sound), step):
             pieces = self._endpointer.push(sound[at : at + step])
             paused = any(not one.ended for one in pieces)
-            found.append(self._cried(speaking=speaking, paused=paused))
+            found.append(self._cried(sound[at : at + step], speaking=speaking, paused=paused))
             found += [self._understood(one) for one in pieces]
         return [one for one in found if one is not None]
 
@@ -132,29 +132,41 @@ class Ear:
         """Take note of what the robot says."""
         self._own.append((self._now_s, _plain(text)))
 
-    def _cried(self, *, speaking: bool, paused: bool) -> Spoken | None:
+    def _cried(self, sound: Samples, *, speaking: bool, paused: bool) -> Spoken | None:
         """A cry in what is being said; None if there is none, or it has been heeded already."""
-        if self._spotter is None or not (self.at_work or speaking):
+        if self._spotter is None:
             return None
+        sure = self._spotter.push(sound)
         last = self._endpointer.last(SPAN_S)
-        if last is None or (last.end_s - self._spotted_s < EVERY_S and not paused):
-            return None
         begin_s = self._endpointer.begin_s
-        if begin_s <= self._stopped_s:
+        if not (self.at_work or speaking) or begin_s <= self._stopped_s:
             return None
-        self._spotted_s = last.end_s
-        whole = last.begin_s == begin_s
-        cry = self._spotter.spotted(last.sound, last.begin_s, whole=whole, paused=paused)
+        cry = sure
+        if cry is None and last is not None:
+            cry = self._written(last, paused=paused)
         if cry is None:
             return None
         if cry.stops:
-            self._stopped_s = last.end_s
-        elif self._halted is not None or speaking or begin_s < self._deaf_until_s:
-            return None
-        else:
+            self._stopped_s = self._endpointer.now_s
+        elif last is not None and self._may_halt(begin_s, speaking=speaking):
             self._halted = cry
+        else:
+            return None
         kind = "stop" if cry.stops else "halt"
         return Spoken(kind=kind, text=cry.text, begin_s=begin_s, end_s=cry.end_s)
+
+    def _may_halt(self, begin_s: float, *, speaking: bool) -> bool:
+        """Whether a cry to halt counts; "no" may answer a question, and one halt is enough."""
+        deaf = speaking or begin_s < self._deaf_until_s
+        return not (deaf or self.replying or self._halted)
+
+    def _written(self, last: Utterance, *, paused: bool) -> Cry | None:
+        """A cry that the decoder finds in the last seconds of what is being said."""
+        if self._spotter is None or (last.end_s - self._spotted_s < EVERY_S and not paused):
+            return None
+        self._spotted_s = last.end_s
+        whole = last.begin_s == self._endpointer.begin_s
+        return self._spotter.spotted(last.sound, last.begin_s, whole=whole, paused=paused)
 
     def _understood(self, utterance: Utterance) -> Spoken | None:
         """What an utterance is; None if it may go on, or has been heeded already."""

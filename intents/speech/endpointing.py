@@ -101,6 +101,11 @@ class Endpointer:
         """Where what is being said begins in the stream."""
         return _seconds(self._count - len(self._speech))
 
+    @property
+    def now_s(self) -> float:
+        """Where the stream is."""
+        return _seconds(self._count)
+
     def push(self, sound: Samples) -> list[Utterance]:
         """What has paused or ended with this block."""
         sound = np.concatenate([self._rest, sound])

@@ -1,10 +1,12 @@
 """Cries in the midst of speech, whoever talks, and before anybody pauses.
 
-The last seconds of what is being said are written down again and again, as if cries were likely; a
-cry counts that fits nearly as well as what is written down without that. It has to be found twice
-in the same place, for words at the edge of what is heard may be halves of others, but where
-somebody pauses. What counts as a cry is told by what people type: "stop", "no stop", "wait", but
-not "don't stop", "the bus stop", "wait ten seconds".
+A small network follows the stream (`intents.speech.keywords`): a cry that it is sure of counts at
+once; where it thinks of none, there is none. In between the decoder is asked: the last seconds of
+what is being said are written down again and again, as if cries were likely; a cry counts that fits
+nearly as well as what is written down without that. It has to be found twice in the same place, for
+words at the edge of what is heard may be halves of others, but where somebody pauses. What counts
+as a cry is told by what people type: "stop", "no stop", "wait", but not "don't stop", "the bus
+stop", "wait ten seconds".
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import NamedTuple, Protocol
 from intents.english.words.lexicon import words
 from intents.halting import is_halt
 from intents.speech.audio import Samples
+from intents.speech.keywords import Keyword, Keywords
 from intents.stopping import is_stay, is_stop
 
 EVERY_S = 0.4
@@ -42,6 +45,10 @@ WORST, WORSE = -8.0, 1.6
 """How badly the first words of a cry may fit; how much worse than other words [nat/frame]."""
 INSIDE = 0.6
 """The last, for a cry that ends nothing and has other words before it: there most are misheard."""
+SURE, POSSIBLE = 0.99, 0.5
+"""So likely for the network is a cry that counts; one that the decoder is asked about."""
+ONCE_S = 1.0
+"""For so long the network tells one cry once."""
 _FIRST = 2
 _BARE = words("wait careful enough freeze stop halt")
 """Inside a sentence one of these is cried by itself; the others with what belongs to them."""
@@ -94,10 +101,30 @@ class Cry(NamedTuple):
 class Spotter:
     """Spots cries in one stream."""
 
-    def __init__(self, writer: Writer) -> None:
-        """Begin; `writer` writes down what is said."""
+    def __init__(self, writer: Writer, keywords: Keywords | None = None) -> None:
+        """Begin.
+
+        Args:
+            writer: writes down what is said.
+            keywords: the network (None: the decoder alone is heard).
+        """
         self._writer = writer
+        self._keywords = keywords
+        self._told: Keyword | None = None
         self._before: list[Cry] = []
+
+    def push(self, sound: Samples) -> Cry | None:
+        """The cry that the network is sure of in the next block of the stream."""
+        found = self._keywords.push(sound) if self._keywords is not None else []
+        sure = [one for one in found if one.sure > SURE and not self._was_told(one)]
+        if not sure:
+            return None
+        self._told = sure[0]
+        return Cry(sure[0].text, sure[0].stops, sure[0].at_s)
+
+    def _was_told(self, one: Keyword) -> bool:
+        told = self._told
+        return told is not None and one.at_s - told.at_s < ONCE_S and one.stops <= told.stops
 
     def spotted(self, sound: Samples, begin_s: float, *, whole: bool, paused: bool) -> Cry | None:
         """The first cry in the last seconds that was found the last time, too, or before a pause.
@@ -108,6 +135,9 @@ class Spotter:
             whole: whether nothing was said before.
             paused: whether nothing is said after, so far.
         """
+        if self._keywords is not None and self._keywords.likeliest() < POSSIBLE:
+            self._before = []
+            return None
         found = cries(self._writer.cried(sound), whole=whole)
         now = [cry._replace(end_s=begin_s + cry.end_s) for cry in found]
         again = [cry for cry in now if paused or self._was_found(cry)]

@@ -21,6 +21,7 @@ from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
 from intents.speech import microphone, wav
 from intents.speech.audio import AudioError, Samples
 from intents.speech.ear import Ear, Spoken
+from intents.speech.keywords import Keywords
 from intents.speech.recogniser import Recogniser
 from intents.speech.spotting import Spotter
 from intents.state import RobotState
@@ -67,7 +68,8 @@ def ear(options: Listen, vocabulary: Vocabulary) -> Ear:
 
     dictation = Dictation(vocabulary, wake_word=options.wake_word)
     recogniser = _recogniser(options, vocabulary, dictation)
-    return Ear(recogniser, spotter=Spotter(dictation), wake_word=options.wake_word)
+    spotter = Spotter(dictation, Keywords())
+    return Ear(recogniser, spotter=spotter, wake_word=options.wake_word)
 
 
 def _recogniser(options: Listen, vocabulary: Vocabulary, dictation: Dictation) -> Recogniser:

@@ -14,6 +14,7 @@ from intents.stopping import is_stay, is_stop
 CRIES = (
     "wait", "wait a minute, that's mine", "wait I forgot something", "wait for me", "hold it",
     "hold on!", "hold on a second", "hang on", "one moment", "just a second please", "hold up",
+    "hold on hold on", "hang on hang on please",
     "easy!", "easy now", "slow down", "not so fast", "too close", "timeout",
     "no", "no no", "nooo", "no, not there", "no not the red one", "no that's wrong", "no way",
     "don't", "don't do that", "dont touch it", "do not go in there", "you can't go in there",

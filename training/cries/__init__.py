@@ -1,0 +1,1 @@
+"""Trains the network that spots cries (`intents.speech.cries`) on synthesised voices."""
