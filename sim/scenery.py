@@ -11,6 +11,7 @@ import numpy as np
 
 from robot.model.description import RobotDescription
 from robot.reality.scene import Body, Flat, Geom, Joint, Kind, Mesh, Rgba, Role, Scene
+from sim.bodies import BUMP, SILL
 from sim.plant import Plant
 from sim.rays import UNSENSED
 
@@ -78,7 +79,8 @@ class _Reading:
         model, data = self._model, self._data
         name = str(model.body(number).name)
         kind, slash, rest = name.partition("/")
-        role: Role = "floor" if number == 0 else ROLES[kind] if slash else "robot"
+        of_floor = number == 0 or name in (SILL, BUMP)
+        role: Role = "floor" if of_floor else ROLES[kind] if slash else "robot"
         parent = -1 if number == 0 else int(model.body_parentid[number]) or -1
         joints = range(
             model.body_jntadr[number], model.body_jntadr[number] + model.body_jntnum[number]

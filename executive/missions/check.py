@@ -17,6 +17,7 @@ from executive.missions.fault_plans import FaultPlan
 from executive.missions.load import Mission, load
 from executive.missions.names import Names, NoNames
 from executive.missions.problems import Enough, Problems
+from executive.missions.schema import ROBOT
 from executive.missions.values import Bound
 from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
@@ -159,7 +160,7 @@ def _check_without_world(
     """Note what is wrong in a mission wherever it is done, where its world or robot is none."""
     robot = mission.beside(mission.record.robot) if options.robot is None else options.robot
     world = next(iter(reality.names()))
-    for stand_in in dict.fromkeys((robot, *description.shipped())):
+    for stand_in in dict.fromkeys((robot, ROBOT)):
         try:
             anywhere = setting(reality, world, robot=stand_in)
         except ConfigError:

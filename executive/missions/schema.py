@@ -86,6 +86,10 @@ class ParameterRecord(Record, frozen=True, kw_only=True):
     about: Annotated[str, Meta(description="For people.")] = ""
 
 
+ROBOT = "juno"
+"""Of a mission that names none."""
+
+
 class MissionRecord(Record, frozen=True, kw_only=True):
     """A mission."""
 
@@ -95,7 +99,7 @@ class MissionRecord(Record, frozen=True, kw_only=True):
     world: Annotated[str, Meta(description="A shipped world, or a file beside this one.")] = (
         "kitchen"
     )
-    robot: Annotated[str, Meta(description="A shipped robot, or a file beside this one.")] = "juno"
+    robot: Annotated[str, Meta(description="A shipped robot, or a file beside this one.")] = ROBOT
     limits: LimitsRecord = LimitsRecord()
     parameters: dict[str, ParameterRecord] = {}
     always: Annotated[Steps, Meta(description="Done after the steps, however they end.")] = ()
