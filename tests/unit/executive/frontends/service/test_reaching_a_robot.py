@@ -188,8 +188,8 @@ def test_an_attached_prompt_is_told_when_the_robot_is_down():
     with claimed("kitchen") as place:
         made = Counter(Told(), place=place, running=running(), log=Log())
         with attached(place) as (shell, _):
-            made.close()
             shell.place = place._replace(folder=place.folder / "gone")
+            made.close()
             assert eventually(lambda: shell.gone)
             shell.line("hello?")
             assert shell.status == ExitStatus.BROKEN
