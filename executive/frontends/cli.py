@@ -33,6 +33,7 @@ from executive.frontends.options import (
     takes,
 )
 from executive.frontends.output import say, tell_of_mistakes
+from executive.frontends.panels import Ordered, put_into_panels
 from executive.frontends.past_runs import cli as history
 from executive.frontends.recordings import cli as recordings
 from executive.frontends.recordings import maps_cli, sensors_cli
@@ -49,6 +50,7 @@ from robot.printable import is_printable, printable
 
 app = typer.Typer(
     name="humanoid",
+    cls=Ordered,
     invoke_without_command=True,
     add_completion=True,
     rich_markup_mode="rich",
@@ -298,6 +300,7 @@ def evaluate(options: Eval) -> None:
 
 
 app.command()(listen)
+put_into_panels(app)
 
 
 def is_given(context: typer.Context, name: str) -> bool:
