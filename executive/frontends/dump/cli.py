@@ -8,7 +8,12 @@ from typing import Annotated
 import typer
 
 FormatName = Annotated[
-    str, typer.Option("--format", "-f", help="html, svg, png, dot, json or text.")
+    str,
+    typer.Option(
+        "--format",
+        "-f",
+        help="html, svg, png, dot, json or text; for other programs: mcap, csv, parquet.",
+    ),
 ]
 Dump = Annotated[
     Path | None, typer.Option("--dump", help="Also write pictures of the tree into this folder.")
@@ -62,6 +67,8 @@ def dump(
       humanoid dump red-cup --format text --at 20
 
       humanoid dump runs/20261121-120634-look-at-the-red-cup -f svg -o look.svg
+
+      humanoid dump -f mcap -o run.mcap         (to be opened in Foxglove)
     """
     from executive.frontends.dump import command
 

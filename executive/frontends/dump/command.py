@@ -23,6 +23,8 @@ from executive.journal.why import why
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import write_ordinary
 
+EXPORTS = ("mcap", "csv", "parquet")
+"""Formats for other programs: `executive.frontends.dump.export`."""
 TO_TERMINAL = frozenset({"text", "dot", "json"})
 """Formats that go to standard output where no file is named."""
 
@@ -45,7 +47,9 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
     Raises:
         ConfigError: if the run, the format or the time makes no sense, or nothing can be written.
     """
-    (kind, *more) = parse_formats(asked.kind)
+    if asked.kind in EXPORTS:
+        return _export(asked)
+    (kind, *more) = parse_formats(asked.kind, also=EXPORTS)
     if more:
         raise ConfigError("one format at a time")
     folder = past_runs.find(asked.run)
@@ -78,6 +82,17 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
     if asked.opened:
         browse(path.resolve().as_uri())
     return 0
+
+
+def _export(asked: Asked) -> int:
+    from executive.frontends.dump.export import export  # what simulates is loaded only for it
+
+    if asked.t_s is not None or str(asked.output) == "-" or asked.opened:
+        text = f"--format {asked.kind} writes a whole run into files"
+        cure = "leave --at and --open out, and name a file or a folder"
+        raise ConfigError([Problem(text, suggestion=cure)])
+    folder = past_runs.find(asked.run)
+    return export(load(folder), folder, asked.kind, asked.output)
 
 
 def load(folder: Path) -> Run:

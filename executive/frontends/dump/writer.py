@@ -107,8 +107,8 @@ class Dumper(Closing):
                 self.problem = f"{path} cannot be drawn: {type(error).__name__}: {error}"
 
 
-def parse_formats(text: str) -> tuple[Format, ...]:
-    """Formats as typed: `svg,html`.
+def parse_formats(text: str, *, also: tuple[str, ...] = ()) -> tuple[Format, ...]:
+    """Formats as typed: `svg,html`; `also` are named to whoever mistypes.
 
     Raises:
         ConfigError: if one of them is none.
@@ -118,7 +118,8 @@ def parse_formats(text: str) -> tuple[Format, ...]:
     wrong = [name for name in names if name not in known]
     if wrong or not names:
         name = wrong[0] if wrong else ""
-        hint = nearest(name, list(known)) or f"one of {', '.join(known)}"
+        every = [*known, *also]
+        hint = nearest(name, every) or f"one of {', '.join(every)}"
         raise ConfigError([Problem(f"there is no format {name!r}", suggestion=hint)])
     return tuple(dict.fromkeys(known[name] for name in names))
 

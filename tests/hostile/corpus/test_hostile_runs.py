@@ -37,8 +37,10 @@ FRONTS: dict[str, tuple[str, ...]] = {
     "history-json": ("history", "--json"),
     "dot": ("dump", "-f", "dot"),
     "png": ("dump", "-f", "png"),
+    "csv": ("dump", "-f", "csv"),
+    "mcap": ("dump", "-f", "mcap"),
 }
-READING = ("why", "text", "why-json", "dump-json", "svg", "html", "dot")
+READING = ("why", "text", "why-json", "dump-json", "svg", "html", "dot", "csv", "mcap")
 """They show what can be read, and are not obliged to refuse the rest."""
 
 

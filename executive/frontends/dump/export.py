@@ -1,0 +1,140 @@
+"""A run as data for other programs: MCAP for Foxglove, tables as CSV or Parquet."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import msgspec
+
+from executive.frontends.composition_root import REALITY
+from executive.frontends.dump import foxglove
+from executive.frontends.dump.tables import Table, as_csv, as_parquet, tables
+from executive.frontends.new_files import records_of, refuse_inputs
+from executive.frontends.output import Screen, say
+from executive.journal import journal, motion
+from executive.journal.journal import Event
+from executive.journal.motion import Moment
+from executive.journal.run import Run
+from executive.runs.again.recording import discreet
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
+from robot.model import description
+from robot.ordinary_files import open_ordinary, write_ordinary
+from robot.reality.scene import Scene
+
+EXTRA: Mapping[str, tuple[str, str]] = {
+    "mcap": ("foxglove", "mcap"),
+    "parquet": ("pyarrow", "parquet"),
+}
+"""Format to the module that writes it, and the extra of this package that brings it along."""
+TABLES: Mapping[str, Callable[[Table], bytes]] = {"csv": as_csv, "parquet": as_parquet}
+MOST_BYTES = 150_000_000
+"""Of a journal or of movements: they are held in memory as they are written."""
+MAX_WALL_LINE = 200
+LAST_S = 3e9
+"""A wall clock beyond, in 2065, is none; stamps of MCAP's messages end in 2106."""
+
+
+def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
+    """Write a run for other programs, tables as files in a folder; returns the exit status.
+
+    Args:
+        run: as read from the folder.
+        folder: of the run.
+        kind: mcap, csv or parquet.
+        output: the file, or for tables the folder; None: in the run's own.
+
+    Raises:
+        ConfigError: what writes it is not installed, the run is too long, or nothing can be
+            written.
+    """
+    _check(folder, kind)
+    place = output or folder / (f"{folder.name}.mcap" if kind == "mcap" else kind)
+    motors, scene = _looks(run, folder)
+    with Screen(err=True).status(f"writing {kind}"):
+        if kind == "mcap":
+            refuse_inputs([place], records_of(folder))
+            data = foxglove.recorded(
+                run, _events(folder), _moments(folder), scene=scene, motors=motors,
+                began_s=_began_s(folder, run),
+            )  # fmt: skip
+            _write(place, data)
+        else:
+            for table in tables(run, _events(folder), lambda: _moments(folder), motors=motors):
+                path = place / f"{table.name}.{kind}"
+                refuse_inputs([path], records_of(folder))
+                _write(path, TABLES[kind](table))
+    if scene is None:
+        say("what the world looked like is not known here: there are no shapes in it", err=True)
+    say(f"Done: {place}")
+    return ExitStatus.DONE
+
+
+def _check(folder: Path, kind: str) -> None:
+    if kind in EXTRA:
+        module, extra = EXTRA[kind]
+        if importlib.util.find_spec(module) is None:
+            cure = f"pip install 'humanoid-executive[{extra}]'"
+            raise ConfigError([Problem(f"what writes {kind} is not installed", suggestion=cure)])
+    for name in (journal.FILE, motion.FILE):
+        path = folder / name
+        if path.is_file() and path.stat().st_size > MOST_BYTES:
+            text = f"larger than {MOST_BYTES / 1e6:g} MB"
+            cure = "humanoid dump --format html shows a long run"
+            raise ConfigError([Problem(text, str(path), suggestion=cure)])
+
+
+def _looks(run: Run, folder: Path) -> tuple[tuple[str, ...], Scene | None]:
+    """Names of the robot's motors, and what it and its world look like, as far as that is known."""
+    world, robot, seed = (run.about.get(key) for key in ("world", "robot", "seed"))
+    if not (isinstance(world, str) and isinstance(robot, str)):
+        return (), None
+    vary_seed = seed if run.about.get("varied") and isinstance(seed, int) else None
+    try:
+        with discreet(folder):
+            described = description.load(robot)
+            scene = REALITY.world(world, vary_seed=vary_seed).scene(described)
+    except ConfigError as error:
+        say(str(error), err=True)
+        return (), None
+    return described.motor_names, scene
+
+
+def _events(folder: Path) -> Iterator[Event]:
+    for line in journal.lines(folder):
+        event = journal.decode(line)
+        if event is not None:
+            yield event
+
+
+def _moments(folder: Path) -> Iterator[Moment]:
+    """How everything moved; nothing where that was not kept."""
+    try:
+        yield from (one for one in motion.read(folder) if abs(one.t_s) < journal.MOST_S)
+    except OSError:
+        return
+
+
+class _Wall(msgspec.Struct, frozen=True):
+    n: int
+    wall_s: float
+
+
+def _began_s(folder: Path, run: Run) -> float:
+    """The wall clock at the robot's time 0, from when the first event was written; else 0."""
+    try:
+        with open_ordinary(folder / journal.WALL_FILE) as source:
+            first = msgspec.json.decode(source.readline(MAX_WALL_LINE), type=_Wall)
+    except (OSError, msgspec.DecodeError):
+        return 0.0
+    return max(0.0, first.wall_s - run.begin_s) if first.wall_s < LAST_S else 0.0
+
+
+def _write(path: Path, data: bytes) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_ordinary(path, data)
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

@@ -1,0 +1,308 @@
+"""A run as MCAP with Foxglove's schemas; the only file that knows Foxglove's library.
+
+Stamps are the wall clock's where the run began, and the robot's own time from there on.
+"""
+
+# pyright: basic
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from executive.frontends.dump import places
+from executive.journal.journal import Event
+from executive.journal.motion import Moment
+from executive.journal.run import Run
+from robot.reality.scene import Body, Geom, Rgba, Scene
+from robot.se3 import SE3
+
+WORLD = "world"
+LEVELS = {
+    "failure": "Error", "no recovery": "Error", "recovery": "Warning", "warning": "Warning",
+    "fault": "Warning", "stop": "Warning", "abort": "Warning", "hold": "Warning",
+}  # fmt: skip
+"""Of what is told in words; all else is information."""
+
+
+def recorded(
+    run: Run,
+    events: Iterable[Event],
+    moments: Iterator[Moment],
+    *,
+    scene: Scene | None,
+    motors: tuple[str, ...],
+    began_s: float,
+) -> bytes:
+    """The bytes of the file.
+
+    Args:
+        run: for what is told in words and for the tree.
+        events: of the journal, as they are.
+        moments: how everything moved.
+        scene: what it looks like; None where nobody knows.
+        motors: names of joint positions, in the order of the moments'.
+        began_s: the wall clock at time 0 of the robot [s since 1970].
+    """
+    import foxglove
+    from foxglove.mcap import MCAPWriteOptions
+
+    file, context = io.BytesIO(), foxglove.Context()
+    options = MCAPWriteOptions(profile="", compression_threads=0)
+    with foxglove.open_mcap(file, context=context, writer_options=options):
+        writer = _Writer(context, began_s)
+        if scene is not None:
+            writer.scene(scene, run.begin_s)
+        writer.words(run)
+        writer.tree(run)
+        for event in events:
+            writer.event(event)
+        for moment in moments:
+            writer.moment(moment, scene, motors)
+    return file.getvalue()
+
+
+class _Writer:
+    def __init__(self, context: Any, began_s: float) -> None:
+        from foxglove import Channel, channels
+
+        self._began_s = began_s
+        self._joints = channels.JointStatesChannel("/joint_states", context=context)
+        self._transforms = channels.FrameTransformsChannel("/tf", context=context)
+        self._fixed = channels.FrameTransformsChannel("/tf_static", context=context)
+        self._scene = channels.SceneUpdateChannel("/scene", context=context)
+        self._base = channels.PoseInFrameChannel("/base_pose", context=context)
+        self._words = channels.LogChannel("/log", context=context)
+        self._tree = Channel("/tree", message_encoding="json", context=context)
+        self._events = Channel("/events", message_encoding="json", context=context)
+        self._state = Channel("/state", message_encoding="json", context=context)
+        self._things: dict[str, Any] = {}
+        self._context = context
+        self._bodies: dict[str, Body] = {}
+        self._shown: set[str] = set()
+
+    # --- once ---
+
+    def scene(self, scene: Scene, t_s: float) -> None:
+        """What everything looks like: it hangs on frames, which move."""
+        from foxglove.messages import FrameTransforms, SceneUpdate
+
+        still: list[Any] = []
+        for place, body in enumerate(scene.bodies):
+            if body.role in ("object", "person"):
+                self._bodies[f"{body.role}/{body.id}"] = body
+            elif body.role == "robot":
+                still.append(self._entity(body.id, body, scene, SE3(), body.id, t_s))
+            else:
+                X_WB = places.pose_of(body.X_PB)
+                name = f"{body.role}/{body.id or place}"
+                still.append(self._entity(WORLD, body, scene, X_WB, name, t_s))
+        still = [entity for entity in still if entity is not None]
+        self._scene.log(SceneUpdate(entities=still), log_time=self._ns(t_s))
+        fixed = [
+            self._transform(t_s, scene.bodies[body.parent].id, body.id, places.pose_of(body.X_PB))
+            for body in places.links(scene)
+            if not places.moves(body)
+        ]
+        self._fixed.log(FrameTransforms(transforms=fixed), log_time=self._ns(t_s))
+
+    def words(self, run: Run) -> None:
+        """What happened, as people are told of it."""
+        from foxglove.messages import Log, LogLevel
+
+        for line in run.log:
+            level = getattr(LogLevel, LEVELS.get(line.kind, "Info"))
+            told = Log(
+                timestamp=self._stamp(line.t_s), level=level, message=line.text, name=line.kind
+            )
+            self._words.log(told, log_time=self._ns(line.t_s))
+
+    def tree(self, run: Run) -> None:
+        """Every change of a node."""
+        changes = [(change.t_s, node, change) for _, node in run.walk() for change in node.changes]
+        for t_s, node, change in sorted(changes, key=lambda one: one[0]):
+            record = {
+                "id": node.id, "parent": node.parent, "kind": node.kind, "name": node.name,
+                "state": change.state, "note": change.note,
+            }  # fmt: skip
+            self._tree.log(record, log_time=self._ns(t_s))
+
+    # --- one after the other ---
+
+    def event(self, event: Event) -> None:
+        """A line of the journal."""
+        record = {"n": event.n, "event": event.event, **event.data}
+        self._events.log(record, log_time=self._ns(event.t_s))
+
+    def moment(self, moment: Moment, scene: Scene | None, motors: tuple[str, ...]) -> None:
+        """How everything stands."""
+        from foxglove.messages import FrameTransforms, JointState, JointStates, PoseInFrame
+
+        at = self._ns(moment.t_s)
+        stamp = self._stamp(moment.t_s)
+        names = motors if len(motors) == len(moment.q) else map(str, range(len(moment.q)))
+        joints = [JointState(name=name, position=q) for name, q in zip(names, moment.q)]  # noqa: B905
+        self._joints.log(JointStates(timestamp=stamp, joints=joints), log_time=at)
+        X_WB = places.pose_of(moment.base)
+        pose = PoseInFrame(timestamp=stamp, frame_id=WORLD, pose=_pose(X_WB))
+        self._base.log(pose, log_time=at)
+        found: list[Any] = []
+        if scene is not None:
+            base = scene.bodies[scene.base].id
+            found.append(self._transform(moment.t_s, WORLD, base, X_WB))
+            found += [
+                self._transform(
+                    moment.t_s,
+                    scene.bodies[body.parent].id,
+                    body.id,
+                    places.in_parent(body, moment.q),
+                )
+                for body in places.links(scene)
+                if places.moves(body)
+            ]
+            self._transforms.log(FrameTransforms(transforms=found), log_time=at)
+        for role, known in (("object", moment.objects), ("person", moment.people)):
+            for name, flat in known.items():
+                self._thing(f"{role}/{name}", flat, scene, moment.t_s)
+        state = {"held": moment.held, "charge": moment.charge, "late": moment.late}
+        news = {name: value for name, value in state.items() if value is not None}
+        if news:
+            self._state.log(news, log_time=at)
+
+    def _thing(self, name: str, flat: Any, scene: Scene | None, t_s: float) -> None:
+        """Where something is seen: a topic each, so that whoever seeks finds the newest of each."""
+        from foxglove import channels
+        from foxglove.messages import SceneEntityDeletion, SceneUpdate
+
+        channel = self._things.get(name)
+        if channel is None:
+            channel = self._things[name] = channels.SceneUpdateChannel(
+                f"/things/{name}", context=self._context
+            )
+        body = self._bodies.get(name)
+        if flat is None or body is None or scene is None:
+            gone = SceneEntityDeletion(timestamp=self._stamp(t_s), id=name)
+            channel.log(SceneUpdate(deletions=[gone]), log_time=self._ns(t_s))
+            return
+        entity = self._entity(WORLD, body, scene, places.pose_of(flat), name, t_s)
+        entities = [entity] if entity is not None else []
+        channel.log(SceneUpdate(entities=entities), log_time=self._ns(t_s))
+
+    # --- parts ---
+
+    def _ns(self, t_s: float) -> int:
+        return max(0, round((self._began_s + t_s) * 1e9))
+
+    def _stamp(self, t_s: float) -> Any:
+        from foxglove.messages import Timestamp
+
+        sec, nsec = divmod(self._ns(t_s), 1_000_000_000)
+        return Timestamp(sec=sec, nsec=nsec)
+
+    def _transform(self, t_s: float, parent: str, child: str, X_PC: SE3) -> Any:
+        from foxglove.messages import FrameTransform
+
+        return FrameTransform(
+            timestamp=self._stamp(t_s),
+            parent_frame_id=parent,
+            child_frame_id=child,
+            translation=_vector(X_PC.p),
+            rotation=_rotation(X_PC),
+        )
+
+    def _entity(  # noqa: PLR0917
+        self, frame: str, body: Body, scene: Scene, X_FB: SE3, name: str, t_s: float
+    ) -> Any:
+        from foxglove.messages import KeyValuePair, SceneEntity
+
+        shapes: Any = {}
+        for geom in body.geoms:
+            X_FG = X_FB @ places.pose_of(geom.X_BG)
+            for kind, shape in _shapes(geom, scene, X_FG):
+                shapes.setdefault(kind, []).append(shape)
+        if not shapes:
+            return None
+        told = [KeyValuePair(key="name", value=body.name)] if body.name else []
+        return SceneEntity(
+            timestamp=self._stamp(t_s), frame_id=frame, id=name, frame_locked=True, metadata=told,
+            **shapes,
+        )  # fmt: skip
+
+
+def _shapes(geom: Geom, scene: Scene, X_FG: SE3) -> Iterator[tuple[str, Any]]:
+    from foxglove import messages as m
+
+    pose, color = _pose(X_FG), _color(geom.rgba)
+    a, b, c = geom.size_m
+    match geom.kind:
+        case "box":
+            yield (
+                "cubes",
+                m.CubePrimitive(pose=pose, size=_vector((2 * a, 2 * b, 2 * c)), color=color),
+            )
+        case "sphere":
+            yield "spheres", _ball(X_FG, (a, a, a), color)
+        case "ellipsoid":
+            yield "spheres", _ball(X_FG, (a, b, c), color)
+        case "cylinder" | "capsule":
+            yield (
+                "cylinders",
+                m.CylinderPrimitive(
+                    pose=pose,
+                    size=_vector((2 * a, 2 * a, 2 * b)),
+                    bottom_scale=1.0,
+                    top_scale=1.0,
+                    color=color,
+                ),
+            )
+            if geom.kind == "capsule":
+                for end in (-b, b):
+                    yield "spheres", _ball(X_FG @ SE3((0.0, 0.0, end)), (a, a, a), color)
+        case "mesh" if 0 <= geom.mesh < len(scene.meshes):
+            mesh = scene.meshes[geom.mesh]
+            points = np.frombuffer(mesh.points_m, np.float32).reshape(-1, 3).tolist()
+            faces = np.frombuffer(mesh.faces, np.uint32).tolist()
+            corners = [m.Point3(x=x, y=y, z=z) for x, y, z in points]
+            yield (
+                "triangles",
+                m.TriangleListPrimitive(pose=pose, points=corners, color=color, indices=faces),
+            )
+        case _:
+            pass
+
+
+def _ball(X_FG: SE3, radii_m: tuple[float, float, float], color: Any) -> Any:
+    from foxglove.messages import SpherePrimitive
+
+    a, b, c = radii_m
+    return SpherePrimitive(pose=_pose(X_FG), size=_vector((2 * a, 2 * b, 2 * c)), color=color)
+
+
+def _vector(p: tuple[float, float, float]) -> Any:
+    from foxglove.messages import Vector3
+
+    x, y, z = p
+    return Vector3(x=x, y=y, z=z)
+
+
+def _pose(X: SE3) -> Any:
+    from foxglove.messages import Pose
+
+    return Pose(position=_vector(X.p), orientation=_rotation(X))
+
+
+def _rotation(X: SE3) -> Any:
+    from foxglove.messages import Quaternion
+
+    w, x, y, z = X.quat_wxyz
+    return Quaternion(x=x, y=y, z=z, w=w)
+
+
+def _color(rgba: Rgba) -> Any:
+    from foxglove.messages import Color
+
+    r, g, b, a = rgba
+    return Color(r=r, g=g, b=b, a=a)

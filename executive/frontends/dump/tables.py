@@ -1,0 +1,99 @@
+"""A run as tables, for whoever analyses: CSV by the standard library, Parquet by PyArrow."""
+
+# pyright: basic
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import msgspec
+
+from executive.journal.journal import Event
+from executive.journal.motion import Moment
+from executive.journal.run import Run
+
+POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
+
+
+class Table(msgspec.Struct, frozen=True, kw_only=True):
+    """Columns by name, and the rows one after the other; None: not known."""
+
+    name: str
+    columns: tuple[str, ...]
+    rows: Iterable[Sequence[Any]]
+
+
+def tables(
+    run: Run,
+    events: Iterable[Event],
+    moments: Callable[[], Iterable[Moment]],
+    *,
+    motors: tuple[str, ...],
+) -> Iterator[Table]:
+    """All of a run: how the robot and things moved, the tree, what was said, the journal.
+
+    Args:
+        run: for the tree and what is told in words.
+        events: of the journal, as they are.
+        moments: how everything moved; read more than once.
+        motors: names of joint positions, in the order of the moments'.
+    """
+    base = tuple(f"base_{name}" for name in POSE)
+    joints = tuple(f"q_{name}" for name in motors)
+    columns = ("t_s", *base, *joints, "charge", "late")
+    yield Table(name="motion", columns=columns, rows=_stood(moments(), len(motors)))
+    columns = ("t_s", "kind", "id", *POSE)
+    yield Table(name="things", columns=columns, rows=_seen(moments()))
+    columns = ("t_s", "id", "parent", "kind", "name", "step", "state", "note")
+    yield Table(name="tree", columns=columns, rows=sorted(_changes(run)))
+    said = ((line.t_s, line.kind, line.text) for line in run.log)
+    yield Table(name="log", columns=("t_s", "kind", "text"), rows=said)
+    told = ((one.n, one.t_s, one.event, msgspec.json.encode(one.data).decode()) for one in events)
+    yield Table(name="events", columns=("n", "t_s", "event", "data"), rows=told)
+
+
+def _stood(moments: Iterable[Moment], motors: int) -> Iterator[Sequence[Any]]:
+    for one in moments:
+        q = one.q if len(one.q) == motors else (None,) * motors
+        yield one.t_s, *one.base, *q, one.charge, one.late
+
+
+def _seen(moments: Iterable[Moment]) -> Iterator[Sequence[Any]]:
+    for one in moments:
+        for kind, places in (("object", one.objects), ("person", one.people)):
+            for name, flat in places.items():
+                yield one.t_s, kind, name, *(flat or (None,) * len(POSE))
+
+
+def _changes(run: Run) -> Iterator[tuple[Any, ...]]:
+    for _, node in run.walk():
+        for one in node.changes:
+            about = (node.id, node.parent, node.kind, node.name, node.step)
+            yield one.t_s, *about, one.state, one.note
+
+
+def as_csv(table: Table) -> bytes:
+    """A table with a line of its columns' names; what is not known is empty."""
+    file = io.StringIO(newline="")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(table.columns)
+    writer.writerows(table.rows)
+    return file.getvalue().encode()
+
+
+def as_parquet(table: Table) -> bytes:
+    """A table with its types."""
+    import pyarrow
+    import pyarrow.parquet
+
+    columns: list[list[Any]] = [[] for _ in table.columns]
+    for row in table.rows:
+        for column, value in zip(columns, row, strict=True):
+            column.append(value)
+    file = io.BytesIO()
+    made = pyarrow.table(dict(zip(table.columns, columns, strict=True)))
+    pyarrow.parquet.write_table(made, file)
+    return file.getvalue()
