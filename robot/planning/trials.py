@@ -310,7 +310,9 @@ def _all_poses(body: Body, problem: HandlingProblem, group: list[_Entry]) -> _Po
     targets = [main, Targets(main.R, 0.5 * (main.p + back.p)), back]
     targets += [main.moved(up_m=lift) for lift in problem.lifts_m]
     probed = [0, 2, *range(3, len(targets))]
-    off = [trunks.wobbled(error) for error in reach.WOBBLE]
+    exact = body.description.walking.exact_steps
+    box = (exact.bears_m, exact.bears_m, exact.bears_rad)
+    off = [trunks.wobbled((x * box[0], y * box[1], turn * box[2])) for x, y, turn in reach.WOBBLE]
     everything = targets + [targets[k] for k in probed] * len(off)
     hanging = [trunks] * len(targets) + [one for one in off for _ in probed]
     n, q_main = len(group), np.stack([entry.q_main for entry in group])
