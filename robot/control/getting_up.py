@@ -21,7 +21,7 @@ from robot.se3 import Array
 
 PEAK = 1.875
 """The fastest speed of a minimum-jerk motion, as a multiple of its mean."""
-SQUAT_UPRIGHT = 0.9
+SQUAT_UPRIGHT = 0.9  # 26 degrees
 FLAT = 0.97
 LEVEL_M = 0.02
 EDGE_M = 0.02

@@ -16,7 +16,7 @@ from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array, Vector3
 
 MARGIN = 1.25
-PULL_TIME_S, TIGHT_S = 0.01, 1.0
+PULL_TIME_S, TIGHT_S = 0.01, 1.0  # of a pull: soon felt; gripped harder until it has rested so long
 STOPPED = "stopped by something"
 
 

@@ -74,6 +74,8 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         give_up_s: fingers that are not at rest by then have failed.
         load_s: time over which the load at the wrist is averaged.
         gap_m: fingers closed on a thing whose opening is off by more hold it off its middle.
+        held_within_m, lost_beyond_m: from the grasp point: what is nearer when the fingers close on
+            it is held; what is seen farther off is not, any more.
         contact_n: least change of the wrist's load that is a contact.
         press_m: how far beyond where a thing should stand the hand is led down.
         before_m: between the fingertips and an object, before they take it.
@@ -104,6 +106,8 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     give_up_s: q.Duration = 2.0
     load_s: q.Duration = 0.15
     gap_m: q.Length = 0.015
+    held_within_m: q.Length = 0.07
+    lost_beyond_m: q.Length = 0.12
     contact_n: q.Force = 0.6
     press_m: q.Margin = 0.012
     before_m: q.Margin = 0.022
@@ -141,13 +145,14 @@ class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     """Where a hand may hold something near the body, from the base: every combination is tried.
 
     `ahead_m`, `aside_m` (outwards), `up_m` place the grasp point, `turns_rad` (inwards) its
-    heading.
+    heading; the nearer to `best_m` (ahead, aside) the better.
     """
 
     ahead_m: q.Several[q.Offset]
     aside_m: q.Several[q.Offset]
     up_m: q.Several[q.Offset]
     turns_rad: q.Several[q.Angle]
+    best_m: tuple[q.Offset, q.Offset] = (0.2, 0.2)
 
 
 class Raising(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

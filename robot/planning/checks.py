@@ -20,10 +20,10 @@ from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
 STAND_CLEARANCE_M = 0.03
-APPROACH_CLEARANCE_M = 0.012
+APPROACH_CLEARANCE_M = 0.012  # as on the way there, see `arm_path`
 TOUCH_CLEARANCE_M = 0.004
 LEAN_CLEARANCE_M = 0.02
-SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
+SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)  # tried in turn: as much as there is room for
 OVER_SWEEP_CLEARANCE_M = (0.05, 0.03)
 OVER_CLEARANCE_M = 0.015
 """Of the arm without its hand, over an edge: the feet end 2 cm off, and the hand goes on lines that

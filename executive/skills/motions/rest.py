@@ -33,6 +33,7 @@ def _stands(body: Body, command_id: int) -> bool:
     if state.mode == "damping":
         return True
     activity = state.activities.get("legs")
+    # A posture that is still being taken, or an older command's, is no rest yet.
     taken = activity is not None and activity.id >= command_id and activity.status != "running"
     return taken and state.mode == "stand"
 

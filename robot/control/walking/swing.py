@@ -6,8 +6,8 @@ from robot.control.walking.footsteps import Sole
 from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
-FREEZE_S = 0.08
-LANDING_FILTER_S = 0.04
+FREEZE_S = 0.08  # before the end: a landing moved later only shakes the foot, until it falls
+LANDING_FILTER_S = 0.04  # for the same reason
 
 
 class Swing:
