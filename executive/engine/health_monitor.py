@@ -30,6 +30,8 @@ COOL_C = 70.0
 """A motor that has tripped has to cool down to this before anything moves again."""
 OVERLOAD_SHARE = 0.15
 """More late periods than this are too many to go on with, once all else makes room."""
+THIN_SPEED = 0.6
+"""The part of the speed that is left while a topic is thin."""
 DOWN = ("fallen", "rising")
 """Modes of a body without a foot that says where it is: its pose has to be found again anyway."""
 JUMP_REST_S = 2.0
@@ -279,9 +281,6 @@ class _Flow:
         text = f"{name} brings {max(0, seen)} messages where {wanted:.0f} are promised"
         reason = failure(CONCERNS[name].code, text, topic=name, part=round(seen / wanted, 2))
         return Finding(name=f"{name} rate", level=Level.DERATE, failure=reason, speed=THIN_SPEED)
-
-
-THIN_SPEED = 0.6
 
 
 def _graded(name: str, value: float, text: str, **evidence: float) -> list[Finding]:

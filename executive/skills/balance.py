@@ -21,7 +21,6 @@ BalanceMode = Literal["stand", "get_up", "squat", "one_leg", "lean", "hold"]
 
 SHIFT_S = 8.0
 STANDING = ("stand", "get_up", "hold")
-PUSHED_M_S = 0.15
 
 
 class BalanceParams(SkillParams, frozen=True, kw_only=True):
@@ -117,12 +116,13 @@ class Balance(ScriptedSkill[BalanceParams]):
     def _hold(self) -> Script[None]:
         """Stay for the time asked for; says when it is being pushed."""
         body, span_s = self.body, self.parameters.duration_s
+        pushed_m_s = body.description.balance.pushed_m_s
         begin_s = body.now_s
         end_s = begin_s + span_s
         while body.now_s < end_s:
             self._held_s = body.now_s - begin_s
             vx, vy, _ = body.state.v_NB
-            pushed = vx * vx + vy * vy > PUSHED_M_S**2
+            pushed = vx * vx + vy * vy > pushed_m_s**2
             body.phase = "holding against a push" if pushed else f"holding ({self.parameters.mode})"
             body.progress = 1.0 - (end_s - body.now_s) / span_s
             yield

@@ -31,11 +31,8 @@ GestureKind = Literal[
     "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
 ]  # fmt: skip
 
-BOW_S = 0.8
 HEAD_AHEAD_M = 1.5
 TIMES = 3
-SWING_M = 0.25
-"""A raised hand waves so far ahead of where it hangs, about."""
 AHEAD_RAD = 0.9
 """What is further to the side than this is turned to before it is pointed at."""
 ARMS: dict[str, tuple[Side, ...]] = {
@@ -130,8 +127,9 @@ class Gesture(ScriptedSkill[GestureParams]):
         if kind in HEAD_ONLY:
             yield from self._move_head(p_W)
         elif kind == "bow":
-            yield from stand_still(self.body, pitch_rad=self.body.description.balance.bow_rad)
-            yield from self.body.wait(BOW_S)
+            balance = self.body.description.balance
+            yield from stand_still(self.body, pitch_rad=balance.bow_rad)
+            yield from self.body.wait(balance.bow_s)
             yield from stand_still(self.body)
         elif kind == "point":
             assert p_W is not None
@@ -186,7 +184,7 @@ class Gesture(ScriptedSkill[GestureParams]):
         if not sides:
             raise give_up("hands_full", "there is no free hand for that")
         for side in sides:
-            yield from back_away(body, side, swing_m=SWING_M)
+            yield from back_away(body, side, swing_m=signs.ahead_m)
             yield from move_arm(body, side, posture_rad(body, side, signs.raised))
         for posture in signs.waving * TIMES if waving else ():
             yield from move_arm(body, sides[0], posture_rad(body, sides[0], posture))

@@ -23,7 +23,6 @@ from robot.se3 import SE3
 
 FACE_M = 1.5
 SETTLE_S = 0.6
-PULL_S = 0.15
 TAKE_S, ASK_AGAIN_S = 20.0, 8.0
 CLEAR_S = 0.8
 NOT_THERE = ("out_of_reach", "goal_in_collision", "no_path", "planner_timeout")
@@ -155,7 +154,7 @@ def pulled(body: Body, side: Side, *, ask_again: str) -> Script[bool]:
             since_s = math.inf
         elif math.isinf(since_s):
             since_s = body.now_s
-        elif body.now_s - since_s >= PULL_S:
+        elif body.now_s - since_s >= giving.pull_s:
             return True
         if not asked and body.now_s - begin_s > ASK_AGAIN_S:
             asked = True

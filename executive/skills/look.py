@@ -18,7 +18,6 @@ from robot.se3 import SE3, Vector3
 FACE_HEIGHT_M = 1.5
 """Of a person who stands."""
 GAZE_S = 0.5
-AROUND_RAD = (0.0, 0.9, -0.9, 0.0)
 AROUND_M, AROUND_HEIGHT_M = 2.0, 0.8
 Side = Literal["ahead", "left", "right", "up", "down"]
 SIDES: dict[Side, Vector3] = {
@@ -99,7 +98,7 @@ def look_around(body: Body) -> Script[None]:
     """Let the eyes rest ahead, to the left and to the right; the body stays."""
     body.phase = "looking around"
     x_m, y_m, yaw_rad = stance_of(body.X_WS)
-    for aside_rad in AROUND_RAD:
+    for aside_rad in body.description.gaze.around_rad:
         at_rad = yaw_rad + aside_rad
         p_W = (
             x_m + AROUND_M * math.cos(at_rad),

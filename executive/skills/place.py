@@ -30,10 +30,8 @@ from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import WALK_COST_PER_M, Joints, PlacePlan, PlaceRequest
 from robot.se3 import SE3
 
-PRESS_M = 0.012
 CONTACT = 0.5
 """Of the weight, off the hand: then the object stands."""
-LEAST_CONTACT_N = 0.6
 TOO_HIGH_M = 0.02
 LOWERINGS = 3
 REACH_CORRECTIONS = 2
@@ -252,8 +250,9 @@ class PutDown(ScriptedSkill[PlaceParams]):
         check_grips(body)
         _check_free(body, info, place, plan)
         body.phase = f"lowering the {info.name}"
-        below = _shifted(plan.X_WG_release, -PRESS_M)
-        contact_n = max(LEAST_CONTACT_N, CONTACT * GRAVITY_M_S2 * held.mass_kg)
+        gripping = body.description.handy.gripping
+        below = _shifted(plan.X_WG_release, -gripping.press_m)
+        contact_n = max(gripping.contact_n, CONTACT * GRAVITY_M_S2 * held.mass_kg)
         for _ in range(LOWERINGS):
             try:
                 yield from move_hand(

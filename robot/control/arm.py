@@ -18,12 +18,6 @@ from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
-MAX_ERROR_M = 0.05  # what is further off is approached at this error's speed
-POSITION_DONE_M = 0.006  # half of what a grasp forgives
-ROTATION_DONE_RAD = 0.04
-GIVE_UP_S = 1.5
-GIVE_UP_ERROR_M = 0.02
-JOINT_DONE_RAD = 0.06  # more than the servos sag under what a hand carries
 
 
 class Arm:
@@ -107,7 +101,7 @@ class Arm:
         """Brake; a joint that something holds back from its reference rests, and stops pressing."""
         self._spline = self._line = None
         self._time_s = 0.0
-        free = np.abs(self.q - measured) < JOINT_DONE_RAD
+        free = np.abs(self.q - measured) < self.limits.joints_done_rad
         self._brake = Brake(
             np.where(free, self.q, measured),
             np.where(free, self.qd, 0.0),
@@ -150,10 +144,10 @@ class Arm:
             self.qd, self.qdd = np.zeros_like(self.q), np.zeros_like(self.q)
         if over:
             error = float(np.abs(self.q - measured).max())
-            if error < JOINT_DONE_RAD:
+            if error < self.limits.joints_done_rad:
                 self.activity = Activity(id=self.activity.id, status="done")
                 self._spline = None
-            elif self._time_s > end_s + GIVE_UP_S:
+            elif self._time_s > end_s + self.limits.give_up_s:
                 detail = f"{error:.2f} rad short"
                 self.activity = Activity(id=self.activity.id, status="failed", detail=detail)
                 self._spline = None
@@ -175,8 +169,9 @@ class Arm:
         distance = float(np.linalg.norm(error[:3]))
         angle = float(np.linalg.norm(error[3:]))
         self._report(line, distance, angle)
-        if distance > MAX_ERROR_M:
-            error[:3] *= MAX_ERROR_M / distance
+        most_m = self.limits.line_most_m
+        if distance > most_m:
+            error[:3] *= most_m / distance
         twist = self.limits.line_rate_1_s * error
         twist[:3] += velocity
         jac = self._jac
@@ -204,10 +199,11 @@ class Arm:
     def _report(self, line: Line, distance_m: float, angle_rad: float) -> None:
         if self.activity.status != "running" or self._time_s < line.duration_s:
             return
-        if distance_m < POSITION_DONE_M and angle_rad < ROTATION_DONE_RAD:
+        limits = self.limits
+        if distance_m < limits.line_done_m and angle_rad < limits.line_done_rad:
             self.activity = Activity(id=self.activity.id, status="done")
-        elif self._time_s > line.duration_s + GIVE_UP_S:
-            near = distance_m < GIVE_UP_ERROR_M
+        elif self._time_s > line.duration_s + limits.give_up_s:
+            near = distance_m < limits.line_near_m
             detail = f"{1000 * distance_m:.0f} mm and {angle_rad:.2f} rad short"
             status = "done" if near else "failed"
             self.activity = Activity(id=self.activity.id, status=status, detail=detail)

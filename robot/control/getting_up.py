@@ -19,17 +19,10 @@ from robot.model.body import BodyModel
 from robot.model.keyframes import Keyframe
 from robot.se3 import Array
 
-SPEED_SHARE = 0.75
-"""Of a joint's fastest speed, what a keyframe may ask for."""
 PEAK = 1.875
 """The fastest speed of a minimum-jerk motion, as a multiple of its mean."""
-LYING = 0.65
-"""Cosine to the vertical from which a side of the trunk counts as up."""
-UPRIGHT = 0.5
-SQUAT_UPRIGHT = 0.9
+SQUAT_UPRIGHT = 0.9  # 26 degrees
 FLAT = 0.97
-STILL_RAD_S, REST_S, REST_LIMIT_S = 0.3, 0.5, 4.0
-"""Joints and trunk slower than this for so long lie still; longer than the limit nobody waits."""
 LEVEL_M = 0.02
 EDGE_M = 0.02
 """How far inside the ends of the soles the centre of mass has to be."""
@@ -65,19 +58,20 @@ class GettingUp:
 
     def update(self, dt_s: float, dynamics: Dynamics, q: Array, qd: Array) -> None:
         """Advance by `dt_s`; `q` and `qd` are the measured joints, shape (n,)."""
+        plan = self._plan
         self._time_s += dt_s
         up_B = dynamics.data.xmat[self.body.base_body].reshape(3, 3)[2]
         if self.resting:
             turning = float(np.abs(dynamics.data.qvel[3:6]).max())
-            still = max(turning, float(np.abs(qd).max())) < STILL_RAD_S
+            still = max(turning, float(np.abs(qd).max())) < plan.still_rad_s
             self._still_s = self._still_s + dt_s if still else 0.0
-            if self._still_s >= REST_S or self._time_s >= REST_LIMIT_S:
+            if self._still_s >= plan.rest_s or self._time_s >= plan.rest_limit_s:
                 self._choose(up_B, q)
             return
         if self._time_s < self._end_s:
             self._interpolate()
             return
-        if self._keyframes and _so(self._keyframes[0].needs, up_B):
+        if self._keyframes and self._is(self._keyframes[0].needs, up_B):
             self._next()
         elif not self._keyframes and on_its_feet(dynamics, self.body):
             self.outcome = "on its feet"
@@ -99,7 +93,7 @@ class GettingUp:
         self.resting = False
         motions = self._plan.motions
         over = motions.left if up_B[1] <= 0.0 else motions.right
-        self._keyframes = list(motions.front if up_B[0] < -LYING else over)
+        self._keyframes = list(motions.front if up_B[0] < -self._plan.lying else over)
         self._goal = q.copy()
         self._next()
 
@@ -113,7 +107,7 @@ class GettingUp:
         for name, value in keyframe.posture.items():
             goal[names.index(name)] = value
         self._goal = np.minimum(np.maximum(goal, body.lower_rad), body.upper_rad)
-        rate = np.abs(self._goal - self._from) / (SPEED_SHARE * body.velocity_limit_rad_s)
+        rate = np.abs(self._goal - self._from) / (self._plan.speed * body.velocity_limit_rad_s)
         self._duration_s = max(keyframe.duration_s, PEAK * float(rate.max()))
         self._end_s = self._duration_s + keyframe.hold_s
         self._time_s = 0.0
@@ -126,12 +120,12 @@ class GettingUp:
         self.q = self._from + t**3 * (10.0 - 15.0 * t + 6.0 * t * t) * way
         self.qd = 30.0 * t * t * (1.0 - t) ** 2 / self._duration_s * way
 
-
-def _so(needs: Literal["front", "upright"] | None, up_B: Array) -> bool:
-    """Whether the trunk is as a keyframe needs it."""
-    if needs is None:
-        return True
-    return bool(up_B[0] < -LYING if needs == "front" else up_B[2] > UPRIGHT)
+    def _is(self, needs: Literal["front", "upright"] | None, up_B: Array) -> bool:
+        """Whether the trunk is as a keyframe needs it."""
+        if needs is None:
+            return True
+        plan = self._plan
+        return bool(up_B[0] < -plan.lying if needs == "front" else up_B[2] > plan.upright)
 
 
 def on_its_feet(dynamics: Dynamics, body: BodyModel) -> bool:

@@ -15,13 +15,8 @@ from robot.model.body import BodyModel
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array, Vector3
 
-OPENING_DONE_M = 0.004
-STILL_M_S = 0.004
-SETTLE_S = 0.3
-GIVE_UP_S = 2.0
-LOAD_TIME_S = 0.15
 MARGIN = 1.25
-PULL_TIME_S, TIGHT_S = 0.01, 1.0
+PULL_TIME_S, TIGHT_S = 0.01, 1.0  # of a pull: soon felt; gripped harder until it has rested so long
 STOPPED = "stopped by something"
 
 
@@ -78,7 +73,7 @@ class HandControl:
         self._time_s += dt_s
         x, y, z = rotation_NW.dot(wrist_wrench[self.row, :3]).tolist()
         load = -z - self._weight_n
-        self.load_n += min(1.0, dt_s / LOAD_TIME_S) * (load - self.load_n)
+        self.load_n += min(1.0, dt_s / self.gripping.load_s) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
         step = self.gripping.closing_m_s * dt_s
         self._reference += max(-step, min(step, self.target - self._reference))
@@ -112,13 +107,14 @@ class HandControl:
     def _report(self, dt_s: float, q: float, qd: float) -> None:
         if self.activity.status != "running":
             return
-        still = abs(qd) < STILL_M_S
+        gripping = self.gripping
+        still = abs(qd) < gripping.still_m_s
         self._still_s = self._still_s + dt_s if still else 0.0
-        arrived = abs(q - self.target) * self.hand.opening_per_motor < OPENING_DONE_M
-        if arrived or (self._still_s > SETTLE_S and self._time_s > SETTLE_S):
+        arrived = abs(q - self.target) * self.hand.opening_per_motor < gripping.done_m
+        if arrived or min(self._still_s, self._time_s) > gripping.settle_s:
             detail = "" if arrived else STOPPED
             self.activity = Activity(id=self.activity.id, status="done", detail=detail)
-        elif self._time_s > GIVE_UP_S:
+        elif self._time_s > gripping.give_up_s:
             self.activity = Activity(id=self.activity.id, status="failed", detail="still moving")
 
     def state(self, motors: MotorState, X_NG: SE3) -> HandState:

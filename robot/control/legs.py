@@ -17,9 +17,6 @@ from robot.model.body import SIDES, BodyModel
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array, wrap_angle
 
-WALK_HEIGHT_TOLERANCE_M = 0.02  # it steps once it is about as tall as the gait is planned for
-POSTURE_DAMPING_1_S = 10.0  # of the legs' joints, which nothing else tells how to move
-STANCE_DAMPING_1_S = 30.0  # of a sole on the floor: its slipping ends within 0.1 s
 MAX_COM_ACC_M_S2 = 6.0  # more than friction gives is never asked for
 
 
@@ -47,9 +44,9 @@ class Legs:
         self._posture: Array = np.zeros(count)  # of the active joints; only the waist's counts
         self._waist = self._posture[whole.waist]
         self._posture_kp: Array = np.zeros(count)
-        self._posture_kd: Array = np.full(count, POSTURE_DAMPING_1_S)
         self._balance = balance = self.description.balance
         self._tasks = tasks = balance.tasks
+        self._posture_kd: Array = np.full(count, tasks.joints_1_s)
         self._posture_kp[whole.waist] = tasks.waist.kp_1_s2
         self._posture_kd[whole.waist] = tasks.waist.kd_1_s
         self._waist_goal = self._waist.copy()
@@ -175,7 +172,7 @@ class Legs:
         if isinstance(wish, Twist):
             goal = self._twist_goal
             walking = self.description.walking
-            tall = self.height_m > walking.base_height_m - WALK_HEIGHT_TOLERANCE_M
+            tall = self.height_m > walking.base_height_m - walking.tall_m
             if not tall:
                 goal = Twist()
             # The first step is decided long before it lands, and as long as the ramp is by then.
@@ -257,7 +254,7 @@ class Legs:
         """Still on the floor, or along the swing; `velocity` of both soles, 12 values."""
         swing, v = ref.swing, velocity[6 * i : 6 * i + 6]
         if ref.contact[i] or swing is None:
-            return [-STANCE_DAMPING_1_S * value for value in v]
+            return [-self._tasks.soles_1_s * value for value in v]
         kp, kd = self._tasks.swing.kp_1_s2, self._tasks.swing.kd_1_s
         x, y, yaw = swing.position
         wanted, rate = (x, y, swing.z), (*swing.velocity[:2], swing.vz)

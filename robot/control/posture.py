@@ -11,10 +11,6 @@ from robot.fusion.base_state import BaseStateEstimator
 from robot.kinematics.dynamics import Dynamics
 from robot.se3 import Array
 
-FALLEN_TILT_RAD = 0.9
-"""Pushes that are caught lean the trunk by up to 0.77 rad (docs/control.md)."""
-FALLEN_HEIGHT_SHARE = 0.5
-UPRIGHT_TILT_RAD = 0.35
 STEADY_RAD_S = 1.0
 
 
@@ -27,7 +23,8 @@ class Posture:
         self._dynamics = dynamics
         body = dynamics.body
         self._base = body.base_body
-        self._low_m = FALLEN_HEIGHT_SHARE * body.description.walking.base_height_m
+        self._limits = body.description.balance.falling
+        self._low_m = self._limits.low * body.description.walking.base_height_m
 
     @property
     def tilt_rad(self) -> float:
@@ -43,14 +40,14 @@ class Posture:
     @property
     def upright(self) -> bool:
         """Whether it is on its feet."""
-        return self.tilt_rad < UPRIGHT_TILT_RAD and self._height_m > self._low_m
+        return self.tilt_rad < self._limits.upright_rad and self._height_m > self._low_m
 
     @property
     def lies(self) -> bool:
         """Whether damped legs have let the body down; by the joints, wherever it is."""
         base = float(self._dynamics.data.xpos[self._base, 2])
         lower = min(float(sole[2]) for sole in self._dynamics.sole_position)
-        return base - lower < self._low_m or self.tilt_rad > UPRIGHT_TILT_RAD
+        return base - lower < self._low_m or self.tilt_rad > self._limits.upright_rad
 
     @property
     def _height_m(self) -> float:
@@ -59,7 +56,7 @@ class Posture:
     def falling(self, *, rising: bool) -> str:
         """Why it cannot be held up any more, empty while it can; who rises may be low."""
         tilt_rad, height_m = self.tilt_rad, self._height_m
-        if tilt_rad <= FALLEN_TILT_RAD and (rising or height_m >= self._low_m):
+        if tilt_rad <= self._limits.tilt_rad and (rising or height_m >= self._low_m):
             return ""
         return (
             f"the robot falls {self.side}: the trunk leans "

@@ -27,7 +27,7 @@ CARRYING_SHARE = 0.5
 """Feet that bear this part of the weight stand on the floor, and flat."""
 LYING_RAD = 0.8
 """Feet that are so far from flat by what the IMU feels do not stand; in a step that is 0.32."""
-AT_REST_M_S2 = 1.5
+AT_REST_M_S2 = 1.5  # from 1 g: else what is felt is not gravity alone
 
 
 class Found(NamedTuple):

@@ -24,15 +24,13 @@ from robot.messages import (
     Sightings,
     Track,
 )
+from robot.model.handling import Gripping
 from robot.se3 import SE3, Vector3
 
 FRAMES_TO_MISS = 3
 MIN_DEPTH_M = 0.15
 DEPTH_TOLERANCE_M = 0.03
 EDGE_PX = 6
-HELD_WITHIN_M = 0.07
-LOST_BEYOND_M = 0.12
-GAP_TOLERANCE_M = 0.015
 WAIST_M, WAIST_RADIUS_M = 0.9, 0.12
 SAME_PERSON_M = 0.6
 UNSEEN_S = 0.5
@@ -41,10 +39,11 @@ FORGET_S = 20.0
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """One hand: its grasp frame in W and how far apart its fingers are."""
+    """One hand: its grasp frame in W, how far apart its fingers are, and what they are like."""
 
     X_WG: SE3
     opening_m: float
+    gripping: Gripping
 
 
 class WorldModel:
@@ -165,7 +164,7 @@ def _place(
 def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE3] | None:
     """The hand that has an object between its fingers, and the object in it (X_GO)."""
     for side, hand in hands.items():
-        if _fits(hand, shape) and math.dist(hand.X_WG.p, X_WO.p) < HELD_WITHIN_M:
+        if _fits(hand, shape) and math.dist(hand.X_WG.p, X_WO.p) < hand.gripping.held_within_m:
             return side, hand.X_WG.inverse() @ X_WO
     return None
 
@@ -173,11 +172,11 @@ def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE
 def _fits(hand: Hand, shape: Shape) -> bool:
     """Whether the fingers are as far apart as an object is wide (its longest side is not)."""
     widths = sorted(shape.size_m)[:2]
-    return any(abs(hand.opening_m - width) < GAP_TOLERANCE_M for width in widths)
+    return any(abs(hand.opening_m - width) < hand.gripping.gap_m for width in widths)
 
 
 def _is_far(hand: Hand, X_WO: SE3) -> bool:
-    return math.dist(hand.X_WG.p, X_WO.p) > LOST_BEYOND_M
+    return math.dist(hand.X_WG.p, X_WO.p) > hand.gripping.lost_beyond_m
 
 
 class View:

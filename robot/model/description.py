@@ -110,6 +110,7 @@ class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         waist_pitch_rad: the same, backward (negative) and forward.
         eye_m: height that it looks at when it looks straight ahead.
         nod_m, shake_rad: of a nod up and down at 1.5 m ahead, of shaking the head to either side.
+        around_rad: headings that a look around rests at, from straight ahead.
     """
 
     rate_rad_s: q.TurnRate
@@ -119,6 +120,7 @@ class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     shake_rad: q.Turn
     waist_yaw_rad: q.Turn = 0.0
     waist_pitch_rad: tuple[q.Angle, q.Angle] = (0.0, 0.0)
+    around_rad: q.Several[q.Angle] = (0.0, 0.9, -0.9, 0.0)
 
 
 class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

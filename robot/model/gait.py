@@ -1,4 +1,7 @@
-"""How a body stands and walks: figures of its gait, and of keeping its balance."""
+"""How a body stands and walks: figures of its gait, and of keeping its balance.
+
+What has a value here may be left out of a description; it is Juno's then.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,40 @@ class Catching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         forward_m, side_m: furthest landing from the standing sole.
         width_m: least distance of the soles in such a step.
         swing_m_s: mean speed of the foot, to the landing.
+        start_s: double support before such a step from standing.
+        double_support_s: most of it after a step that landed with more than `late_m` of error.
+        ignored_m: error of the DCM at the landing that moves no step.
+        retimed_m: above this it moves the time of a step too.
+        late_m: above this, as the foot lands, the next step has to come soon.
     """
 
     forward_m: q.Length
     side_m: q.Length
     width_m: q.Margin
     swing_m_s: q.Speed
+    start_s: q.Duration = 0.06
+    double_support_s: q.Duration = 0.05
+    ignored_m: q.Margin = 0.02
+    retimed_m: q.Margin = 0.03
+    late_m: q.Margin = 0.03
+
+
+class SwingFoot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How a foot goes up and comes down, see robot/control/walking/swing.py.
+
+    Attributes:
+        rising: part of a step in which it goes up to `Walking.step_height_m`.
+        longest_s: most of going up, and of coming down, in steps that last longer.
+        touch_m: how far below the floor an ordinary step's profile ends, and
+        touch_m_s: how fast: also how a foot that found no floor goes on down.
+        press_m: how far below it ends, at rest, in a step that is to catch the body.
+    """
+
+    rising: q.Share = 0.45
+    longest_s: q.Duration = 0.6
+    touch_m: q.Margin = 0.001
+    touch_m_s: q.Speed = 0.10
+    press_m: q.Margin = 0.006
 
 
 class Cruise(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -47,6 +78,12 @@ class Following(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         pull_1_s, pull_m_s: back onto the way: gain of the error, most of the speed.
         turn_1_s: gain of the error of the heading.
         least_m_s, slow_down_1_s: speed at the end of a straight stretch, and its gain before that.
+        slow_in_bends_1_rad: by how much it slows down for what there is to turn.
+        turn_first_rad, turn_done_rad: with more to turn it turns on the spot first, down to this.
+        aside: part of the sideways speed that ways make use of.
+        done_m: as near as this to its end a stretch is walked.
+        stalled_m, stalled_rad: who has moved by less for some seconds does not get on.
+        least_s, patience_s_m: what a way may take: so long, and so long for a metre.
     """
 
     ahead_m: q.Length
@@ -58,6 +95,15 @@ class Following(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     turn_1_s: q.Rate
     least_m_s: q.Speed
     slow_down_1_s: q.Rate
+    slow_in_bends_1_rad: q.Slowing = 1.0
+    turn_first_rad: q.Turn = 0.60
+    turn_done_rad: q.Turn = 0.40
+    aside: q.Share = 0.7
+    done_m: q.Margin = 0.12
+    stalled_m: q.Length = 0.08
+    stalled_rad: q.Turn = 0.25
+    least_s: q.Duration = 20.0
+    patience_s_m: q.Slowness = 12.0
 
 
 class LastSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -67,11 +113,35 @@ class LastSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         within_m: as near as this to the stance,
         aside_m: with no more of that to a side,
         turn_rad: and no more to turn.
+        facing_rad: with no more than that to turn no way is followed at all.
     """
 
     within_m: q.Length
     aside_m: q.Length
     turn_rad: q.Turn
+    facing_rad: q.Turn = 0.25
+
+
+class ExactSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How exactly a body steps onto a stance, see executive/skills/motions/final_steps.py.
+
+    Attributes:
+        tolerance_m, tolerance_rad: off by more, it steps again.
+        there_m, there_rad: as near as this it need not step at all, and what it aims at.
+        bears_m, bears_rad: off by so much to every side, a planned stance still has to do.
+        least_s, patience_s_m, patience_s_rad: what it may take: so long, and so long for a metre
+            and a radian.
+    """
+
+    tolerance_m: q.Margin = 0.03
+    tolerance_rad: q.Turn = 0.05236
+    there_m: q.Margin = 0.02
+    there_rad: q.Turn = 0.035
+    bears_m: q.Margin = 0.02
+    bears_rad: q.Turn = 0.03
+    least_s: q.Duration = 12.0
+    patience_s_m: q.Slowness = 15.0
+    patience_s_rad: q.TurnSlowness = 6.0
 
 
 class Room(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -83,6 +153,7 @@ class Room(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         slow_m: what is nearer to a way than that is passed slowly.
         beside_m: beyond the body's radius, beside a way where there is room.
         before_edge_m: where it stands at a table, from its edge.
+        beside_people_m: the same as `beside_m` beside people, further from them.
     """
 
     turning_m: q.Length
@@ -90,6 +161,7 @@ class Room(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     slow_m: q.Length
     beside_m: q.Margin
     before_edge_m: q.Length
+    beside_people_m: q.Margin = 0.12
 
 
 class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -108,8 +180,12 @@ class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         acceleration_m_s2, turn_acceleration_rad_s2: of walking.
         sway_m: of the body to either side while it steps.
         lag_steps: from a wish to where it shows in the stance, in steps.
+        settle_s: how long it stands before it counts as standing.
+        tall_m: it steps once it is no more than this lower than `base_height_m`.
         catching: of steps against pushes.
+        swing_foot: its way up and down.
         cruise, following, last_steps: of planned ways.
+        exact_steps: onto a stance.
         room: that it wants.
     """
 
@@ -139,6 +215,10 @@ class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     following: Following
     last_steps: LastSteps
     room: Room
+    settle_s: q.Duration = 0.25
+    tall_m: q.Margin = 0.02
+    swing_foot: SwingFoot = SwingFoot()
+    exact_steps: ExactSteps = ExactSteps()
 
 
 class Gains(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -149,13 +229,33 @@ class Gains(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
 
 class Tasks(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Feedback of the whole body's tasks: base height and tilt, waist joints, swing foot."""
+    """Feedback of the whole body's tasks: base height and tilt, waist joints, swing foot.
+
+    `joints_1_s` damps the legs' joints, which nothing else tells how to move; `soles_1_s` the
+    soles on the floor, whose slipping ends so.
+    """
 
     height: Gains
     pelvis: Gains
     waist: Gains
     swing: Gains
     swing_turn: Gains
+    joints_1_s: q.Damping = 10.0
+    soles_1_s: q.Damping = 30.0
+
+
+class Falling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """When it cannot be held up any more, see robot/control/posture.py.
+
+    Attributes:
+        tilt_rad: the trunk leans by more.
+        low: part of `Walking.base_height_m` that the base is under.
+        upright_rad: leaning by less than this it is on its feet.
+    """
+
+    tilt_rad: q.Turn = 0.9
+    low: q.Share = 0.5
+    upright_rad: q.Turn = 0.35
 
 
 class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -175,6 +275,10 @@ class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         dcm_1_s: feedback of the divergent component of motion, see robot/control/walking/dcm.py.
         dcm_integral_1_s, dcm_integral_m: the same of its sum over time, standing, and its most.
         tasks: feedback gains.
+        falling: what is no balance any more.
+        slid_m, slid_rad: a sole that bears so far from where it was planted has slid.
+        bow_s: how long a bow lasts.
+        pushed_m_s: a base that is faster, as it stands, was pushed.
     """
 
     lowest_base_m: q.Length
@@ -196,3 +300,8 @@ class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     dcm_integral_1_s: q.Damping
     dcm_integral_m: q.Margin
     tasks: Tasks
+    falling: Falling = Falling()
+    slid_m: q.Margin = 0.01
+    slid_rad: q.Turn = 0.05
+    bow_s: q.Duration = 0.8
+    pushed_m_s: q.Speed = 0.15

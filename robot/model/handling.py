@@ -1,4 +1,7 @@
-"""How a body uses its arms and hands: speeds, loads, reach, and from where it reaches out."""
+"""How a body uses its arms and hands: speeds, loads, reach, and from where it reaches out.
+
+What has a value here may be left out of a description; it is Juno's then.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +23,12 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
             gain of the error, and most of a joint.
         max_lift_kg: heaviest thing to pick up.
         max_payload_kg: heaviest that the controller believes to be in a hand.
+        line_most_m: what a hand on a line is further off is approached at this error's speed.
+        line_done_m, line_done_rad: off by less, a line is done.
+        line_near_m: the same where the hand has come no nearer for `give_up_s`.
+        joints_done_rad: off by less, a motion of the joints is done.
+        give_up_s: after its end a motion that is not done has failed.
+        still_rad_s: joints slower than this are at rest.
     """
 
     speed_rad_s: q.TurnRate
@@ -33,6 +42,13 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     elbow_rad_s: q.TurnRate
     max_lift_kg: q.Mass
     max_payload_kg: q.Mass
+    line_most_m: q.Length = 0.05
+    line_done_m: q.Length = 0.006
+    line_done_rad: q.Turn = 0.04
+    line_near_m: q.Length = 0.02
+    joints_done_rad: q.Turn = 0.06
+    give_up_s: q.Duration = 1.5
+    still_rad_s: q.TurnRate = 0.1
 
 
 class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -52,6 +68,22 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         spare_m: by how much the widest thing to take is narrower than the opened hand.
         open_to_take_m, open_to_leave_m: how far beyond an object's width the fingers open before
             they take it, and to let it go.
+        done_m: so near to what was asked for the opening is there.
+        still_m_s: a motor, or an opening, that changes slower is at rest.
+        settle_s, rest_s: how long, before the hand's control and before a skill believes it.
+        give_up_s: fingers that are not at rest by then have failed.
+        load_s: time over which the load at the wrist is averaged.
+        gap_m: fingers closed on a thing whose opening is off by more hold it off its middle.
+        held_within_m, lost_beyond_m: from the grasp point: what is nearer when the fingers close on
+            it is held; what is seen farther off is not, any more.
+        contact_n: least change of the wrist's load that is a contact.
+        press_m: how far beyond where a thing should stand the hand is led down.
+        before_m: between the fingertips and an object, before they take it.
+        behind_m: the same where the hand is drawn back to after it let go.
+        low_m: what is no more than this higher than `lowest_m` is taken with the fingertips just
+            above what it stands on.
+        finger_half_m: half the height of a finger.
+        beside_m: between two objects, or an object and the fingers around another.
     """
 
     closing_m_s: q.Speed
@@ -67,6 +99,22 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     spare_m: q.Margin
     open_to_take_m: q.Margin
     open_to_leave_m: q.Margin
+    done_m: q.Length = 0.004
+    still_m_s: q.Speed = 0.004
+    settle_s: q.Duration = 0.3
+    rest_s: q.Duration = 0.25
+    give_up_s: q.Duration = 2.0
+    load_s: q.Duration = 0.15
+    gap_m: q.Length = 0.015
+    held_within_m: q.Length = 0.07
+    lost_beyond_m: q.Length = 0.12
+    contact_n: q.Force = 0.6
+    press_m: q.Margin = 0.012
+    before_m: q.Margin = 0.022
+    behind_m: q.Margin = 0.035
+    low_m: q.Margin = 0.025
+    finger_half_m: q.Margin = 0.010
+    beside_m: q.Margin = 0.04
 
 
 class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -97,13 +145,54 @@ class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     """Where a hand may hold something near the body, from the base: every combination is tried.
 
     `ahead_m`, `aside_m` (outwards), `up_m` place the grasp point, `turns_rad` (inwards) its
-    heading.
+    heading; the nearer to `best_m` (ahead, aside) the better.
     """
 
     ahead_m: q.Several[q.Offset]
     aside_m: q.Several[q.Offset]
     up_m: q.Several[q.Offset]
     turns_rad: q.Several[q.Angle]
+    best_m: tuple[q.Offset, q.Offset] = (0.2, 0.2)
+
+
+class Raising(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Where a hand is raised before its goal, for stepping in: every combination, best first.
+
+    Attributes:
+        up_m, back_m: above the goal, and back from it.
+        over_up_m, over_back_m: the same over an edge: the trunk stands up lower than it reached
+            out, so the hand is raised more,
+        over_turns_rad: and may turn about the vertical.
+    """
+
+    up_m: q.Several[q.Margin] = (0.10, 0.06, 0.03, 0.0)
+    back_m: q.Several[q.Margin] = (0.0, 0.06, 0.12, 0.18)
+    over_up_m: q.Several[q.Margin] = (0.16, 0.10, 0.06, 0.03, 0.0)
+    over_back_m: q.Several[q.Margin] = (0.0, 0.06, 0.12, 0.18, 0.26)
+    over_turns_rad: q.Several[q.Angle] = (0.0, 0.5, -0.5, 1.0, -1.0)
+
+
+class SteppingIn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """From the standoff to the stance with a raised hand, and back.
+
+    Attributes:
+        in_line_m, in_line_rad: off the line to the stance: what the step in corrects.
+        bring_in_m, bring_in_rad: as near as this to the standoff, going back, the arm comes in.
+        short_m, short_rad: what a step nearer cures where an arm does not get there.
+        nearer_m: by how much more than that is stepped, and
+        nearer_tolerance_m: how exactly.
+        beside_edge_m: where it stands that reaches over an edge, from that edge.
+    """
+
+    in_line_m: q.Margin = 0.05
+    in_line_rad: q.Turn = 0.12
+    bring_in_m: q.Margin = 0.12
+    bring_in_rad: q.Turn = 0.2
+    short_m: q.Margin = 0.04
+    short_rad: q.Turn = 0.1
+    nearer_m: q.Margin = 0.015
+    nearer_tolerance_m: q.Margin = 0.012
+    beside_edge_m: q.Margin = 0.20
 
 
 class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -130,6 +219,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             (height, depth); for the words of a refusal. Empty: not measured.
         surfaces_m: least and greatest height of a surface that something is put on. None: not
             measured.
+        raising: the hand, before the steps in.
+        stepping_in: with it.
     """
 
     leans: q.Several[Lean]
@@ -151,6 +242,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     carrying: Carrying
     deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
     surfaces_m: tuple[q.Offset, q.Offset] | None = None
+    raising: Raising = Raising()
+    stepping_in: SteppingIn = SteppingIn()
 
 
 class HandSpeeds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -176,13 +269,15 @@ class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     Attributes:
         before_person_m: from the person's middle to the feet; the hand comes half of the way.
         held_out_m: grasp points to hold something out at, in S, of the left hand, best first.
-        pull_n, pulled_m: a change of the wrist's load, or a way of the hand, that is a pull.
+        pull_n, pulled_m: a change of the wrist's load, or a way of the hand, that is a pull,
+        pull_s: once it has lasted so long.
     """
 
     before_person_m: q.Length
     held_out_m: q.Several[tuple[q.Offset, q.Offset, q.Offset]]
     pull_n: q.Force
     pulled_m: q.Length
+    pull_s: q.Duration = 0.15
 
 
 class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -195,8 +290,12 @@ class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
 
 class Signs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Gestures: names of postures, and how far a pointing hand is stretched from the shoulder."""
+    """Gestures: names of postures, and how far a pointing hand is stretched from the shoulder.
+
+    `ahead_m` is how far ahead of where it hangs a raised hand waves, about.
+    """
 
     raised: str
     waving: q.Several[str]
     pointing_m: q.Several[q.Length]
+    ahead_m: q.Margin = 0.25

@@ -36,7 +36,25 @@ class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
 
 class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How the robot gets up from the floor: with at most so many motions."""
+    """How the robot gets up from the floor, see robot/control/getting_up.py.
+
+    What has a value here may be left out of a description; it is Juno's then.
+
+    Attributes:
+        tries: most motions.
+        motions: by how it lies.
+        speed: part of a joint's fastest speed that a keyframe may ask for.
+        lying: cosine to the vertical from which a side of the trunk counts as up.
+        upright: the same of a trunk that a keyframe needs upright.
+        still_rad_s, rest_s: joints and trunk slower than this for so long lie still, and
+        rest_limit_s: longer than that nobody waits for it.
+    """
 
     tries: q.Tries
     motions: Motions
+    speed: q.Share = 0.75
+    lying: q.Share = 0.65
+    upright: q.Share = 0.5
+    still_rad_s: q.TurnRate = 0.3
+    rest_s: q.Duration = 0.5
+    rest_limit_s: q.Duration = 4.0

@@ -186,8 +186,12 @@ class PerceptionNode(Closing):
         self._published_s = self._now_s
         X_WN = localiser.X_WN
         unmapped = (*self._unmapped.obstacles(), *self._in_view.obstacles())
+        robot = self._body.description
         self._world.feel(
-            {side: Hand(X_WN @ hand.X_NG, hand.opening_m) for side, hand in newest.hands.items()}
+            {
+                side: Hand(X_WN @ hand.X_NG, hand.opening_m, robot.handy.gripping)
+                for side, hand in newest.hands.items()
+            }
         )
         self._world.bump(unmapped, self._now_s)
         self._bus.publish(

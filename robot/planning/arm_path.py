@@ -17,16 +17,16 @@ from robot.planning.solids import solids_of
 from robot.planning.timing import Timed, rounded, time_path
 from robot.se3 import SE3, Array
 
-CLEARANCE_M = 0.012
+CLEARANCE_M = 0.012  # with less the fingers topple what they pass by
 SPLINE_CLEARANCE_M = 0.008
 """The spline may stray from the path by the difference [m]."""
 GOAL_CLEARANCE_M = 0.003
 OVERLAP_M = 0.003
 """Start poses may overlap by this much: the world is not known better."""
-RESOLUTION_RAD = 0.02
+RESOLUTION_RAD = 0.02  # 0.05 let collisions through
 CUTS_RAD = (0.30, 0.12, 0.03)
-CHECKS = 12_000
-ATTEMPTS = 3
+CHECKS = 12_000  # instead of a time, so that a seed gives the same plan on any machine
+ATTEMPTS = 3  # the spline of one path in six leaves what was checked
 TILT_RAD = 0.35
 LINE_M = 0.03
 SEEDS = 24
@@ -76,6 +76,7 @@ class Corridor:
     def line_free(self, a: Array, b: Array) -> bool:
         """Whether the straight line between two free states is free."""
         count = max(2, math.ceil(float(np.linalg.norm(b - a)) / RESOLUTION_RAD))
+        # Coarse steps first, then those between: what is in the way is met soonest.
         order = sorted(range(1, count), key=lambda i: i & -i, reverse=True)
         return self.free(b) and all(self.free(a + (b - a) * (i / count)) for i in order)
 

@@ -49,7 +49,9 @@ def plan_base_path(body: Body, request: BasePathRequest) -> BasePath | Failure:
         if problem is not None:
             return problem
     path = _plan(robot, floor, request)
-    return path or explain_no_path(floor, request.start, request.goal, needed_m=1.8 * radius)
+    return path or explain_no_path(
+        floor, request.start, request.goal, needed_m=2.0 * LEAST * radius
+    )
 
 
 def _standing_problem(

@@ -20,21 +20,14 @@ from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
 STAND_CLEARANCE_M = 0.03
-APPROACH_CLEARANCE_M = 0.012
+APPROACH_CLEARANCE_M = 0.012  # as on the way there, see `arm_path`
 TOUCH_CLEARANCE_M = 0.004
 LEAN_CLEARANCE_M = 0.02
-SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)
+SWEEP_CLEARANCE_M = (0.03, 0.02, 0.012)  # tried in turn: as much as there is room for
 OVER_SWEEP_CLEARANCE_M = (0.05, 0.03)
 OVER_CLEARANCE_M = 0.015
 """Of the arm without its hand, over an edge: the feet end 2 cm off, and the hand goes on lines that
 the elbow follows by itself. With 4 mm the forearm rubbed on the edge and pushed the robot up."""
-RAISE_M = (0.10, 0.06, 0.03, 0.0)
-PULL_M = (0.0, 0.06, 0.12, 0.18)
-OVER_RAISE_M = (0.16, 0.10, 0.06, 0.03, 0.0)
-OVER_PULL_M = (0.0, 0.06, 0.12, 0.18, 0.26)
-OVER_TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0)
-"""Over an edge: the trunk stands up lower than it reached out, so the hand is raised more, and may
-turn about the vertical."""
 STEP_M = 0.05
 SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
@@ -128,13 +121,13 @@ class Checker:
         x, y, yaw = self.candidate.stance_of(0)
         forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
         ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
-        over = self.lean.last
-        raises, turns = (OVER_RAISE_M, OVER_TURNS_RAD) if over else (RAISE_M, (0.0,))
+        over, how = self.lean.last, self._reaching.raising
+        raises, turns = (how.over_up_m, how.over_turns_rad) if over else (how.up_m, (0.0,))
         up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
         row = np.zeros(len(turn), dtype=int)
         R = reach.rotations_z(turn) @ target.R[row]
         touch: str | None = END
-        for pull in OVER_PULL_M if over else PULL_M:
+        for pull in how.over_back_m if over else how.back_m:
             back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
             p = target.p[0] - back + np.outer(up_m, [0.0, 0.0, 1.0])
             targets, q0 = Targets(R, p), np.tile(q_near, (len(p), 1))

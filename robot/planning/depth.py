@@ -12,8 +12,6 @@ from robot.planning.handling_problem import HandlingProblem
 from robot.planning.solids import Solid
 from robot.se3 import Array
 
-BESIDE_M = 0.20
-"""Where somebody stands who reaches over an edge, from the edge."""
 ON_M = 0.02
 """Between the bottom of what stands on something and its top, at most."""
 
@@ -28,7 +26,7 @@ def too_deep(
     support = _support(problem, at)
     if support is None or not set(blockers) <= {support.id, END}:
         return None
-    from_edge_m, height_m = _from_edge_m(support, floor, at), support.z_range_m()[1]
+    from_edge_m, height_m = _from_edge_m(support, floor, at, reaching), support.z_range_m()[1]
     heights, depths = zip(*reaching.deep_m, strict=True)
     deep_m = float(np.interp(height_m, heights, depths))
     if not deep_m < from_edge_m < np.inf:
@@ -54,15 +52,16 @@ def _support(problem: HandlingProblem, at: Array) -> Solid | None:
     return None
 
 
-def _from_edge_m(support: Solid, floor: Floor, at: Array) -> float:
+def _from_edge_m(support: Solid, floor: Floor, at: Array, reaching: Reaching) -> float:
     """From the nearest edge with room to stand before it [m]; infinite if there is none."""
     x, y, _ = support.X_WG.inverse().apply((at[0], at[1], support.X_WG.p[2]))
     half_x, half_y = 0.5 * support.size_m[0], 0.5 * support.size_m[1]
+    off_m = reaching.stepping_in.beside_edge_m
     beside = [
-        (half_x - x, (half_x + BESIDE_M, y, 0.0)),
-        (half_x + x, (-half_x - BESIDE_M, y, 0.0)),
-        (half_y - y, (x, half_y + BESIDE_M, 0.0)),
-        (half_y + y, (x, -half_y - BESIDE_M, 0.0)),
+        (half_x - x, (half_x + off_m, y, 0.0)),
+        (half_x + x, (-half_x - off_m, y, 0.0)),
+        (half_y - y, (x, half_y + off_m, 0.0)),
+        (half_y + y, (x, -half_y - off_m, 0.0)),
     ]
     free = floor.clearances_m(np.array([support.X_WG.apply(p)[:2] for _, p in beside])) > 0.0
     found = [d for (d, _), ok in zip(beside, free.tolist(), strict=True) if ok]

@@ -18,21 +18,12 @@ from robot.model.description import Hand
 from robot.model.handling import Gripping
 from robot.se3 import SE3, Array, wrap_angle
 
-TIP_CLEARANCE_M = 0.022
-"""Between the fingertips and the object at the pre-grasp [m]."""
-RETREAT_CLEARANCE_M = 0.035
-"""The same where the hand is drawn back to after letting go. As the robot then steps back its
-weight shifts, and the opened fingers sway: with the 22 mm of the pre-grasp they brushed the cup now
-and then, and moved it by up to 23 mm (`python -m benchmarks --only mission`, seed 25)."""
 TILTS_RAD = (0.0, 0.35, 0.70)
 TILT_COST = (0.0, 0.12, 0.35)
 LYING_TILTS_RAD = (1.2, 0.9, 1.45)
-LOW_ABOVE_M = 0.025
-"""What is no higher than this above `lowest_m` is taken with the fingertips just above what it
-stands on: half of a hand that comes level has no room beside a remote control of 3 cm."""
 LOW_TILTS_RAD, LOW_COST = (0.35, 0.70, 0.95, 1.2, 1.45), 0.2
-TIP_HEIGHT_M, FINGER_M = 0.008, 0.010
-"""Between the fingertips and what the thing stands on then; half the height of a finger [m]."""
+TIP_HEIGHT_M = 0.008
+"""Between the fingertips and what a low thing stands on [m]."""
 STEEP_RAD = 0.7
 """From here on the palm is above a low thing: a long one is taken at its middle."""
 LYING_LIFT_M = 0.01
@@ -105,7 +96,7 @@ def held_option(
         headings=headings,
         X_GO=X_GO,
         opening_m=0.0,
-        back_m=min(near, gripping.hold_depth_m + 0.01) + gripping.fingertip_m + RETREAT_CLEARANCE_M,
+        back_m=min(near, gripping.hold_depth_m + 0.01) + gripping.fingertip_m + gripping.behind_m,
         cost=0.0,
     )
 
@@ -143,7 +134,7 @@ def _option(
         headings=None if heading is None else (heading,),
         X_GO=X_WG.inverse() @ X_WO,
         opening_m=width,
-        back_m=hold / max(0.5, math.cos(tilt)) + gripping.fingertip_m + TIP_CLEARANCE_M,
+        back_m=hold / max(0.5, math.cos(tilt)) + gripping.fingertip_m + gripping.before_m,
         cost=cost,
     )
 
@@ -160,7 +151,7 @@ def _lifts(height_m: float, gripping: Gripping) -> list[tuple[float, float]]:
 
 
 def _is_low(height_m: float, gripping: Gripping) -> bool:
-    return height_m < gripping.lowest_m + LOW_ABOVE_M
+    return height_m < gripping.lowest_m + gripping.low_m
 
 
 def _ways_down(height_m: float, gripping: Gripping) -> list[tuple[float, float, float]]:
@@ -173,7 +164,7 @@ def _ways_down(height_m: float, gripping: Gripping) -> list[tuple[float, float, 
         if tilt == 0.0 or not low
     ]
     for tilt in LOW_TILTS_RAD if low else ():
-        below_m = gripping.fingertip_m * math.sin(tilt) + FINGER_M * math.cos(tilt)
+        below_m = gripping.fingertip_m * math.sin(tilt) + gripping.finger_half_m * math.cos(tilt)
         ways.append((tilt, below_m + TIP_HEIGHT_M - 0.5 * height_m, LOW_COST))
     return ways
 

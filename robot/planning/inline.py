@@ -6,7 +6,7 @@ from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 from robot.planning.solve import Solver
 
-PLAN_SPAN_S = 0.2
+PLAN_SPAN_S = 0.2  # of simulated time, however long it took: the same seed, the same run
 
 
 class InlinePlanner:

@@ -18,7 +18,7 @@ from robot.planning.solids import Solid, solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import SE3, Array
 
-LIFTS_M = (0.10, 0.06, 0.04, 0.025)
+LIFTS_M = (0.10, 0.06, 0.04, 0.025)  # the least for what stands tall under a board
 CARRY_CLEARANCE_M = 0.02
 TUCK_STEPS = 4
 """How far the elbow swings in: a carried mug then is within 0.26 m, where it was 0.32."""
@@ -119,7 +119,8 @@ def carry_posture(
     relaxed = arm.chain.relax(reached.q)
     inwards = np.tile(X_ST.rotation().T @ np.array([0.0, -sign, -0.5]), (n, 1))
     q_arm = np.concatenate([arm.chain.swing(relaxed, inwards, steps=TUCK_STEPS), relaxed])
-    off_m = np.hypot(grid[:, 0] - 0.2, grid[:, 1] - sign * 0.2)
+    ahead_m, aside_m = carrying.best_m
+    off_m = np.hypot(grid[:, 0] - ahead_m, grid[:, 1] - sign * aside_m)
     liked = reach.margins(arm, q_arm) - 0.8 * np.tile(off_m, 2)
     held = Held(id=thing.id, shape=thing.shape, X_GO=choice.option.X_GO)
     scene = body.scenes.get(others, (side, held))

@@ -8,6 +8,7 @@ import numpy as np
 
 from robot.failures import Failure, failure
 from robot.messages import Place, Shape
+from robot.model.handling import Gripping
 from robot.planning.floor import Floor
 from robot.planning.grasps import held_option
 from robot.planning.handling import search
@@ -25,8 +26,6 @@ SHARE_PER_M = 1.5
 """Cost of a metre between a spot and where the robot can stand."""
 EDGE_M = 0.025
 """Between an object and the edge of what it is put on [m]."""
-GAP_M = 0.04
-"""Between two objects, or an object and the fingers around another [m]."""
 
 
 def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
@@ -49,10 +48,10 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
     if request.target is not None:
         spots, cost = np.array([request.target.p]), np.zeros(1)
     else:
-        half_m = body.description.handy.gripping.half_width_m
+        gripping = body.description.handy.gripping
         spots = _on_surface(place, shape, request.spots)
         spots, cost = _free_spots(
-            place, shape, objects, spots=spots, hand_half_m=half_m, seed=request.seed
+            place, shape, objects, spots=spots, gripping=gripping, seed=request.seed
         )
         labels = floor.regions(body.description.body_radius_m)
         walkable = (labels > 0) & (labels == floor.home(labels, *request.start[:2]))
@@ -143,7 +142,7 @@ def _free_spots(
     objects: tuple[ObjectPose, ...],
     *,
     spots: Array,
-    hand_half_m: float,
+    gripping: Gripping,
     seed: int,
 ) -> tuple[Array, Array]:
     """Of points (n, 2) in P the free ones as spots for the object's origin, and their costs.
@@ -163,7 +162,7 @@ def _free_spots(
         gap = np.minimum(gap, distance - _radius(thing.shape))
     cost = 0.15 * np.hypot(x, y) + 0.6 * np.maximum(0.0, 0.25 - gap)
     cost = cost + 0.05 * np.random.default_rng(seed).random(len(cost))
-    free = gap > max(radius, hand_half_m) + GAP_M
+    free = gap > max(radius, gripping.half_width_m) + gripping.beside_m
     return spots[free], cost[free]
 
 

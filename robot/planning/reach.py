@@ -13,8 +13,9 @@ from robot.planning.robot_body import Arm, Body
 from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
-WOBBLE = ((0.02, 0.02, 0.03), (0.02, -0.02, -0.03), (-0.02, 0.02, -0.03), (-0.02, -0.02, 0.03))
-"""Errors of the stance that a good one bears: x, y [m], yaw [rad]."""
+WOBBLE = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
+"""Errors of a stance that a good one bears: ahead, aside, turned, in parts of `ExactSteps.bears_*`.
+Every second corner of that box stands for all eight."""
 LIMIT_SHARE = 4.0
 DEXTERITY_SHARE = 9.0
 

@@ -16,6 +16,7 @@ import msgspec
 import mujoco
 import numpy as np
 
+from robot.planning.base_path import LEAST
 from robot.planning.floor import Floor, with_room
 from robot.planning.numerics import Indices, Mask, even
 from robot.planning.requests import LookPlan, LookRequest, Stance
@@ -43,8 +44,6 @@ SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 SWAY_M, NARROW_S_PER_M = 0.13, 120.0
 """Who stands sways, and steps in some centimetres off: with no more than the arms' own room they
 touched walls or furniture in 7 of 30 tasks. A place that lacks all of it costs 16 s."""
-SLACK = 0.9
-"""A way may be as narrow as this part of the body's radius to both sides; base paths agree."""
 
 
 class _View(msgspec.Struct, frozen=True):
@@ -68,7 +67,7 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
         for shape in thing.shapes
     )
     atlas = _atlas(standing, around.map.bounds_m, _eye_m(body))
-    lengths_m = floor.ways_m(*start[:2], radius_m=SLACK * radius_m).lengths_m(atlas.cells)
+    lengths_m = floor.ways_m(*start[:2], radius_m=LEAST * radius_m).lengths_m(atlas.cells)
     clearances_m = floor.clearances_m(atlas.cells)
     stands = clearances_m >= radius_m
     narrow_m = np.maximum(0.0, radius_m + SWAY_M - clearances_m)

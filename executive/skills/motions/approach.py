@@ -24,14 +24,6 @@ from robot.se3 import SE3
 TURNED_RAD = 0.35
 """Nearer to the standoff's heading the hand comes up about where it was planned to; before that it
 may be anywhere around the body."""
-BRING_IN_WITHIN = (0.12, 0.2)
-IN_LINE_M, IN_LINE_RAD = 0.05, 0.12
-"""Off the line to the stance: what the step in corrects on its first half."""
-MOST_SHORT_M = 0.04
-"""A stretched arm shifts the balance by up to 2 cm; a step of a few centimetres cures that."""
-MOST_SHORT_RAD = 0.1
-NEARER_M = 0.015
-NEARER_TOLERANCE_M = 0.012
 
 
 def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
@@ -99,8 +91,9 @@ def _is_within(body: Body, X_WS_goal: SE3, within_m: float, within_rad: float) -
 
 def _is_in_line(body: Body, X_WS_goal: SE3) -> bool:
     """Whether the way straight in may be taken from here: the standoff need not be met exactly."""
+    steps = body.description.handy.reaching.stepping_in
     X_GS = X_WS_goal.inverse() @ body.X_WS
-    return abs(X_GS.p[1]) <= IN_LINE_M and abs(X_GS.yaw_rad) <= IN_LINE_RAD
+    return abs(X_GS.p[1]) <= steps.in_line_m and abs(X_GS.yaw_rad) <= steps.in_line_rad
 
 
 def _X_SB(body: Body) -> SE3:
@@ -141,15 +134,16 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
     The stretched arm shifts the balance, so the body stands a little behind where it was planned.
     Returns whether it stepped.
     """
+    steps = body.description.handy.reaching.stepping_in
     short_m = reason.evidence.get("short_m", math.inf)
-    if reason.code != "out_of_reach" or not isinstance(short_m, float) or short_m > MOST_SHORT_M:
+    if reason.code != "out_of_reach" or not isinstance(short_m, float) or short_m > steps.short_m:
         return False
     short_rad = reason.evidence.get("short_rad", 0.0)
-    if isinstance(short_rad, float) and short_rad > MOST_SHORT_RAD:
+    if isinstance(short_rad, float) and short_rad > steps.short_rad:
         return False  # a step does not turn the hand
     body.phase = "stepping nearer"
-    nearer = body.X_WS @ SE3((short_m + NEARER_M, 0.0, 0.0))
-    yield from step_to(body, stance_of(nearer), position_tolerance_m=NEARER_TOLERANCE_M)
+    nearer = body.X_WS @ SE3((short_m + steps.nearer_m, 0.0, 0.0))
+    yield from step_to(body, stance_of(nearer), position_tolerance_m=steps.nearer_tolerance_m)
     yield from take_posture(body, plan)
     return True
 
@@ -170,7 +164,7 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     X_WS_goal = pose_of(plan.standoff)
     X_WB = X_WS_goal @ _X_SB(body)
     feet = step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
-    near = False
+    near, steps = False, body.description.handy.reaching.stepping_in
     while not near and next(feet, OVER) is not OVER:
         yield
         # What is held turns between the fingers where a swing of the arm and a step come together:
@@ -178,7 +172,7 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
         near = (
             not keep_upright
             and _has_room(body, plan.standoff)
-            and _is_within(body, X_WS_goal, *BRING_IN_WITHIN)
+            and _is_within(body, X_WS_goal, steps.bring_in_m, steps.bring_in_rad)
         )
     body.phase = f"bringing the {plan.side} arm in"
     arm = move_arm(body, plan.side, arm_rad, keep_upright=keep_upright, X_WB=X_WB if near else None)

@@ -13,43 +13,38 @@ from robot.messages import Stand, WalkTo
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
-POSITION_TOLERANCE_M = 0.03
-YAW_TOLERANCE_RAD = math.radians(3.0)
 CORRECTIONS = 2
-THERE_M = 0.02
-THERE_RAD = 0.035
 MOVED_M = 0.015
 MOVED_RAD = 0.015
 REAIM_EVERY_S = 0.5
-AIM_TOLERANCE_M = 0.02
 AIM_SHARE = 0.7
-AIM_TOLERANCE_RAD = 0.035
 STAND_TIMEOUT_S = 5.0
 SETTLE_S = 0.1
 """The newest fix of localisation comes in; the soles rest since the step was reported done."""
-SECONDS_PER_METRE = 15.0
-SECONDS_PER_RADIAN = 6.0
-LEAST_TIMEOUT_S = 12.0
 
 
 def step_to(
     body: Body,
     goal: Stance,
     *,
-    position_tolerance_m: float = POSITION_TOLERANCE_M,
-    yaw_tolerance_rad: float = YAW_TOLERANCE_RAD,
+    position_tolerance_m: float | None = None,
+    yaw_tolerance_rad: float | None = None,
 ) -> Script[None]:
     """Step straight to a stance of W and stand there, within tolerance, corrected at most twice.
 
-    Gives up with `walk_stalled` when it does not get there.
+    The tolerances are those of the body unless given. Gives up with `walk_stalled` when it does
+    not get there.
     """
+    exact = body.description.walking.exact_steps
+    within_m = exact.tolerance_m if position_tolerance_m is None else position_tolerance_m
+    within_rad = exact.tolerance_rad if yaw_tolerance_rad is None else yaw_tolerance_rad
     X_WS_goal = pose_of(goal)
     off_m = off_rad = math.inf
     for _ in range(1 + CORRECTIONS):
-        yield from _step_once(body, X_WS_goal, tolerance_m=position_tolerance_m)
+        yield from _step_once(body, X_WS_goal, tolerance_m=within_m)
         yield from body.wait(SETTLE_S)
         off_m, off_rad = miss(body.X_WS, X_WS_goal)
-        if off_m <= position_tolerance_m and off_rad <= yaw_tolerance_rad:
+        if off_m <= within_m and off_rad <= within_rad:
             get_familiar(body)
             return
     raise give_up(
@@ -64,8 +59,9 @@ def step_to(
 
 def is_at_stance(body: Body, goal: Stance) -> bool:
     """Whether the robot stands there already, exactly enough not to step at all."""
+    exact = body.description.walking.exact_steps
     off_m, off_rad = miss(body.X_WS, pose_of(goal))
-    return body.state.mode == "stand" and off_m <= THERE_M and off_rad <= THERE_RAD
+    return body.state.mode == "stand" and off_m <= exact.there_m and off_rad <= exact.there_rad
 
 
 def miss(X_WA: SE3, X_WB: SE3) -> tuple[float, float]:
@@ -77,8 +73,9 @@ def miss(X_WA: SE3, X_WB: SE3) -> tuple[float, float]:
 def _step_once(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> Script[None]:
     """One WalkTo, aimed again when localisation has moved the goal in the odometry frame."""
     far_m, far_rad = miss(body.X_WS, X_WS_goal)
-    timeout_s = max(LEAST_TIMEOUT_S, SECONDS_PER_METRE * far_m + SECONDS_PER_RADIAN * far_rad)
-    end_s = body.now_s + timeout_s
+    exact = body.description.walking.exact_steps
+    patience_s = exact.patience_s_m * far_m + exact.patience_s_rad * far_rad
+    end_s = body.now_s + max(exact.least_s, patience_s)
     aim, command_id = _aim(body, X_WS_goal, tolerance_m=tolerance_m)
     aimed_s = body.now_s
     while True:
@@ -100,6 +97,7 @@ def _step_once(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> Script[None
 
 def _aim(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> tuple[SE3, int]:
     """Send the body to a stance; returns it in N, and the command's id."""
+    exact = body.description.walking.exact_steps
     X_NS = body.to_N(X_WS_goal)
     x_m, y_m, yaw_rad = stance_of(X_NS)
     command = WalkTo(
@@ -107,8 +105,8 @@ def _aim(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> tuple[SE3, int]:
         x_m=x_m,
         y_m=y_m,
         yaw_rad=yaw_rad,
-        position_tolerance_m=min(AIM_TOLERANCE_M, AIM_SHARE * tolerance_m),
-        yaw_tolerance_rad=AIM_TOLERANCE_RAD,
+        position_tolerance_m=min(exact.there_m, AIM_SHARE * tolerance_m),
+        yaw_tolerance_rad=exact.there_rad,
     )
     return X_NS, body.send(command)
 

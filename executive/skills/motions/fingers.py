@@ -6,9 +6,8 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.script import Script, give_up
 from robot.messages import Grip, Payload, Side
 
-SETTLED_M_S = 0.004
-SETTLE_S = 0.25
-FINGER_TIMEOUT_S = 3.0
+LONGER_S = 1.0
+"""Than the hand's own control waits for its fingers, which says so itself then."""
 
 
 def open_fingers(body: Body, side: Side, *, opening_m: float | None = None) -> Script[None]:
@@ -62,11 +61,12 @@ def check_grips(body: Body) -> None:
 
 def _settle(body: Body, side: Side) -> Script[None]:
     """Wait until the fingers have rested for a moment."""
-    end_s = body.now_s + FINGER_TIMEOUT_S
+    gripping = body.description.handy.gripping
+    end_s = body.now_s + gripping.give_up_s + LONGER_S
     still_since_s = body.now_s + 0.1
     while body.now_s < end_s:
         yield
-        if abs(body.hand(side).opening_m_s) > SETTLED_M_S:
+        if abs(body.hand(side).opening_m_s) > gripping.still_m_s:
             still_since_s = body.now_s
-        if body.now_s - still_since_s >= SETTLE_S:
+        if body.now_s - still_since_s >= gripping.rest_s:
             return

@@ -7,8 +7,8 @@ from executive.skills.motions.fingers import open_fingers
 from executive.skills.motions.script import GaveUp, Script, give_up
 from robot.messages import BodyState, GetUp, Side
 
-RISE_LIMIT_S = 120.0
-GOING_DOWN_S = 3.0
+RISE_LIMIT_S = 120.0  # of 26 falls the slowest took 26 s; one motion after another may be missed
+GOING_DOWN_S = 3.0  # of a robot whose motors gave up: it counts as fallen once it lies
 
 
 def get_up(body: Body) -> Script[None]:

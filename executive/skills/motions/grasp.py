@@ -13,7 +13,6 @@ from robot.messages import ObjectInfo
 from robot.planning.requests import PickPlan
 from robot.se3 import SE3
 
-GAP_TOLERANCE_M = 0.015
 FOLLOW_AT_MOST_M = 0.04
 """Of an object that moves while the hand moves in; beyond that the hand looks and reaches again."""
 FRESH_S = 0.5
@@ -79,7 +78,7 @@ def check_gap(body: Body, info: ObjectInfo, plan: PickPlan, gap_m: float) -> Non
     """Give up unless the fingers have closed on the object, where it is as wide as planned."""
     if closed_on_air(body, gap_m):
         cause = f"the fingers closed on air, not on the {info.name}"
-    elif abs(gap_m - plan.opening_m) > GAP_TOLERANCE_M:
+    elif abs(gap_m - plan.opening_m) > body.description.handy.gripping.gap_m:
         cause = f"the fingers pinched the {info.name} off its middle"
     else:
         return

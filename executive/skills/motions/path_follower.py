@@ -16,15 +16,8 @@ from robot.model.gait import Walking
 from robot.planning.requests import Stance
 from robot.se3 import SE3, wrap_angle
 
-SLOW_IN_BENDS_1_RAD = 1.0
-"""On four ways with bends and turns the pelvis is up to 11 cm off the way with this, of which 5 are
-its sway, as with 2.5, where the ways take 13 % longer; with 0.6 they take 1 % less."""
 SEARCH_M = 0.60
-RUN_DONE_M = 0.12
 SAME_PLACE_M = 0.02
-TURN_DONE_RAD = 0.40
-TURN_FIRST_RAD = 0.60
-SIDEWAYS = 0.7
 METRES_PER_RADIAN = 0.3
 
 
@@ -153,7 +146,9 @@ class Follower:
             return turn_towards(wrap_angle(leg.to_rad - X_WS.yaw_rad), self.walking)
         does = self.walking.following
         off_rad = wrap_angle(leg.stance(self._along_m + does.turn_ahead_m)[2] - X_WS.yaw_rad)
-        self._turning = abs(off_rad) > (TURN_DONE_RAD if self._turning else TURN_FIRST_RAD)
+        self._turning = abs(off_rad) > (
+            does.turn_done_rad if self._turning else does.turn_first_rad
+        )
         if self._turning:
             return turn_towards(off_rad, self.walking)
         left_over_m = leg.length_m - self._along_m
@@ -161,7 +156,7 @@ class Follower:
         bend_rad = abs(wrap_angle(bend[2] - X_WS.yaw_rad))
         cruise_m_s = leg.speed_m_s(self._along_m, self._along_m + does.slow_ahead_m)
         speed_m_s = min(cruise_m_s, does.least_m_s + does.slow_down_1_s * left_over_m)
-        speed_m_s /= 1.0 + SLOW_IN_BENDS_1_RAD * max(bend_rad, abs(off_rad))
+        speed_m_s /= 1.0 + does.slow_in_bends_1_rad * max(bend_rad, abs(off_rad))
         vx, vy = self._velocity(leg, x_m, y_m, speed_m_s)
         c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
         return self._within_limits(c * vx + s * vy, c * vy - s * vx, off_rad)
@@ -193,19 +188,20 @@ class Follower:
 
     def _advance(self, x_m: float, y_m: float, yaw_rad: float) -> None:
         """Drop the legs that are done."""
+        does = self.walking.following
         while self._legs:
             leg = self._legs[0]
             if isinstance(leg, Turn):
                 whole_rad = abs(wrap_angle(leg.to_rad - leg.from_rad))
                 left_rad = abs(wrap_angle(leg.to_rad - yaw_rad))
                 self._turned_rad = max(self._turned_rad, whole_rad - left_rad)
-                if left_rad > TURN_DONE_RAD:
+                if left_rad > does.turn_done_rad:
                     return
             else:
                 self._along_m = leg.nearest_m(
                     x_m, y_m, from_m=self._along_m, to_m=self._along_m + SEARCH_M
                 )
-                if leg.length_m - self._along_m > RUN_DONE_M:
+                if leg.length_m - self._along_m > does.done_m:
                     return
             self._legs.pop(0)
             self._along_m = self._turned_rad = 0.0
@@ -214,7 +210,7 @@ class Follower:
         """Scale a velocity, keeping its direction, until the gait can do it."""
         gait = self.walking
         most_m_s = gait.max_forward_m_s if forward_m_s > 0.0 else gait.max_backward_m_s
-        aside_m_s = SIDEWAYS * gait.max_sideways_m_s
+        aside_m_s = gait.following.aside * gait.max_sideways_m_s
         scale = max(1.0, abs(forward_m_s) / most_m_s, abs(left_m_s) / aside_m_s)
         turn_rad_s = _clamp(gait.following.turn_1_s * off_rad, gait.max_turn_rad_s)
         return Velocity(forward_m_s / scale, left_m_s / scale, turn_rad_s)

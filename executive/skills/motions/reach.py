@@ -21,7 +21,7 @@ LINE_TIMEOUT_S = 5.0
 RETARGET_M = 0.004
 RETARGET_EVERY_S = 0.2
 SAME_POSTURE_RAD = 0.15
-PLAN_ATTEMPTS = 2
+PLAN_ATTEMPTS = 2  # another seed may find what sampling missed
 INTERRUPTIONS = 4
 SAMPLING = ("no_path", "planner_timeout")
 

@@ -8,7 +8,6 @@ from executive.skills.skill import Resource
 from robot.messages import HoldArm, Side, Stand
 
 REST_TIMEOUT_S = 6.0
-STILL_RAD_S = 0.1
 
 
 def come_to_rest(body: Body, resources: frozenset[Resource]) -> Script[None]:
@@ -34,6 +33,7 @@ def _stands(body: Body, command_id: int) -> bool:
     if state.mode == "damping":
         return True
     activity = state.activities.get("legs")
+    # A posture that is still being taken, or an older command's, is no rest yet.
     taken = activity is not None and activity.id >= command_id and activity.status != "running"
     return taken and state.mode == "stand"
 
@@ -41,7 +41,7 @@ def _stands(body: Body, command_id: int) -> bool:
 def _is_still(body: Body, side: Side) -> bool:
     """Whether an arm's joints hardly move."""
     speeds_rad_s = (body.state.qd_rad_s[i] for i in body.description.indices(f"{side}_arm"))
-    return max(map(abs, speeds_rad_s)) < STILL_RAD_S
+    return max(map(abs, speeds_rad_s)) < body.description.arms.still_rad_s
 
 
 def hold_arm(body: Body, side: Side) -> None:

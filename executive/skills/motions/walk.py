@@ -27,16 +27,11 @@ from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3, wrap_angle
 
 REPLANS = 3
-NEAR_RAD = 0.25
 SIDESTEP_M = 0.6
 FACING_RAD = 0.35
 BLOCKED_WITHIN_M = 1.0
 BLOCKED_FOR_S = 0.4
-STALLED_S = 5.0
-STALLED_M = 0.08
-STALLED_RAD = 0.25
-LEAST_TIMEOUT_S = 20.0
-SECONDS_PER_METRE = 12.0
+STALLED_S = 5.0  # judged by motion: what is left of the way may grow where it leads around
 LOOK_EVERY_S = 1.0
 LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
@@ -45,9 +40,6 @@ MOVING_M_S = 0.03
 LET_PASS_S = 6.0
 BESIDE_M = 0.3
 """What stands as near as this to where somebody is seen is taken to be them."""
-BESIDE_PEOPLE_M = 0.12
-"""A way keeps the body's middle 0.43 m from what stands about, where there is room; a person who is
-within 0.5 m ahead stops it. Without that it was planned past the same person again and again."""
 NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 EXCUSE = "Excuse me."
 """What somebody who stands in the way is told, before a way around them is planned."""
@@ -115,12 +107,16 @@ def plan_path(body: Body, goal: Stance) -> Script[BasePath]:
 
 
 def _around_people(body: Body, request: BasePathRequest) -> BasePathRequest:
-    """The same, keeping so clear of people that they do not stop the walk."""
+    """The same, keeping so clear of people that they do not stop the walk.
+
+    Else it would be planned past the same person again and again.
+    """
     world_map = request.around.map
+    wider_m = body.description.walking.room.beside_people_m
     people = tuple(
         person
         if person.id == body.companion
-        else msgspec.structs.replace(person, radius_m=person.radius_m + BESIDE_PEOPLE_M)
+        else msgspec.structs.replace(person, radius_m=person.radius_m + wider_m)
         for person in world_map.people
     )
     wider = msgspec.structs.replace(world_map, people=people)
@@ -189,7 +185,7 @@ def turn_by(body: Body, angle_rad: float) -> Script[None]:
     left_rad = angle_rad
     before_rad = body.X_WS.yaw_rad
     end_s = body.now_s + 10.0 + 3.0 * abs(angle_rad) / gait.max_turn_rad_s
-    while abs(left_rad) > NEAR_RAD:
+    while abs(left_rad) > gait.last_steps.facing_rad:
         if body.now_s > end_s:
             raise give_up("walk_stalled", "the turn does not get on", left_rad=round(left_rad, 2))
         _walk(body, turn_towards(left_rad, gait))
@@ -212,7 +208,8 @@ class _Watch:
 
     def __init__(self, body: Body, whole_m: float) -> None:
         self.body = body
-        self._end_s = body.now_s + LEAST_TIMEOUT_S + SECONDS_PER_METRE * whole_m
+        self._following = following = body.description.walking.following
+        self._end_s = body.now_s + following.least_s + following.patience_s_m * whole_m
         self._looked_s = -math.inf
         self._anchor = body.X_WS
         self._moved_s = body.now_s
@@ -231,7 +228,8 @@ class _Watch:
         """Give up when the body has neither moved nor turned for long, or walks in circles."""
         X_WS, now_s = self.body.X_WS, self.body.now_s
         moved_m, turned_rad = miss(X_WS, self._anchor)
-        if moved_m > STALLED_M or turned_rad > STALLED_RAD:
+        does = self._following
+        if moved_m > does.stalled_m or turned_rad > does.stalled_rad:
             self._anchor, self._moved_s = X_WS, now_s
         if now_s - self._moved_s > STALLED_S or now_s > self._end_s:
             raise give_up(
@@ -260,7 +258,8 @@ class _Watch:
 def _is_near(body: Body, goal: Stance) -> bool:
     """Whether a few exact steps will do."""
     off_m, off_rad = miss(body.X_WS, pose_of(goal))
-    return off_m < body.description.walking.last_steps.within_m and off_rad < NEAR_RAD
+    last = body.description.walking.last_steps
+    return off_m < last.within_m and off_rad < last.facing_rad
 
 
 def cruise_m_s(path: BasePath, gait: Walking, *, carrying: bool) -> list[float]:

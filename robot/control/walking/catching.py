@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from robot.control.walking.adaptation import cheapest_time, dcm_at_end, error_at_end
 from robot.control.walking.dcm import DcmPlan, Point
 from robot.control.walking.footsteps import FootstepPlanner, Sole, sign_of
+from robot.control.walking.swing import FREEZE_S
 from robot.messages import Side
 
-FREEZE_S = 0.08
 SHORTEST_SHARE = 0.5
 LONGEST_SHARE = 1.35
 """Of the planned time: [Khadiv2020] chooses time and place together (docs/control.md, 4)."""
 TIME_COST_M_S = 0.1  # 0.1 s off the planned time is as bad as landing 1 cm off the planned place
 MISS_WEIGHT = 10.0  # of a landing that the leg cannot reach, or not in time
-DEADBAND_M = 0.02  # errors that the next step takes back anyway only shake the swing foot
 
 
 @dataclass(slots=True)
@@ -88,9 +87,14 @@ class Catch:
         return cheapest_time(cost, shortest_s, LONGEST_SHARE * self.planned_s)
 
     def landing(self, shift: Point) -> Sole:
-        """The planned landing shifted, but for a deadband, as far as the leg reaches."""
+        """The planned landing shifted, but for a deadband, as far as the leg reaches.
+
+        Errors that the next step takes back anyway would only shake the swing foot.
+        """
         size = math.hypot(*shift)
-        scale = max(0.0, size - DEADBAND_M) / size if size > 0.0 else 0.0
+        scale = (
+            max(0.0, size - self.planner.walking.catching.ignored_m) / size if size > 0.0 else 0.0
+        )
         x, y = self.planned.x + scale * shift[0], self.planned.y + scale * shift[1]
         return self.reachable(Sole(x, y, self.planned.yaw))
 

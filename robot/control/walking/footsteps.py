@@ -141,6 +141,7 @@ class FootstepPlanner:
         limits, time_s = self.walking, self.step_time_s
         dx, dy, turn = self._error(middle, wish)
         if isinstance(wish, Twist):
+            # Of two steps one does it all, the outward foot's: the other would cross.
             dy = 2.0 * dy if s * dy > 0.0 else 0.0
             turn = 2.0 * turn if s * turn > 0.0 else 0.0
             heading = middle.offset(0.0, 0.0, turn_rad=0.5 * turn)

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from robot.control.walking.footsteps import Sole
+from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
-TOUCH_M_S = 0.10  # downward where the floor should be, and on if it is not there
-FREEZE_S = 0.08
-LANDING_FILTER_S = 0.04
-LIFT_SHARE = 0.45
-TOUCH_M = 0.001  # below the floor: where the height profile of an ordinary step ends,
-PRESS_M = 0.006  # and that of an urgent one, which so meets the floor a good while earlier
-LONGEST_LIFT_S = 0.6
+FREEZE_S = 0.08  # before the end: a landing moved later only shakes the foot, until it falls
+LANDING_FILTER_S = 0.04  # for the same reason
 
 
 class Swing:
@@ -24,13 +20,14 @@ class Swing:
         urgent: whether it is to catch the body: better a little early than late.
     """
 
-    def __init__(self, start: Sole, landing: Sole, duration_s: float, height_m: float) -> None:
+    def __init__(self, start: Sole, landing: Sole, duration_s: float, walking: Walking) -> None:
         """Start at rest on the floor at `start`."""
         self.position = [start.x, start.y, start.yaw]
         self.velocity = [0.0, 0.0, 0.0]
         self.acceleration = [0.0, 0.0, 0.0]
         self.duration_s = duration_s
-        self.height_m = height_m
+        self.height_m = walking.step_height_m
+        self.profile = walking.swing_foot
         self.time_s = 0.0
         self.urgent = False
         self.z, self.vz, self.az = 0.0, 0.0, 0.0
@@ -82,8 +79,9 @@ class Swing:
 
         A step that lands before its time falls short: the foot is still on its way.
         """
-        lift_s = min(LONGEST_LIFT_S, LIFT_SHARE * self.duration_s)
-        drop_s = min(LONGEST_LIFT_S, (1.0 - LIFT_SHARE) * self.duration_s)
+        foot = self.profile
+        lift_s = min(foot.longest_s, foot.rising * self.duration_s)
+        drop_s = min(foot.longest_s, (1.0 - foot.rising) * self.duration_s)
         before_s = self.time_s - dt_s
         goal, rate = self.height_m, 0.0
         if before_s < lift_s - dt_s:
@@ -92,10 +90,10 @@ class Swing:
             left_s = 0.1
         elif before_s < self.duration_s - dt_s:
             left_s = self.duration_s - before_s
-            goal, rate = (-PRESS_M, 0.0) if self.urgent else (-TOUCH_M, -TOUCH_M_S)
+            goal, rate = (-foot.press_m, 0.0) if self.urgent else (-foot.touch_m, -foot.touch_m_s)
         else:
-            self.z -= TOUCH_M_S * dt_s
-            self.vz, self.az = -TOUCH_M_S, 0.0
+            self.z -= foot.touch_m_s * dt_s
+            self.vz, self.az = -foot.touch_m_s, 0.0
             return
         self.z, self.vz, self.az = minimum_jerk(
             self.z, self.vz, self.az, goal=goal, left_s=left_s, dt_s=dt_s, rate=rate

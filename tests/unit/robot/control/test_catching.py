@@ -5,7 +5,6 @@ import math
 import pytest
 
 from robot.control.walking.catching import (
-    DEADBAND_M,
     LONGEST_SHARE,
     SHORTEST_SHARE,
     Catch,
@@ -43,7 +42,7 @@ def test_a_step_that_goes_as_planned_is_left_alone(catch):
 
 
 @pytest.mark.parametrize("angle_rad", [0.0, 0.7, 1.5])
-def test_the_landing_goes_where_the_dcm_goes_less_a_deadband(catch, angle_rad):
+def test_the_landing_goes_where_the_dcm_goes_less_a_deadband(catch, juno, angle_rad):
     off_m = 0.03
     step = catch(off_m * math.cos(angle_rad), off_m * math.sin(angle_rad))
     shift = step.shift(PLANNED_S)
@@ -51,7 +50,8 @@ def test_the_landing_goes_where_the_dcm_goes_less_a_deadband(catch, angle_rad):
     assert math.hypot(*shift) == pytest.approx(grown_m, rel=1e-6)
     landing = step.landing(shift)
     moved = landing.x - step.planned.x, landing.y - step.planned.y
-    assert math.hypot(*moved) == pytest.approx(grown_m - DEADBAND_M, rel=1e-6)
+    ignored_m = juno.walking.catching.ignored_m
+    assert math.hypot(*moved) == pytest.approx(grown_m - ignored_m, rel=1e-6)
     assert math.atan2(moved[1], moved[0]) == pytest.approx(angle_rad, abs=1e-6)
 
 

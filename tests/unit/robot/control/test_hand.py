@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot.control.hand import GIVE_UP_S, HandControl
+from robot.control.hand import HandControl
 from robot.messages import Grip
 from robot.se3 import SE3
 from tests.fakes.motors import motor_state
@@ -95,7 +95,7 @@ def test_fingers_do_not_slam(bench):
 
 def test_fingers_that_never_rest_fail(bench):
     bench.grip(0.0)
-    for k in range(round((GIVE_UP_S + 0.5) / DT_S)):
+    for k in range(round((bench.control.gripping.give_up_s + 0.5) / DT_S)):
         bench.q[bench.motor] = 0.03 + 0.005 * (k % 2)
         bench.update(0.5)
     assert bench.control.activity.status == "failed"

@@ -4,9 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
-from robot.control.posture import FALLEN_TILT_RAD, Posture, steady
+from robot.control.posture import Posture, steady
 from robot.fusion.base_state import BaseStateEstimator
+from robot.kinematics.dynamics import Dynamics
+from robot.model.body import BodyModel
 from robot.se3 import SE3
 
 
@@ -36,12 +39,22 @@ def test_its_tilt_is_that_of_the_trunk_whatever_its_heading(posture, tilt_rad):
 
 
 def test_who_leans_far_falls_to_that_side_and_it_is_said(posture, juno):
-    made = posture(FALLEN_TILT_RAD + 0.1, 0.0, juno.walking.base_height_m)
+    made = posture(juno.balance.falling.tilt_rad + 0.1, 0.0, juno.walking.base_height_m)
     assert "on its right side" in made.falling(rising=True)
     reason = made.fallen("why")
     assert (reason.code, reason.cause) == ("fallen", "why")
     assert reason.evidence["side"] == "on its right side"
     assert made.lies
+
+
+def test_how_far_it_may_lean_is_the_bodys(juno):
+    falling = replace(juno.balance.falling, tilt_rad=0.3)
+    body = BodyModel(replace(juno, balance=replace(juno.balance, falling=falling)))
+    dynamics = Dynamics(body)
+    for tilt_rad, falls in ((0.2, False), (0.4, True)):
+        X_NB = SE3.from_rpy(tilt_rad, 0.0, 0.0, (0.0, 0.0, juno.walking.base_height_m))
+        made = Posture(BaseStateEstimator(body, X_NB), dynamics)
+        assert bool(made.falling(rising=True)) is falls
 
 
 def test_only_who_rises_may_be_low(posture):

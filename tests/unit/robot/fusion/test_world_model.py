@@ -7,6 +7,7 @@ import pytest
 
 from robot.fusion.world_model import FORGET_S, FRAMES_TO_MISS, Hand, WorldModel
 from robot.messages import DepthImage, ObjectInfo, Obstacle, PersonInfo, Shape, Sighting, Sightings
+from robot.model import description
 from robot.se3 import SE3
 
 WIDTH, HEIGHT, FOVY_RAD = 160, 120, math.radians(60)
@@ -121,8 +122,11 @@ def test_objects_that_nobody_told_of_are_tracked_too(model):
     assert [track.id for track in model.tracks()] == ["cup", "ball"]
 
 
+GRIPPING = description.load().handy.gripping
+
+
 def hand(x: float, opening_m: float) -> dict:
-    return {"right": Hand(SE3.from_xy_yaw(x, 0.0, 0.3, z_m=1.0), opening_m)}
+    return {"right": Hand(SE3.from_xy_yaw(x, 0.0, 0.3, z_m=1.0), opening_m, GRIPPING)}
 
 
 def test_what_the_fingers_close_on_goes_with_the_hand_and_is_never_missing(model):

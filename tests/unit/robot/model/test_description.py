@@ -5,6 +5,7 @@ import re
 import shutil
 from pathlib import Path
 
+import msgspec
 import mujoco
 import numpy as np
 import pytest
@@ -154,6 +155,36 @@ def test_nominal_touches_nothing(juno, body):
     body.write_joints(data, np.array(juno.posture("nominal")))
     mujoco.mj_forward(body.model, data)
     assert data.ncon == 0
+
+
+def spare(value):
+    """A struct as builtins, without all that its type has a value for; `walking` and the like."""
+    if not isinstance(value, msgspec.Struct):
+        return msgspec.to_builtins(value)
+    fields = msgspec.structs.fields(value)
+    return {
+        field.name: spare(getattr(value, field.name))
+        for field in fields
+        if field.default is msgspec.NODEFAULT
+    }
+
+
+@pytest.mark.parametrize("part", ["walking", "balance", "arms", "signs", "gaze", "getting_up"])
+def test_what_an_older_description_leaves_out_is_as_junos(juno, part):
+    said = getattr(juno, part)
+    assert msgspec.convert(spare(said), type(said)) == said
+
+
+def test_what_an_older_description_leaves_out_of_hands_is_as_junos(juno):
+    handling = juno.handling
+    read = msgspec.convert(spare(handling), type(handling))
+    assert (read.gripping, read.speeds, read.giving) == (
+        handling.gripping,
+        handling.speeds,
+        handling.giving,
+    )
+    assert read.reaching.raising == handling.reaching.raising
+    assert read.reaching.stepping_in == handling.reaching.stepping_in
 
 
 def test_every_limit_has_a_source(juno):
