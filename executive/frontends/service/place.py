@@ -301,6 +301,7 @@ def connect(place: Place) -> socket.socket:
     """
     folder = _entered(place.folder)
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    connection.settimeout(0.0)  # one that hangs takes nobody in: EAGAIN, and no waiting
     try:
         connection.connect(f"/proc/self/fd/{folder}/{SOCKET}")
         if not is_own(connection):
