@@ -136,15 +136,14 @@ class Connection(Closing):
 def _connected(
     place: Place, patience_s: float, meanwhile: Callable[[Place], None]
 ) -> socket.socket:
-    begun_s = time.monotonic()
-    until_s = begun_s + patience_s
+    until_s = time.monotonic() + patience_s
     while True:
         try:
-            return places.connect(place)
+            return places.connect(place, wait_s=ANSWER_S)
         except OSError as error:
             if error.errno == FULL:
-                until_s = min(until_s, begun_s + ANSWER_S)
-            elif error.errno not in NOT_THERE or not places.is_up(place):
+                raise Silent(f"{place.name} is up, and takes nobody in") from None
+            if error.errno not in NOT_THERE or not places.is_up(place):
                 places.find(place.name)  # says what is up
                 raise ProcessError(f"{place.name} cannot be reached: {error}") from None
         meanwhile(place)

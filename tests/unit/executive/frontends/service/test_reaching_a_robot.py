@@ -244,7 +244,7 @@ def test_a_cry_in_a_text_that_is_too_long_is_heard(home):
 def test_one_that_hangs_with_a_full_backlog_keeps_nobody_waiting(home, monkeypatch):
     monkeypatch.setattr(clients, "ANSWER_S", 0.2)
     with claimed("kitchen") as place, places.listen(place, running(), backlog=0):
-        waiting = [places.connect(place)]
+        waiting = [places.connect(place, wait_s=1.0)]
         with pytest.raises(clients.Silent, match="kitchen"):
             for _ in range(3):
                 waiting.append(clients.Connection(place))
