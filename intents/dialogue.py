@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from intents import looking_back, plans, replies, wording
 from intents.context import Context, answered, noted, verdict_of
 from intents.correcting import in_full, is_correction
+from intents.distances import how_far
 from intents.goals import (
     Balance,
     Cancel,
@@ -26,15 +27,16 @@ from intents.goals import (
     Tell,
     Wait,
 )
+from intents.grammar import SHALL_NOT
 from intents.halting import besides
-from intents.outcomes import YES_OR_NO, Goals, Question, Refusal, Reply, Turn
+from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.plans import HOW_I_READ_IT
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.the_rest import is_rest, with_the_rest
-from intents.undoing import is_back, is_undo, undone
+from intents.undoing import is_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
@@ -153,6 +155,9 @@ class Dialogue:
         about = looking_back.told(text, state, opened)
         if about:
             return Reply(text=about)
+        far = how_far(text, state, lambda said: self._read(said, state))
+        if far:
+            return Reply(text=far)
         turn = self._answer(text, opened, state) if opened else None
         asked_where, self._asked_where = self._asked_where, False
         if asked_where and _AND.match(text):
@@ -165,6 +170,11 @@ class Dialogue:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
         return turn
+
+    def _read(self, text: str, state: RobotState) -> Outcome:
+        """What a sentence means by itself, here and now."""
+        before = replace(self.context, question=None, entities=state.entities, view=state.view)
+        return hear(text, self.vocabulary, context=before)[0]
 
     def ask(self, question: Question) -> None:
         """Put a question of somebody else's, as the one that is open from now on."""
@@ -191,9 +201,8 @@ class Dialogue:
         "careful, the glass" is neither.
         """
         said = besides(text)
-        before = replace(self.context, question=None, entities=state.entities, view=state.view)
         for one in dict.fromkeys((text, said)):
-            outcome, _ = hear(one, self.vocabulary, context=before) if one else (None, None)
+            outcome = self._read(one, state) if one else None
             goals = outcome.goals if isinstance(outcome, Goals) else ()
             if goals and all(isinstance(goal, Cancel | Resume) for goal in goals):
                 return one
@@ -239,6 +248,8 @@ class Dialogue:
         """What takes back what was asked last, or asks it for the others; None if it is neither."""
         if is_undo(text) and state.doing:
             return Goals(goals=(Cancel(),))
+        if is_undo_of_several(text):
+            return Reply(text="I can undo what was asked last, and no more: say “undo that”.")
         if is_undo(text) or (is_back(text) and not state.doing and self._before):
             if self._before is None:
                 return Reply(text="There is nothing that I could undo.")
@@ -266,6 +277,9 @@ class Dialogue:
         if isinstance(aside, Reply):
             return replace(aside, ms=outcome.ms)
         self._close()
+        if state.doing and isinstance(outcome, Refusal) and outcome.reason == f"{SHALL_NOT}.":
+            goes_on = f"I am at “{state.doing}” and go on with it: “cancel” or “stop” ends it."
+            return replace(outcome, reason=goes_on)
         if isinstance(outcome, Goals):
             outcome = replace(outcome, instead=corrects)
             return self._settle(text, outcome, after, state)

@@ -9,6 +9,7 @@ from copy import copy
 from dataclasses import fields
 from typing import NamedTuple
 
+from intents.english.aspects import unkept
 from intents.english.clauses.parentheses import parentheses, said_to_others
 from intents.english.faithfulness import left_out, strings
 from intents.english.joining import carried
@@ -16,8 +17,8 @@ from intents.english.offers import would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
-from intents.english.readings.asides import somebody_else
-from intents.english.sequences import sequence
+from intents.english.readings.asides import leaves_out_step, somebody_else
+from intents.english.sequences import names_hand, sequence
 from intents.english.trouble import (
     NotUnderstood,
     Offered,
@@ -65,6 +66,9 @@ _DANGLING = lexicon.words("to into onto from with towards the a an of")
 """Words that no command ends with."""
 
 
+SHALL_NOT = "All right, I shall not"
+"""What is answered to who only says what is not to be done."""
+_OWN_HAND = "I choose the hand myself"
 _KEPT = re.compile(r"\b(let(ting)? go|releas(e|ing)|put(ting)? (it|them|that) down)\b")
 """What is to stay in the hand, and cannot where it is handed on or put somewhere."""
 
@@ -160,6 +164,11 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     spoken_to = somebody_else(text)
     if spoken_to:
         raise Unasked(f"I take that as said to {spoken_to}, not to me")
+    if leaves_out_step(text):
+        raise Unasked(
+            "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
+            "what is left to do"
+        )
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
     goals = carried(goals)
@@ -172,11 +181,17 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         raise not_understood(text, end)
     _never_onto_itself(goals)
     if sentence.notes.one_hand:
-        raise Partly("I choose the hand myself", tuple(goals))
+        raise Partly(_OWN_HAND, tuple(goals))
     if sentence.notes.guessed:
         said = listing([f"“{verb}”" for verb in sentence.notes.guessed], "and")
         raise Offered(f"I do not know how to {said}", tuple(goals))
     remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals), *_at_a_pace(text, goals))
+    if any(names_hand(text.raw(*span), goals) for span in sentence.notes.passed):
+        raise Partly(_OWN_HAND, tuple(goals))
+    differs, remark = unkept(text, goals)
+    if differs:
+        raise Partly(differs, tuple(goals))
+    remarks += (remark,) if remark else ()
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
 
 
@@ -188,7 +203,7 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
             goes where it has to.
     """
     if sentence.notes.forbidden and not goals:
-        raise Unasked("All right, I shall not")
+        raise Unasked(SHALL_NOT)
     handled = [goal for goal in each(goals) if not isinstance(goal, _LOOKING)]
     known = " ".join(strings(handled))
     moves = any(isinstance(goal, _MOVING) for goal in each(goals))
@@ -224,7 +239,7 @@ def _at_a_pace(text: Text, goals: list[Goal]) -> list[str]:
     every = list(each(goals))
     moves = any(isinstance(goal, _MOVING) for goal in every)
     speaks = any(isinstance(goal, Say | Answer) for goal in every)
-    told = text.pace and moves and not speaks
+    told = text.pace and (moves or any(isinstance(goal, Greet) for goal in every)) and not speaks
     return [f"I move at my own pace: “{text.pace}” changes nothing"] if told else []
 
 

@@ -40,6 +40,7 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
         room: Room it is in, or empty.
         p_WO: Position in the world [m].
         held: It is in the robot's hand.
+        hand: In which one ("left"), if that is known.
     """
 
     id: str
@@ -53,6 +54,7 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
     room: str = ""
     p_WO: tuple[float, float, float] | None = None
     held: bool = False
+    hand: str = ""
 
 
 class Grounded(msgspec.Struct, frozen=True):

@@ -54,6 +54,14 @@ Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 __all__ = ["MAX_CHARACTERS", "Fallback", "hear", "is_stop", "parse"]
 
 _ONE_OF = lexicon.words("one a an any either which")
+_ASKING = lexicon.words(
+    "what which who whose whom where when why how is are am was were do does did can have has"
+)
+_ASKING_WHETHER = lexicon.words("is are am was were do does did have has")
+ANSWERED = (
+    "I can say where things are, what I hold, see and do, how long it takes, and why I stopped."
+)
+"""What is told to who asks what cannot be read."""
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
 
@@ -231,7 +239,8 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         plain = reworded(rests[-1].text if rests else text, index)
         read_ = _as_it_stands(plain.text, vocabulary, context) if plain else whole
         if plain and isinstance(read_.outcome, Goals):
-            if plain.sure and all(rest.sure for rest in rests):
+            asks = tokenize(text)[0].text in _ASKING_WHETHER
+            if plain.sure and not asks and all(rest.sure for rest in rests):
                 return _remarked(read_.outcome, f"I take that as “{plain.text}”"), read_.after
             doubtful.append(_asked_about(text, read_, "I did not get every word"))
     best = whole if isinstance(whole.outcome, Question) or not doubtful else doubtful[0]
@@ -264,7 +273,9 @@ def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> _Readi
         return _Reading(question, context, unclear)
     except ReadingError as error:
         puzzled = not isinstance(error, Unasked)
-        refusal = Refusal(reason=f"{_sentence(str(error))}.", puzzled=puzzled)
+        asks = isinstance(error, Unread) and words.word(0) in _ASKING
+        hint = f" {ANSWERED}" if asks else ""
+        refusal = Refusal(reason=f"{_sentence(str(error))}.{hint}", puzzled=puzzled)
         return _Reading(refusal, context, error)
     if not understood.goals:
         return _Reading(Refusal(reason="I see nothing to do in that."), context)

@@ -117,7 +117,7 @@ def unknown_place(query: ObjectQuery) -> str:
 
 def _spot(entity: Entity) -> str:
     if entity.held:
-        return "in my hand"
+        return f"in my {entity.hand} hand" if entity.hand else "in my hand"
     if entity.at and entity.room and entity.at != entity.room:
         return f"at the {entity.at} in the {entity.room}"
     return f"at the {entity.at or entity.room}" if entity.at or entity.room else ""
@@ -132,7 +132,7 @@ def _capital(text: str) -> str:
 
 
 def _holding(state: RobotState) -> str:
-    held = [_name(e) for e in state.held]
+    held = [f"{_name(e)}{f' in my {e.hand} hand' if e.hand else ''}" for e in state.held]
     return f"I am holding {listing(held, 'and')}." if held else "I am not holding anything."
 
 

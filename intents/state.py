@@ -21,6 +21,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
         entities: The objects known, with where they are as far as that is known; ``held`` marks
             those in a hand.
         seen: Ids of those in view now.
+        spots: The places by their names, with the middle of each, x and y [m].
         place: Name of the place it stands at, or empty.
         room: Name of the room it is in, or empty.
         view: Where it stands and looks, for "the leftmost" and "behind the bottle".
@@ -43,6 +44,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
 
     entities: tuple[Entity, ...] = _NO_ENTITIES
     seen: tuple[str, ...] = ()
+    spots: tuple[tuple[str, float, float], ...] = ()
     place: str = ""
     room: str = ""
     view: Viewpoint | None = None

@@ -27,7 +27,7 @@ _STOPS = words(
     "arrete arretez arreter alto detente detengase parate basta ferma fermo fermati fermatevi "
     "stanna stoi stoj zatrzymaj dur durun pysahdy stoppen stoppe стоп стой стойте 停 停止 停下 "
     "止まれ 止まって ストップ 멈춰 정지 توقف קף עצור σταματα mayday "
-    "whoa woah"
+    "whoa woah cease desist"
 )
 """Words that say stop."""
 _PHRASES = (

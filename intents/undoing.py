@@ -44,6 +44,12 @@ _WALK_BACK = re.compile(
     r"(?:go|walk|move|return|come)(?: back)?(?: to)? where you (?:were|came from|started|stood)"
     r"(?: before| from| just now)*"
 )
+_UNDO_SEVERAL = re.compile(
+    r"(?:undo|revert|reverse|take back) (?:all |both )?(?:of )?(?:the |your |my )?"
+    r"(?:last|previous) "
+    r"(?:(?:two|three|four|five|six|few|couple of|several) )?"
+    r"(?:things|steps|ones|actions|moves|jobs|tasks|commands|orders)(?: you did)?"
+)
 Undone = tuple[Goal, ...] | str
 """What undoes it, or why nothing does."""
 
@@ -51,6 +57,11 @@ Undone = tuple[Goal, ...] | str
 def is_undo(text: str) -> bool:
     """Whether a text is a wish to have undone all of what was asked last."""
     return _UNDO.fullmatch(_said(text)) is not None
+
+
+def is_undo_of_several(text: str) -> bool:
+    """Whether a text is a wish to have undone more than what was asked last."""
+    return _UNDO_SEVERAL.fullmatch(_said(text)) is not None
 
 
 def is_back(text: str) -> bool:

@@ -6,11 +6,13 @@ address is sent the same. Either has its time and its turn: the robot waits for 
 
 from __future__ import annotations
 
+import os
 import queue
+import signal
 import subprocess
 import threading
 from collections.abc import Callable, Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -118,16 +120,27 @@ def do(hook: str | tuple[str, ...], told: dict[str, Any]) -> None:
     if isinstance(hook, str):
         _post(hook, data)
         return
-    subprocess.run(
-        [filled(word, told) for word in hook],
-        input=data,
+    _run([filled(word, told) for word in hook], data)
+
+
+def _run(command: list[str], data: bytes) -> None:
+    """Run a command in a session of its own, all of which ends when its time is over."""
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        timeout=MOST_S,
-        check=True,
         start_new_session=True,
         cwd=Path.home(),
-    )
+    ) as process:
+        try:
+            process.communicate(data, timeout=MOST_S)
+        except BaseException:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            raise
+        if process.returncode:
+            raise subprocess.CalledProcessError(process.returncode, command[0])
 
 
 def filled(word: str, told: dict[str, Any]) -> str:
@@ -145,4 +158,5 @@ def _post(address: str, data: bytes) -> None:
 
     with httpx.Client(trust_env=False, timeout=MOST_S, follow_redirects=False) as client:
         headers = {"content-type": "application/json"}
-        client.post(address, content=data, headers=headers).raise_for_status()
+        with client.stream("POST", address, content=data, headers=headers) as answer:
+            answer.raise_for_status()  # what it says besides is not read, however long it is

@@ -7,16 +7,24 @@ silent longest makes room, so that forgotten connections keep nobody from stoppi
 
 from __future__ import annotations
 
+import errno
 import itertools
 import os
 import socket
 import struct
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 
 from robot.closing import Closing
 
+AGAIN_S = 0.05
+_PASSING = (
+    errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOBUFS, errno.ECONNABORTED, errno.EINTR,
+    errno.EAGAIN, errno.EPERM,
+)  # fmt: skip
+"""What accept(2) fails with and may not fail with the next time."""
 _CREDENTIALS = struct.Struct("3i")
 """Process, user and group of a socket's other end (unix(7), SO_PEERCRED)."""
 
@@ -113,28 +121,48 @@ class LineServer(Closing):
             client.send(line)
 
     def _accept(self) -> None:
+        """Let in who comes; a shortage (of open files, threads, memory) ends nothing."""
         while not self._closing:
             try:
                 connection, _ = self._listening.accept()
-            except OSError:
-                return
-            if self._is_welcome(connection):
-                self._admit(connection)
-            else:
-                connection.close()
+            except OSError as error:
+                if error.errno not in _PASSING:
+                    return
+                self._make_room()
+                time.sleep(AGAIN_S)
+                continue
+            try:
+                if self._is_welcome(connection):
+                    self._admit(connection)
+                    continue
+            except (OSError, RuntimeError):  # no room for a thread, or gone already
+                self._make_room()
+            connection.close()
+
+    def _make_room(self) -> None:
+        """Let the one go that was silent longest."""
+        with self._lock:
+            if self._clients:
+                silent = min(self._clients, key=lambda one: one.last_heard)
+                self._clients.remove(silent)
+                silent.drop()
 
     def _admit(self, connection: socket.socket) -> None:
         client = Client(connection)
         client.last_heard = next(self._count)
-        with self._lock:
-            if len(self._clients) >= self._most_clients:
-                silent = min(self._clients, key=lambda one: one.last_heard)
-                self._clients.remove(silent)
-                silent.drop()
-            self._clients.append(client)
-        threading.Thread(
+        if len(self.clients) >= self._most_clients:
+            self._make_room()
+        thread = threading.Thread(
             target=self._serve, args=(client, connection), name="client", daemon=True
-        ).start()
+        )
+        with self._lock:
+            self._clients.append(client)
+        try:
+            thread.start()
+        except RuntimeError:
+            with self._lock, suppress(ValueError):
+                self._clients.remove(client)
+            raise
 
     def _serve(self, client: Client, connection: socket.socket) -> None:
         try:

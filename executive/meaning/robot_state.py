@@ -6,6 +6,8 @@ here, and `intents.replies` puts it into words.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from msgspec.structs import replace
 
 from executive.blackboard import GOAL, HEALTH, HELD, PHASE, WORLD, Blackboard
@@ -31,7 +33,7 @@ def state_of(
         skills: the types of goals that there are handlers for; empty means all.
     """
     world = board.read(WORLD)
-    held = frozenset(board.read(HELD).values())
+    held = {id_: side for side, id_ in board.read(HELD).items()}
     state = RobotState(
         entities=tuple(_entities(knowledge, world, held)),
         doing=board.read(GOAL),
@@ -50,6 +52,7 @@ def _placed(state: RobotState, world: WorldState, knowledge: Knowledge) -> Robot
         state,
         view=Viewpoint(x_m=x, y_m=y, yaw_rad=world.X_WB.yaw_rad),
         room=knowledge.room_at(world.X_WB.p),
+        spots=tuple((place.name, *place.X_WP.p[:2]) for place in knowledge.map.places),
         operator=_whereabouts_of_operator(world, knowledge),
         seen=tuple(track.id for track in seen if not track.missing),
     )
@@ -66,14 +69,16 @@ def _whereabouts_of_operator(world: WorldState, knowledge: Knowledge) -> str:
     return f"{f'in the {room} ' if room else ''}at x {x:.1f} m, y {y:.1f} m"
 
 
-def _entities(knowledge: Knowledge, world: WorldState | None, held: frozenset[str]) -> list[Entity]:
+def _entities(
+    knowledge: Knowledge, world: WorldState | None, held: Mapping[str, str]
+) -> list[Entity]:
     """Every object of the map, with where it is believed to be."""
     tracks = {track.id: track for track in world.tracks} if world else {}
     found: list[Entity] = []
     for info in knowledge.map.objects:
         entity, track = knowledge.entity(info), tracks.get(info.id)
         if info.id in held:
-            entity = replace(entity, held=True)
+            entity = replace(entity, held=True, hand=held[info.id])
         elif track is not None and track.X_WO is not None and not track.missing:
             at = knowledge.surface_under(track.X_WO)
             entity = _standing(entity, at, track.X_WO.p, knowledge)

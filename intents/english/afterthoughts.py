@@ -22,6 +22,7 @@ from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
+from intents.english.repeating import repeated
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
 from intents.english.trouble import Partly, ReadingError, Unclear
@@ -39,7 +40,6 @@ from intents.goals import (
     If,
     ObjectQuery,
     Present,
-    Repeat,
 )
 
 
@@ -262,7 +262,7 @@ def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     end = text.phrase_end(lexicon.IN_ALL, amount.end) or amount.end
     if end < len(text) and text.word(end) != FULL_STOP:
         return None
-    return [Repeat(times=int(amount.value), goals=tuple(last))], end
+    return repeated(list(last), amount.value), end
 
 
 _OF_ALL = lexicon.phrases(

@@ -66,7 +66,7 @@ def sequence(sentence: Sentence, at: int) -> Found:
             continue
         wish, notes.wanted = goals[-1:] if notes.wanted else [], False
         found, end = _one_more(here, at)
-        notes.one_hand |= _names_hand(text.raw(begun, end), found)
+        notes.one_hand |= names_hand(text.raw(begun, end), found)
         if not sentence.depth:
             notes.trace.append((text.raw(at, end), tuple(found)))
         if found:
@@ -178,7 +178,7 @@ def _is_that_one(goal: Bring | Give | Pick | Find) -> bool:
     return goal.object is not None and goal.object.count is None
 
 
-def _names_hand(said: str, goals: list[Goal]) -> bool:
+def names_hand(said: str, goals: list[Goal]) -> bool:
     """Whether it is said with which hands a thing is to be handled."""
     handles = any(isinstance(goal, (Pick, Place, Bring, Give)) for goal in each(goals))
     return handles and _NAMED_HAND.search(said.lower()) is not None

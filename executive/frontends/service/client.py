@@ -29,6 +29,8 @@ TAKE_OVER_S = 60.0
 """So long nobody may listen: an executive is started anew, or begins."""
 AGAIN_S = 0.02
 NOT_THERE = (errno.ECONNREFUSED, errno.ENOENT, errno.ECONNRESET, errno.EPIPE)
+FULL = errno.EAGAIN
+"""As many wait as there is room for: somebody is there, and does not answer."""
 
 Hear = Callable[[m.Told], None]
 
@@ -63,7 +65,7 @@ class Connection(Closing):
             ConfigError: it is not up any more.
         """
         self.place = place
-        self._socket = _connected(place, patience_s, meanwhile or wait)
+        self._socket = _connected(place, patience_s, meanwhile or leave_it)
         self._rest = b""
         self._number = 0
 
@@ -137,8 +139,10 @@ def _connected(
     until_s = time.monotonic() + patience_s
     while True:
         try:
-            return places.connect(place)
+            return places.connect(place, wait_s=ANSWER_S)
         except OSError as error:
+            if error.errno == FULL:
+                raise Silent(f"{place.name} is up, and takes nobody in") from None
             if error.errno not in NOT_THERE or not places.is_up(place):
                 places.find(place.name)  # says what is up
                 raise ProcessError(f"{place.name} cannot be reached: {error}") from None
@@ -156,7 +160,7 @@ def press(place: Place, button: m.Button, hear: Hear) -> int:
     Raises:
         RobotError: the robot does not answer.
     """
-    meanwhile = leave_stop if button in ("stop", "estop") else wait
+    meanwhile = leave_stop if button in ("stop", "estop") else leave_it
     until_s = time.monotonic() + TAKE_OVER_S
     while True:
         with Connection(place, meanwhile=meanwhile) as connection:
@@ -167,7 +171,7 @@ def press(place: Place, button: m.Button, hear: Hear) -> int:
                     raise
 
 
-def wait(_place: Place) -> None:
+def leave_it(_place: Place) -> None:
     """Do nothing while nobody listens."""
 
 

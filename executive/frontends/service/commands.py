@@ -11,8 +11,16 @@ from executive.frontends.output import Screen, say, write_json
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service import stopping, telling
-from executive.frontends.service.client import Connection, Cut, press
+from executive.frontends.service.client import (
+    TAKE_OVER_S,
+    Connection,
+    Cut,
+    leave_it,
+    leave_stop,
+    press,
+)
 from executive.frontends.service.place import Place
+from intents.stopping import is_stop
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.ordinary_files import read_ordinary
@@ -80,6 +88,8 @@ def say_line(name: str | None, text: str, *, wait: bool, as_json: bool) -> int:
         RobotError: the robot does not answer.
     """
     place, words, jobs = places.find(name), list[str](), list[int]()
+    if len(text) > m.MAX_TEXT and is_stop(text):
+        text = "stop"  # which is all that comes of it
     if len(text) > m.MAX_TEXT:
         raise ConfigError([Problem(f"that is longer than {m.MAX_TEXT} characters")])
 
@@ -101,13 +111,18 @@ def _said(
     place: Place, text: str, *, wait: bool, jobs: list[int], hear: Callable[[m.Told], None]
 ) -> int:
     request: m.Request = m.Say(text=text, wait=wait)
+    cried = is_stop(text)
+    meanwhile = leave_stop if cried else leave_it
+    until_s = time.monotonic() + TAKE_OVER_S
     while True:
         try:
-            with Connection(place) as connection:
+            with Connection(place, meanwhile=meanwhile) as connection:
                 if wait:
                     connection.send(m.Watch())
                 return connection.ask(request, hear, wait_s=None).status
         except Cut:
+            if cried and places.is_up(place) and time.monotonic() < until_s:
+                continue  # a stop is said again, to whoever takes over
             if not (wait and jobs and places.is_up(place)):
                 raise
             request = m.Await(jobs=tuple(jobs))  # another executive goes on with them

@@ -19,6 +19,7 @@ import os
 import re
 import socket
 import stat
+import struct
 import time
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -40,6 +41,9 @@ MOST_PLACES = 1000
 """Folders that are looked at."""
 TRIES, AGAIN_S = 20, 0.01
 """Of claiming a name: whoever looks whether it is taken holds its lock for a moment."""
+CONNECT_S = 5.0
+_TIMEVAL = struct.Struct("ll")
+"""Seconds and microseconds (socket(7), SO_SNDTIMEO)."""
 _NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,31}")
 
 
@@ -293,14 +297,22 @@ def listen(place: Place, told: Running, *, backlog: int) -> socket.socket:
     return listening
 
 
-def connect(place: Place) -> socket.socket:
+def connect(place: Place, *, wait_s: float = CONNECT_S) -> socket.socket:
     """A connection to who listens at a place.
 
+    Args:
+        place: of the robot.
+        wait_s: how long to wait in the queue, of one that takes nobody in.
+
     Raises:
-        OSError: nobody does, or it is not this user.
+        OSError: nobody does, or it is not this user; EAGAIN: the queue is full.
     """
     folder = _entered(place.folder)
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    # Not `settimeout`, with which a full queue is refused at once, and others get in first.
+    whole_s = int(wait_s)
+    until = _TIMEVAL.pack(whole_s, round((wait_s - whole_s) * 1e6))
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, until)
     try:
         connection.connect(f"/proc/self/fd/{folder}/{SOCKET}")
         if not is_own(connection):

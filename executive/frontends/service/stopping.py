@@ -27,7 +27,10 @@ def stop_all(name: str | None, button: m.Button) -> list[Pressed]:
     Raises:
         ConfigError: there is none.
     """
-    up = [places.find(name)] if name is not None else places.places_up() or [places.find(None)]
+    if name is not None:
+        places.check_name(name)
+    up = [place for place in places.places_up() if name in (None, place.name)]
+    up = up or [places.find(name)]  # says what is up
     if len(up) == 1:
         return [_press(up[0], button)]
     with ThreadPoolExecutor(len(up)) as stopping:

@@ -104,8 +104,9 @@ def _filled(value: Any, slot: str, text: str, element: Element) -> Any:
     last = slot.rpartition(".")[2]
     if not text.strip():
         raise element.wrong(f"a port of {element.tag} is empty", "give it a value")
-    found: Any = text if last in TEXTS else resolve(text)
-    if isinstance(found, str) and re.fullmatch(r"[-+0-9.eE]*[0-9][-+0-9.eE]*", found):
+    said = last in TEXTS
+    found: Any = text if said else resolve(text)
+    if isinstance(found, str) and not said and re.fullmatch(r"[-+0-9.eE]*[0-9][-+0-9.eE]*", found):
         raise element.wrong(f"{found[:40]!r} is no number that can be meant", "a smaller one")
     if factor:
         if not isinstance(found, int | float):

@@ -13,6 +13,7 @@ MAX_DEPTH = 100
 MAX_ELEMENTS = 50_000
 MAX_FILES = 50
 MAX_LETTERS = 8_000_000
+MODEL = "TreeNodesModel"
 _WORDS = {
     "syntax error": ("it does not begin with a tag", '<root BTCPP_format="4">'),
     "no element found": ("there is nothing in it", '<root BTCPP_format="4">'),
@@ -104,6 +105,7 @@ class _Builder:
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.StartDoctypeDeclHandler = self._doctype
+        self.parser.CharacterDataHandler = self._words
 
     def problem(self, error: expat.ExpatError, data: bytes) -> Problem:
         """What keeps the text from being XML, in words for people, where it begins."""
@@ -143,6 +145,12 @@ class _Builder:
 
     def _end(self, _tag: str) -> None:
         self._stack.pop()
+
+    def _words(self, words: str) -> None:
+        """What stands between tags says something in a model of nodes only."""
+        if words.strip() and not any(one.tag == MODEL for one in self._stack):
+            what = f"words stand between the tags: {printable(words.strip())[:60]}"
+            raise self._stack[-1].wrong(what, "make a comment of them, <!-- -->, or an attribute")
 
     def _doctype(self, name: str, *_rest: object) -> None:
         line = self.parser.CurrentLineNumber

@@ -236,6 +236,8 @@ def _who(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
     if text.word(at) not in ("who", "whom"):
         return None
     start = skip_being(text, at + 1)
+    if text.word(start) in ("here", "around") and start + 1 >= len(text):
+        return [Tell(person=Person(), property="name", to=to)], start + 1
     phrase = NounPhrase(start, start, noun="person", said="person")
     read_postmodifiers(text, phrase)
     if text.word(start - 1) == "there" and scope.place and phrase.end == start:

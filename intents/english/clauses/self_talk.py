@@ -17,6 +17,8 @@ _NOW = (
 _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
     ("operator", r"(?:where|whereabouts|where in \w+ \w+) (?:am i|i am|do i stand|are we|we are)"
                  r"(?: standing)?|what is my (?:position|location|place)"),
+    ("remaining", r"(?:for )?how long have you (?:been|waited|stood|had)\b.*|since when .*"),
+    ("holding", r"(?:in )?(?:which|what) hand\b.*"),
     ("remaining", r"(?:and )?how (?:much|many) (?:longer|more|time|seconds|minutes)\b"
                   r"(?: (?:time|seconds|minutes|is|are|do|will|does|it|that|this|you|need|take|be"
                   r"|left|remaining|to|go|still|until|the|job|task|have|there|for|are|done|ready|finished"

@@ -15,12 +15,13 @@ from intents.english.phrases.complements import (
 )
 from intents.english.phrases.referents import Scope, to_place
 from intents.english.reading import Found, SaidVerb, Sentence, not_understood
+from intents.english.repeating import repeated
 from intents.english.trouble import Misfit, ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import GoTo, Person, Repeat
+from intents.goals import GoTo, Person
 
 SPEECH = {"say": say, "tell": tell, "inform": inform, "describe": describe, "answer": answer}
 """Senses whose complement is words."""
@@ -123,9 +124,7 @@ def _in_sense(
     sentence.notes.wanted = sense == "want"
     sentence.notes.particles = [c for c in complements if c.particle in ("on", "off", "out")]
     times = clause.measure("times")
-    if times and times > 1:
-        return [Repeat(times=int(times), goals=tuple(goals))], end
-    return goals, end
+    return repeated(goals, 1 if times is None else times), end
 
 
 def _mention_owners(text: Text, complements: list[Complement], scope: Scope) -> None:

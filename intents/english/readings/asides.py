@@ -15,6 +15,7 @@ from intents.english.reading import Forbidden, Found, Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, tokenize
+from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Name
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
@@ -68,6 +69,14 @@ _LEFT = lexicon.words("left dropped forgot forgotten there found bought brought 
 """With one of these in it a statement may tell of a thing for the first time."""
 
 
+_LEAVES_OUT = lexicon.phrases(
+    "skip,skip over,leave out,omit,drop,ignore,jump over,pass over,do not do,forget,forget about,"
+    "miss out,cut,cut out,go to,go on to,jump to,skip to,move on to,go back to"
+)
+_WHICH = lexicon.words("this that the next last first current second third other rest whole one")
+_STEPS = lexicon.words("step steps part parts bit stage item move action point")
+
+
 def told(sentence: Sentence, at: int) -> Found | None:
     """My hands are full, ...; ..., because it is late; he said put it down."""
     end = told_end(sentence.text, at) or _cited(sentence.text, at)
@@ -98,6 +107,17 @@ def released(sentence: Sentence, at: int) -> Found | None:
     end = _clause_end(text, start, links=False)
     _mention(sentence, start, end)
     return [], end
+
+
+def leaves_out_step(text: Text) -> bool:
+    """Skip this step; leave out the second part of it: of what the robot is at."""
+    start = text.phrase_end(_LEAVES_OUT, 0)
+    while start is not None and (text.word(start) in _WHICH or text.word(start) in NUMBER_WORDS):
+        start += 1
+    if start is None or text.word(start) not in _STEPS:
+        return False
+    after = start + 1 + (text.word(start + 1) in NUMBER_WORDS)
+    return after >= len(text) or text.word(after) in ("of", "in")
 
 
 def forbidden(sentence: Sentence, at: int) -> Found | None:

@@ -8,11 +8,11 @@ from intents.english.phrases.complements import Clause, Complement, read_complem
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import is_person
 from intents.english.reading import Found, Sentence
+from intents.english.repeating import repeated
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular
 from intents.english.words.measures import Measure, number
 from intents.english.words.text import Text
-from intents.goals import Repeat
 
 _ACTS: dict[str, tuple[str, str]] = {
     "wave": ("gesture", "wave"), "nod": ("gesture", "nod"), "bow": ("gesture", "bow"),
@@ -65,18 +65,18 @@ def light_verb(sentence: Sentence, at: int) -> Found | None:
     more = without_favours(sense, more)
     clause = Clause(text, sense, verb, end, end, complements + more)
     goals = FRAMES[sense](clause, scope)
-    times = int(clause.measure("times") or times)
-    return ([Repeat(times=times, goals=tuple(goals))] if times > 1 else goals), end
+    often = clause.measure("times")
+    return repeated(goals, times if often is None else often), end
 
 
 def _act(
     text: Text, at: int, complements: list[Complement]
-) -> tuple[tuple[str, str], int, int] | None:
+) -> tuple[tuple[str, str], float, int] | None:
     """An act as a noun: which, how often, and where it ends; its adjectives are complements."""
-    times = 1
+    times = 1.0
     amount = number(text.words, at) if text.word(at) != "a" else None
     if amount and amount.value >= 1:
-        times, at = int(amount.value), amount.end
+        times, at = amount.value, amount.end
     at += text.word(at) in lexicon.DETERMINERS
     while True:
         word = text.word(at)

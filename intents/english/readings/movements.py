@@ -4,11 +4,12 @@ from intents.english.phrases.complements import ends_clause, read_list
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence
+from intents.english.repeating import repeated
 from intents.english.trouble import Unclear
 from intents.english.words import lexicon
 from intents.english.words.measures import measure, number
 from intents.english.words.verbs import verbs_at
-from intents.goals import GoTo, Pose2, Repeat
+from intents.goals import GoTo, Pose2
 
 _TO_AND_FRO = lexicon.phrases(
     "patrol between,commute between,pace between,pace back and forth between,"
@@ -51,7 +52,7 @@ def to_and_fro(sentence: Sentence, at: int) -> Found | None:
     often = measure(text.words, other.end)
     if often is None or often.kind != "times":
         raise Unclear("How many times shall I go to and fro?")
-    return [Repeat(times=int(often.value), goals=there)], often.end
+    return repeated(list(there), often.value), often.end
 
 
 def patrol(sentence: Sentence, at: int) -> Found | None:
@@ -77,8 +78,7 @@ def patrol(sentence: Sentence, at: int) -> Found | None:
     late = measure(text.words, end)
     if times is None and late is not None and late.kind == "times":
         times, end = late, late.end
-    rounds = int(times.value) if times else 1
-    return ([Repeat(times=rounds, goals=there)] if rounds > 1 else list(there)), end
+    return repeated(list(there), times.value if times else 1), end
 
 
 def pose(sentence: Sentence, at: int) -> Found | None:

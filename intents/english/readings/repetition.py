@@ -4,13 +4,14 @@ from intents.english.clauses.openings import begins_clause
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_object
 from intents.english.reading import Found, Sentence, clause_by_itself
+from intents.english.repeating import repeated
 from intents.english.sequences import sequence
 from intents.english.trouble import NotUnderstood, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA
 from intents.english.words.measures import measure
 from intents.english.words.verbs import verbs_at
-from intents.goals import Find, ForEach, Goal, GoTo, Repeat
+from intents.goals import Find, ForEach, Goal, GoTo
 
 _EACH = lexicon.phrases("for each,for every,for all,for each of,for all of,for each one of")
 
@@ -75,7 +76,7 @@ def so_many_times(sentence: Sentence, at: int) -> Found | None:
         return None
     start = text.phrase_end(lexicon.IN_ALL, amount.end) or amount.end
     goals, end = sequence(sentence.inner(), start)
-    return ([Repeat(times=int(amount.value), goals=tuple(goals))], end) if goals else None
+    return (repeated(goals, amount.value), end) if goals else None
 
 
 def again(sentence: Sentence, at: int) -> Found | None:
@@ -86,12 +87,12 @@ def again(sentence: Sentence, at: int) -> Found | None:
         return None
     at = verb + (text.word(verb) in ("it", "that", "this", "all", "everything"))
     amount = measure(text.words, at)
-    times = int(amount.value) if amount and amount.kind == "times" else 1
+    times = amount.value if amount and amount.kind == "times" else 1
     at = amount.end if amount and amount.kind == "times" else at
     after = at + (text.word(at) == COMMA)
     if not before and after < len(text) and verbs_at(text.words, after):
         goals, end = sequence(sentence.inner(), after)
-        return [Repeat(times=times, goals=tuple(goals))], end
+        return repeated(goals, times), end
     if text.words[verb - 2 : verb] in (["do", "it"], ["do", "that"]) and amount is None:
         return None
     last = list(before or sentence.history)
@@ -99,4 +100,4 @@ def again(sentence: Sentence, at: int) -> Found | None:
         raise Unclear("What shall I repeat?")
     if text.words[verb - 2] == "do" or text.words[verb - 1] in ("thing", "so"):
         before.clear()  # wave, and do that three times: three times in all
-    return ([Repeat(times=times, goals=tuple(last))] if times > 1 else last), at
+    return repeated(last, times), at

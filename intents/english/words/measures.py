@@ -115,6 +115,8 @@ def _whole(words: list[str], start: int) -> Number | None:
             return None
         return Number(value, start + 1) if isfinite(value) else None  # 1e999 is no figure
     total, value, end = 0.0, 0.0, start
+    if words[start] == "a" and words[start + 1 : start + 2] in (["hundred"], ["thousand"]):
+        value, end = 1.0, start + 1
     while end < len(words):
         word = words[end]
         if word in _ONES or word in _TENS:

@@ -19,6 +19,7 @@ from intents.english.words.lexicon import (
     phrases,
     words,
 )
+from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.precise import plain_quantities
@@ -80,6 +81,7 @@ class Text:
         corrections: What was written, and what it was taken for.
         polite: "Please" was said, so something is asked for.
         pace: How fast things are to be done, as it was said; empty if nothing was.
+        manners: Whether they are to be done at once, without an end or later, as it was said.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
@@ -109,6 +111,8 @@ class Text:
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
         corrected = _wished(plain_quantities(corrected))
+        self.manners: list[Manner]
+        corrected, self.manners = manners(corrected)
         plain = _unfinished(unrepeated(_without_fillers(fluent(corrected), self.index)))
         self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]

@@ -63,7 +63,6 @@ THERE = Context(
             "Anna is waiting at the table, bring her the bottle",
             "bring Anna at the table the bottle",
         ),
-        ("keep waving", "wave"),
         ("stay close to Anna", "follow Anna"),
         ("follow close behind Anna", "follow Anna"),
         ("pop over to the table", "go to the table"),

@@ -84,3 +84,25 @@ def test_what_does_not_work_is_said(hook, capsys):
     notifier.note(event("job", state="done", text="bow"))
     notifier.finish()
     assert "A hook did not work" in capsys.readouterr().err
+
+
+def test_what_a_hook_has_started_ends_with_it(tmp_path, monkeypatch):
+    mark = tmp_path / "child"
+    child = f"import os, time; open({str(mark)!r}, 'w').write(str(os.getpid())); time.sleep(600)"
+    both = (
+        f"import subprocess, sys; subprocess.Popen([sys.executable, '-c', {child!r}]); "
+        "import time; time.sleep(600)"
+    )
+    monkeypatch.setattr(hooks, "MOST_S", 5.0)
+    told = {"event": "done", "text": "", "cause": ""}
+    with pytest.raises(hooks.subprocess.TimeoutExpired):
+        hooks.do((sys.executable, "-c", both), told)
+    pid = int(mark.read_text())
+    assert eventually(lambda: not _runs(pid))
+
+
+def _runs(pid: int) -> bool:
+    try:
+        return ") Z " not in Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False

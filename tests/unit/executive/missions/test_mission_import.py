@@ -411,3 +411,20 @@ def test_waypoints_in_the_map_are_walked_along(tmp_path):
     made = yaml_nodes.parse(nav2.mission_of(path), "w.yaml").plain_data
     assert made["steps"][0]["go_to"] == {"pose": {"x_m": 1.0, "y_m": 0.0, "yaw_rad": 0.0}}
     assert read_text(path)
+
+
+@pytest.mark.parametrize("said", ["007", "2020-01-01", "yes", "1e999", "~"])
+def test_what_is_to_be_said_is_words_whatever_it_looks_like(said):
+    assert steps_of(f'<Say text="{said}"/>') == [{"say": said}]
+
+
+def test_words_between_tags_are_not_dropped_in_silence():
+    with pytest.raises(ConfigError, match="words stand between the tags: only at night"):
+        steps_of('only at night<Say text="a"/>')
+
+
+def test_a_model_of_nodes_may_describe_its_ports():
+    ports = "<Action ID='Say'><input_port name='text'>what to say</input_port></Action>"
+    head = f"<TreeNodesModel>{ports}</TreeNodesModel>"
+    made = importing.mission_data(parse(tree('<Say text="a"/>', head), "tree.xml"))
+    assert made["steps"] == [{"say": "a"}]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import socket
 import threading
 
@@ -133,3 +134,46 @@ def test_a_server_that_is_closed_lets_everybody_go(tmp_path):
     assert client.recv(1) == b""
     with pytest.raises(OSError):
         made.client()
+
+
+class Short:
+    """A socket that is short of something each other time."""
+
+    def __init__(self, listening, number):
+        self._listening, self._number, self._tries = listening, number, 0
+
+    def accept(self):
+        self._tries += 1
+        if self._tries % 2:
+            raise OSError(self._number, "no room")
+        return self._listening.accept()
+
+    def __getattr__(self, name):
+        return getattr(self._listening, name)
+
+
+@pytest.mark.parametrize(
+    "number", [errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ECONNABORTED, errno.ENOBUFS]
+)
+def test_a_shortage_ends_nothing(tmp_path, monkeypatch, number):
+    make = socket.socket
+    monkeypatch.setattr(socket, "socket", lambda *args: Short(make(*args), number))
+    made = Served(tmp_path / "s")
+    monkeypatch.setattr(socket, "socket", make)
+    with made.server:
+        for n in (1, 2):
+            made.client().sendall(b"stop\n")
+            assert eventually(lambda n=n: len(made.heard) == n)
+
+
+def test_no_room_for_a_thread_costs_one_connection_only(served, monkeypatch):
+    start = threading.Thread.start
+
+    def refuse(thread):
+        monkeypatch.setattr(threading.Thread, "start", start)
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", refuse)
+    assert served.client().recv(1) == b""
+    served.client().sendall(b"stop\n")
+    assert eventually(lambda: served.heard == [b"stop\n"])

@@ -215,3 +215,50 @@ def test_lines_from_a_pipe_wait_for_what_comes_of_them_and_keep_the_worst_end():
 
 def test_what_cannot_be_decoded_is_passed_over():
     assert m.told(b'{"tell":"words","text":"x"}').text == "x"
+
+
+def test_a_cry_that_is_said_is_left_for_an_executive_that_takes_over(home):
+    private = home / "private"
+    private.mkdir()
+    front = mailbox.Front(entry="service", options={}, deaths=1)
+    mailbox.save(private / mailbox.FRONT_FILE, front)
+    with claimed("kitchen") as place:
+        places.listen(place, running(private), backlog=1).close()  # that one has died
+        saying = threading.Thread(
+            target=lambda: commands.say_line("kitchen", "Stop!", wait=False, as_json=True)
+        )
+        saying.start()
+        assert eventually(lambda: mailbox.take_stop(private))
+        mailbox._touch(private / mailbox.hears_file(1))
+        with counter(Told(), place, private):
+            saying.join()
+
+
+def test_a_cry_in_a_text_that_is_too_long_is_heard(home):
+    told = Told()
+    with claimed("kitchen") as place, counter(told, place):
+        commands.say_line("kitchen", f"Stop! {'a ' * m.MAX_TEXT}", wait=False, as_json=True)
+    assert told.did == ["stop"]
+
+
+def test_one_that_hangs_with_a_full_backlog_keeps_nobody_waiting(home, monkeypatch):
+    monkeypatch.setattr(clients, "ANSWER_S", 0.2)
+    with claimed("kitchen") as place, places.listen(place, running(), backlog=0):
+        waiting = [places.connect(place, wait_s=1.0)]
+        with pytest.raises(clients.Silent, match="kitchen"):
+            for _ in range(3):
+                waiting.append(clients.Connection(place))
+        for one in waiting:
+            one.close()
+
+
+def test_robots_of_one_name_in_two_folders_are_both_stopped(home, monkeypatch):
+    first, second = Told(), Told()
+    with claimed("kitchen") as place, counter(first, place):
+        monkeypatch.setenv("XDG_RUNTIME_DIR", str(home))
+        with claimed("hall") as other, counter(second, other):
+            both = [place, other._replace(name="kitchen")]
+            monkeypatch.setattr(places, "places_up", lambda: both)
+            done = stopping.stop_all("kitchen", "stop")
+    assert [one.status for one in done] == [ExitStatus.DONE, ExitStatus.DONE]
+    assert (first.did, second.did) == (["stop"], ["stop"])
