@@ -259,6 +259,7 @@ class ControlLoop:
         estimator = self.estimator
         # Lying, no foot bears anything that would hold a drift.
         estimator.lying = self.mode == "fallen" or self._getting_up is not None
+        estimator.hangs = self.legs.gait.hangs()
         estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
         self._gyro[:] = 0.0
         self._accel[:] = 0.0

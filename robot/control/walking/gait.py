@@ -32,6 +32,8 @@ HORIZON_STEPS = 4
 URGENT_START_S = 0.06
 SETTLE_S = 0.25
 TOUCHDOWN_LOAD = 0.02
+EXPECTED_SHARE = 0.6  # of a step: from then on the foot may touch the floor,
+CLEAR_SHARE = 0.3  # and from this until then it surely hangs in the air
 STAMP_LOAD = 0.3  # a swing foot that bears this much is down, whatever was planned
 STAMP_S = 0.12
 MAX_UNUSED_S = 0.1
@@ -114,6 +116,14 @@ class Gait:
     def settled(self) -> bool:
         """Standing, with nothing left to do."""
         return self.phase == "stand" and self.phase_s > SETTLE_S and not self._wants_step()
+
+    def hangs(self) -> int | None:
+        """The foot that is surely in the air, 0 (left) or 1: in the middle of its step."""
+        if self.phase != "single":
+            return None
+        share = self.phase_s / self.duration_s
+        clear = CLEAR_SHARE < share < EXPECTED_SHARE
+        return SIDES.index(other(self.support)) if clear else None
 
     def _wants_step(self) -> bool:
         """Would the wish move a foot?"""
@@ -250,7 +260,7 @@ class Gait:
             self._adjust(dt_s, xi)
         self.swing.advance(dt_s)
         bears = load[SIDES.index(side)]
-        expected = self.phase_s > 0.6 * self.duration_s and self.swing.vz <= 0.0
+        expected = self.phase_s > EXPECTED_SHARE * self.duration_s and self.swing.vz <= 0.0
         touches = bears > TOUCHDOWN_LOAD and expected
         stamps = bears > STAMP_LOAD and self.phase_s > STAMP_S
         if touches or stamps or self.phase_s > self.duration_s + LATE_S:
