@@ -47,6 +47,8 @@ URGENT_M = 0.03
 # support takes.
 MOVED_M = 0.01
 MOVED_RAD = 0.05
+BACK_RAD = 0.06  # a step turns back onto the heading by so much at most,
+ASTRAY_RAD = 0.3  # and a walk that was turned by more keeps the new one
 
 Phase = Literal["stand", "double", "single"]
 
@@ -95,6 +97,8 @@ class Gait:
     _integral: list[float] = field(init=False, default_factory=lambda: [0.0, 0.0])
     _nominal_s: float = field(init=False, default=0.0)
     _one_leg_s: float = field(init=False, default=0.0)
+    _heading_rad: float = field(init=False, default=0.0)
+    _heading_then_rad: float = field(init=False, default=0.0)
 
     def __post_init__(self) -> None:
         """Begin standing."""
@@ -140,10 +144,25 @@ class Gait:
         """Leave standing with `swing` as the first foot in the air."""
         self.support = other(swing)
         self._one_leg_s = 0.0
-        wish = self.wish or Twist()
-        landing = self.planner.next(self.planted[self.support], self.planted[swing], swing, wish)
-        self._landings = self._look_ahead(landing or self.planted[swing])
+        self._heading_rad = self._stance().yaw
+        self._landings = self._look_ahead(self._next(swing) or self.planted[swing])
         self._start_double(start_s, self._stance_centre())
+
+    def _next(self, swing: Side) -> Sole | None:
+        """The next landing, by the wish; a walk keeps its heading whatever feet and floor do to it.
+
+        A foot that lands a degree askew, or twists as it bears, would turn every step after it.
+        """
+        wish, support = self.wish or Twist(), self.planted[self.support]
+        if isinstance(wish, Twist) and wish != Twist():
+            off = wrap_angle(self._heading_rad - support.yaw)
+            if abs(off) > ASTRAY_RAD:
+                off, self._heading_rad = 0.0, support.yaw
+            support = support.offset(0.0, 0.0, turn_rad=max(-BACK_RAD, min(BACK_RAD, off)))
+        landing = self.planner.next(support, self.planted[swing], swing, wish)
+        turn = wrap_angle(landing.yaw - support.yaw) if landing else 0.0
+        self._heading_then_rad = self._heading_rad + turn
+        return landing
 
     def _look_ahead(self, first: Sole) -> list[Sole]:
         """The first landing and those after it, as far as the wish goes."""
@@ -279,11 +298,9 @@ class Gait:
         self.swing = None
         self._one_leg_s = 0.0
         self.steps_taken += 1
+        self._heading_rad = self._heading_then_rad
         if going_on:
-            swing = before
-            wish = self.wish or Twist()
-            landing = self.planner.next(self.planted[side], self.planted[swing], swing, wish)
-            self._landings = self._look_ahead(landing or self._landings[1])
+            self._landings = self._look_ahead(self._next(before) or self._landings[1])
             duration_s = self.description.walking.double_support_s + unused_s
             if urgent:
                 duration_s = min(duration_s, URGENT_DOUBLE_S)

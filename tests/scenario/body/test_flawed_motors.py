@@ -1,4 +1,6 @@
-"""Motors that obey late, loose gears, slippery floors: it finds out how late, and walks."""
+"""Motors that obey late and unequally, loose gears: it finds out how late, and walks straight."""
+
+import math
 
 import pytest
 
@@ -25,3 +27,13 @@ def test_a_delay_that_begins_is_found():
     apply(rig.plant, Delay(delay_s=0.008))
     assert rig.run(6.0)
     assert rig.loop.latency.delay_s == pytest.approx(0.008)
+
+
+def test_a_walk_keeps_its_heading_with_motors_of_unequal_strength():
+    """Feet that land and twist askew turned it by half a degree a second."""
+    rig = Rig(seed=82, reality="real")
+    assert rig.run(0.5)
+    before = rig.X_WS
+    rig.send(Walk, forward_m_s=0.4, hold_s=60.0)
+    assert rig.run(12.0)
+    assert abs(math.degrees((before.inverse() @ rig.X_WS).yaw_rad)) < 3.0
