@@ -10,9 +10,11 @@ import numpy as np
 
 from robot.control import screening, starting
 from robot.control.arm import Arm
+from robot.control.foresight import Foresight
 from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
 from robot.control.head import Head, WaistGaze
+from robot.control.latency import Latency
 from robot.control.legs import Legs
 from robot.control.limits import Limits
 from robot.control.payload import Payloads
@@ -84,6 +86,8 @@ class ControlLoop:
         self._getting_up: GettingUp | None = None
         self._payloads = Payloads(self.body)
         self._known: ImuBias | None = None
+        self.latency = Latency(self.body.torque_limit_nm, BUS_PERIOD_S)
+        self._foresight = Foresight()
 
     def recall(self, state: BodyState | None) -> None:
         """Begin with what the controller before this one knew of the IMU, if it said so."""
@@ -235,6 +239,7 @@ class ControlLoop:
             if taking_over:
                 self._take_over(state)
         self._sample = sample
+        self.latency.felt(state)
         self._gyro += imu.gyro_rad_s
         self._accel += imu.accel_m_s2
         self._samples += 1
@@ -246,6 +251,7 @@ class ControlLoop:
             self._command.stamp_s = state.stamp_s
         self._ticks_to_solve -= 1.0
         self._command = self.limits.apply(self._command, state)
+        self.latency.told(self._command, state)
         if self.limits.tripped and self._getting_up is not None:
             self.limits.reset()  # the floor can twist a joint; it has been let go for a moment
             self._getting_up.miss()
@@ -260,6 +266,7 @@ class ControlLoop:
         estimator = self.estimator
         # Lying, no foot bears anything that would hold a drift.
         estimator.lying = self.mode == "fallen" or self._getting_up is not None
+        estimator.hangs = self.legs.gait.hangs()
         estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
         self._gyro[:] = 0.0
         self._accel[:] = 0.0
@@ -273,11 +280,14 @@ class ControlLoop:
         soles, rotations = dynamics.sole_position, dynamics.sole_rotation
         shift_v = estimator.correct(dt_s, soles, rotations, bearing_n)
         dynamics.shift_base_velocity(shift_v)
+        delay_s, solve_s = self.latency.delay_s, BUS_PERIOD_S * self._ticks_per_solve
+        self._foresight.move_on(dynamics, state.stamp_s, delay_s, hold_s=solve_s)
         dynamics.dynamics()
         self._update_mode()
         if self._getting_up is not None:
             self._command = self._rise(self._getting_up, dt_s, sample)
         elif self.mode in ("damping", "fallen"):
+            self._foresight.forget()
             self._command = MotorCommand.damping(body.count, state.stamp_s, body.kd)
         else:
             self._command = self._compute(dt_s, sample)
@@ -326,8 +336,10 @@ class ControlLoop:
             self._command.stamp_s = state.stamp_s
             return self._command
         active = self.whole.active_motors
-        half_s, qd = 0.5 * dt_s, state.qd[active]
-        q_des[active] += half_s * qd
+        self._foresight.plan(state.stamp_s, solution.acc)
+        data, whole = dynamics.data, self.whole
+        half_s, qd = 0.5 * dt_s, data.qvel[whole.active_dofs]
+        q_des[active] = data.qpos[whole.active_qpos] + half_s * qd
         qd_des[active] = qd + half_s * solution.acc[self.whole.active_dofs]
         tau = solution.tau[body.dof_of]
         for hand in self.hands.values():

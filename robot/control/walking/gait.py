@@ -30,12 +30,16 @@ from robot.se3 import wrap_angle
 
 HORIZON_STEPS = 4
 TOUCHDOWN_LOAD = 0.02  # where the floor is expected a light touch is a landing
+EXPECTED_SHARE = 0.6  # of a step: from then on the foot may touch the floor,
+CLEAR_SHARE = 0.3  # and from this until then it surely hangs in the air
 STAMP_LOAD = 0.3  # a swing foot that bears this much is down, whatever was planned
 STAMP_S = 0.12
 MAX_UNUSED_S = 0.1  # of an early landing: unless it is waited for, the DCM jumps
 ESCAPE_MARGIN_M = 0.0  # from the edge of the support on no ZMP brings the DCM back
 LATE_S = 0.25  # so long a foot goes on down where it finds no floor
 TIMING_FILTER_S = 0.03
+BACK_RAD = 0.06  # a step turns back onto the heading by so much at most,
+ASTRAY_RAD = 0.3  # and a walk that was turned by more keeps the new one
 
 Phase = Literal["stand", "double", "single"]
 
@@ -84,6 +88,8 @@ class Gait:
     _integral: list[float] = field(init=False, default_factory=lambda: [0.0, 0.0])
     _nominal_s: float = field(init=False, default=0.0)
     _one_leg_s: float = field(init=False, default=0.0)
+    _heading_rad: float = field(init=False, default=0.0)
+    _heading_then_rad: float = field(init=False, default=0.0)
 
     def __post_init__(self) -> None:
         """Begin standing."""
@@ -110,6 +116,14 @@ class Gait:
             and not self._wants_step()
         )
 
+    def hangs(self) -> int | None:
+        """The foot that is surely in the air, 0 (left) or 1: in the middle of its step."""
+        if self.phase != "single":
+            return None
+        share = self.phase_s / self.duration_s
+        clear = CLEAR_SHARE < share < EXPECTED_SHARE
+        return SIDES.index(other(self.support)) if clear else None
+
     def _wants_step(self) -> bool:
         """Would the wish move a foot?"""
         if self.wish is None:
@@ -125,10 +139,25 @@ class Gait:
         """Leave standing with `swing` as the first foot in the air."""
         self.support = other(swing)
         self._one_leg_s = 0.0
-        wish = self.wish or Twist()
-        landing = self.planner.next(self.planted[self.support], self.planted[swing], swing, wish)
-        self._landings = self._look_ahead(landing or self.planted[swing])
+        self._heading_rad = self._stance().yaw
+        self._landings = self._look_ahead(self._next(swing) or self.planted[swing])
         self._start_double(start_s, self._stance_centre())
+
+    def _next(self, swing: Side) -> Sole | None:
+        """The next landing, by the wish; a walk keeps its heading whatever feet and floor do to it.
+
+        A foot that lands a degree askew, or twists as it bears, would turn every step after it.
+        """
+        wish, support = self.wish or Twist(), self.planted[self.support]
+        if isinstance(wish, Twist) and wish != Twist():
+            off = wrap_angle(self._heading_rad - support.yaw)
+            if abs(off) > ASTRAY_RAD:
+                off, self._heading_rad = 0.0, support.yaw
+            support = support.offset(0.0, 0.0, turn_rad=max(-BACK_RAD, min(BACK_RAD, off)))
+        landing = self.planner.next(support, self.planted[swing], swing, wish)
+        turn = wrap_angle(landing.yaw - support.yaw) if landing else 0.0
+        self._heading_then_rad = self._heading_rad + turn
+        return landing
 
     def _look_ahead(self, first: Sole) -> list[Sole]:
         """The first landing and those after it, as far as the wish goes."""
@@ -245,7 +274,7 @@ class Gait:
             self._adjust(dt_s, xi)
         self.swing.advance(dt_s)
         bears = load[SIDES.index(side)]
-        expected = self.phase_s > 0.6 * self.duration_s and self.swing.vz <= 0.0
+        expected = self.phase_s > EXPECTED_SHARE * self.duration_s and self.swing.vz <= 0.0
         touches = bears > TOUCHDOWN_LOAD and expected
         stamps = bears > STAMP_LOAD and self.phase_s > STAMP_S
         if touches or stamps or self.phase_s > self.duration_s + LATE_S:
@@ -265,11 +294,9 @@ class Gait:
         self.swing = None
         self._one_leg_s = 0.0
         self.steps_taken += 1
+        self._heading_rad = self._heading_then_rad
         if going_on:
-            swing = before
-            wish = self.wish or Twist()
-            landing = self.planner.next(self.planted[side], self.planted[swing], swing, wish)
-            self._landings = self._look_ahead(landing or self._landings[1])
+            self._landings = self._look_ahead(self._next(before) or self._landings[1])
             duration_s = self.description.walking.double_support_s + unused_s
             if urgent:
                 duration_s = min(duration_s, catching.double_support_s)

@@ -184,6 +184,17 @@ class ContactFilter:
 
     # --- feet ----------------------------------------------------------------------------------
 
+    @property
+    def planted(self) -> bool:
+        """Whether both feet have stood firmly for a while."""
+        return self._planted_s > self.parameters.planted_s
+
+    def shift(self, dx_m: float, dy_m: float) -> None:
+        """Move everything by so much: another origin of N."""
+        for point in (self.p, *self.feet):
+            point[0] += dx_m
+            point[1] += dy_m
+
     def correct(
         self, dt_s: float, positions: Array, rotations: Array, load: tuple[float, float]
     ) -> None:

@@ -8,7 +8,7 @@ import pytest
 from benchmarks.rig import Rig
 from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
-from robot.messages import GetUp, Walk
+from robot.messages import GetUp, Stand, Walk
 from robot.reality.faults import Kill, OffsetImu
 from sim.faults import apply
 from sim.simulation import Simulation
@@ -78,3 +78,17 @@ def test_the_next_controller_knows_it_too():
         assert after.since_s > 2.9
         assert after.imu.gyro_rad_s == pytest.approx(before.gyro_rad_s, abs=math.radians(0.1))
         assert max(after.imu.gyro_sigma_rad_s) < math.radians(0.2)
+
+
+def test_its_place_is_steady_while_it_stands():
+    """What standing tells of the gyro changes the past; it moved the place by centimetres."""
+    rig = spoilt(0.0, 0.0, 1.0)
+    rig.send(Walk, forward_m_s=0.4, hold_s=10.0)
+    assert rig.run(10.0)
+    rig.send(Stand)
+    assert rig.wait("legs", 6.0) == "done"
+    places = []
+    for _ in range(40):
+        assert rig.run(0.1)
+        places.append(rig.X_NS.p[:2])
+    assert float(np.ptp(places, axis=0).max()) < 0.005
