@@ -35,6 +35,7 @@ from tests.fakes.planning_room import (
     surroundings,
 )
 
+LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
 BOARD = {board: room().places[1 + i] for i, board in enumerate(BOARDS_M)}
 TABLE = room().places[0]
 
@@ -112,6 +113,17 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     plan = pick(solver, surroundings(flat))
     assert isinstance(plan, PickPlan), plan
     assert plan.margin > 0.3
+
+
+@pytest.mark.parametrize("yaw_rad", [-2.0, 0.0, 1.6])
+def test_a_thin_torch_that_lies_on_the_table(solver: Solver, yaw_rad: float) -> None:
+    shape = Shape(kind="cylinder", size_m=(0.045, 0.045, 0.16))
+    on = on_table(-0.1, 0.2).X_WO.p
+    z = on[2] - 0.5 * CUP.size_m[2] + 0.5 * shape.size_m[0]
+    X_WO = SE3.from_xy_yaw(on[0], on[1], yaw_rad, z_m=z) @ LYING
+    plan = pick(solver, surroundings(ObjectPose(id="cup", shape=shape, X_WO=X_WO)))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.margin > 0.2
 
 
 def test_a_bottle_with_4_cm_above_it_comes_out_from_under_a_board(solver: Solver) -> None:
