@@ -48,9 +48,9 @@ BESIDE_M = 0.3
 BESIDE_PEOPLE_M = 0.12
 """A way keeps the body's middle 0.43 m from what stands about, where there is room; a person who is
 within 0.5 m ahead stops it. Without that it was planned past the same person again and again."""
-NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 EXCUSE = "Excuse me."
 """What somebody who stands in the way is told, before a way around them is planned."""
+NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 
 
 def walk_to(body: Body, goal: Stance) -> Script[None]:

@@ -2,11 +2,12 @@
 
 import math
 
+import msgspec
 import numpy as np
 import pytest
 
 from robot.failures import Failure
-from robot.messages import Shape, Side
+from robot.messages import PersonInfo, Shape, Side
 from robot.planning.floor import Floor
 from robot.planning.requests import (
     BodyPosture,
@@ -113,6 +114,28 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     plan = pick(solver, surroundings(flat))
     assert isinstance(plan, PickPlan), plan
     assert plan.margin > 0.3
+
+
+def test_hands_keep_away_from_who_stands_beside(solver: Solver) -> None:
+    around = surroundings(on_table(-0.1, 0.0))
+    alone = pick(solver, around)
+    assert isinstance(alone, PickPlan)
+    (x, y, yaw), sign = alone.standoff, 1.0 if alone.side == "left" else -1.0
+    ann = PersonInfo(
+        id="ann",
+        name="Ann",
+        X_WO=SE3((x - 0.9 * sign * math.sin(yaw), y + 0.9 * sign * math.cos(yaw), 0.0)),
+    )
+    beside = msgspec.structs.replace(around, map=msgspec.structs.replace(around.map, people=(ann,)))
+    plan = pick(solver, beside)
+    assert isinstance(plan, PickPlan)
+    x, y, yaw = plan.standoff
+    aside = 0.25 if plan.side == "left" else -0.25
+    raised = (
+        x + 0.3 * math.cos(yaw) - aside * math.sin(yaw),
+        y + 0.3 * math.sin(yaw) + aside * math.cos(yaw),
+    )
+    assert math.dist(raised, ann.X_WO.p[:2]) > ann.radius_m + 0.5
 
 
 @pytest.mark.parametrize("yaw_rad", [-2.0, 0.0, 1.6])
