@@ -125,16 +125,18 @@ def _not_on(plant: Plant, name: str, place_id: str, X_WO: SE3) -> str:
     if not places:
         hint = config.nearest(place_id, list(every))
         raise ConfigError([Problem(f"unknown place {place_id!r}", suggestion=hint)])
-    height_m = next(o.size_m[2] for o in plant.world.objects if o.id == name)
+    item = next(o for o in plant.world.objects if o.id == name)
+    heights_m = {item.size_m[2], item.height_m}  # what lay may lie there as well
     for place in places:
         x_m, y_m, z_m = place.X_WP.inverse().apply(X_WO.p)
         inside = abs(x_m) <= place.size_m[0] / 2 and abs(y_m) <= place.size_m[1] / 2
-        if inside and abs(z_m - height_m / 2) <= ON_M:
+        if inside and any(abs(z_m - height_m / 2) <= ON_M for height_m in heights_m):
             break
     else:
         return f"the {name} is not on the {every[place_id].name if place_id in every else place_id}"
     tilt_rad = math.acos(max(-1.0, min(1.0, float(X_WO.rotation()[2, 2]))))
-    return f"the {name} lies on its side" if tilt_rad > OBJECT_TILT_RAD else ""
+    tipped = tilt_rad > OBJECT_TILT_RAD and not item.lies
+    return f"the {name} lies on its side" if tipped else ""
 
 
 def _hands(plant: Plant) -> list[Hand]:

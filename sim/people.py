@@ -19,7 +19,7 @@ from robot.messages import Heard
 from robot.model.description import RobotDescription
 from sim import furniture
 from sim.somebody import PERIOD_S, Script, Somebody, floor
-from sim.standing_room import Around, free_spot, in_the_way
+from sim.standing_room import BACK_M, ROBOT_M, Around, free_spot, in_the_way
 from sim.taking import Hold
 from sim.world_schema import Object, World
 
@@ -70,7 +70,7 @@ class People:
 
     def hear(self, text: str) -> None:
         """Let everybody in earshot hear the robot; who can do what it wants begins to."""
-        wish = wish_in(text)
+        wish, apart_m = wish_in(text), BACK_M if "step back" in text.casefold() else ROBOT_M
         around = self._around()
         near = [
             one
@@ -78,7 +78,7 @@ class People:
             if not one.script and math.dist(one.at, around.robot) <= EARSHOT_M
         ]
         for one in sorted(near, key=lambda one: math.dist(one.at, around.robot)):
-            script = self._script(one, wish, around)
+            script = self._script(one, wish, around, apart_m)
             if script is not None:
                 answer = "continue" if "say continue" in text.casefold() else ""
                 one.script = self._do(one, script, answer)
@@ -102,7 +102,7 @@ class People:
 
     # --- who does what ---
 
-    def _script(self, one: Somebody, wish: Wish, around: Around) -> Script | None:
+    def _script(self, one: Somebody, wish: Wish, around: Around, apart_m: float) -> Script | None:
         """What somebody does about a wish, None if it is nothing to them."""
         behaviour = one.person.behaviour
         match wish:
@@ -110,8 +110,9 @@ class People:
                 thing = self._offered(one)
                 return None if thing is None else self._take(one, thing)
             case "make room" if behaviour.steps_aside:
-                if in_the_way(one.at, around, within_m=WAY_M):
-                    return self._make_room(one)
+                is_near = math.dist(one.at, around.robot) < apart_m
+                if is_near or in_the_way(one.at, around, within_m=WAY_M):
+                    return self._make_room(one, apart_m)
             case "answer" if behaviour.answers:
                 return self._answer(one, behaviour.answers)
             case _:
@@ -132,9 +133,9 @@ class People:
         self._said.append((one.person.id, text))
         return True
 
-    def _make_room(self, one: Somebody) -> Script:
+    def _make_room(self, one: Somebody, apart_m: float) -> Script:
         """Walk out of the robot's way, if there is somewhere to go."""
-        spot = free_spot(self._world, one.at, self._around(one))
+        spot = free_spot(self._world, one.at, self._around(one), apart_m=apart_m)
         if spot is None:
             return False
         yield from one.walk(spot)

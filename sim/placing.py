@@ -19,10 +19,14 @@ FINGER_M = 0.05  # between objects that are moved a little: a finger, and air on
 EDGE_M = 0.02  # from an object's side to the edge of its place
 ROBOT_M = 0.40  # of floor that the robot wants around its stance to begin
 TRIES = 2000
+LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
+"""Of a cylinder on its side: z along the heading."""
 
 
 def radius_m(item: Object) -> float:
     """Radius of the circle around an object seen from above."""
+    if item.lies:
+        return math.hypot(item.size_m[0], item.size_m[2]) / 2
     return item.size_m[0] / 2 if item.shape == "cylinder" else math.hypot(*item.size_m[:2]) / 2
 
 
@@ -48,8 +52,8 @@ def object_poses(world: World) -> dict[str, SE3]:
     poses: dict[str, SE3] = {}
     for item in world.objects:
         x, y = item.at_m or (0.0, 0.0)
-        X_PO = SE3.from_xy_yaw(x, y, math.radians(item.yaw_deg), z_m=item.size_m[2] / 2)
-        poses[item.id] = places[item.on].X_WP @ X_PO
+        X_PO = SE3.from_xy_yaw(x, y, math.radians(item.yaw_deg), z_m=item.height_m / 2)
+        poses[item.id] = places[item.on].X_WP @ (X_PO @ LYING if item.lies else X_PO)
     return poses
 
 

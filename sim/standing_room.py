@@ -19,6 +19,8 @@ ROOM_M = 0.27
 SAMPLE_M = 0.10
 ROBOT_M = 0.9
 """Between a person and the robot where they end up: the robot walks by at 0.5 m and more."""
+BACK_M = 1.4
+"""The same for who was told to step back: an arm reaches 0.5 m, and hands keep half a metre."""
 WALKING_M = 0.65
 """Between them on the way: nobody walks into a robot to let it pass."""
 LANE_M = 0.7
@@ -33,11 +35,11 @@ class Around(msgspec.Struct, frozen=True):
     others: tuple[tuple[Point, float], ...] = ()
 
 
-def free_spot(world: World, at: Point, around: Around) -> Point | None:
-    """The nearest spot out of the robot's way, None where there is none."""
+def free_spot(world: World, at: Point, around: Around, *, apart_m: float = ROBOT_M) -> Point | None:
+    """The nearest spot out of the robot's way, that far from it; None where there is none."""
     bare = msgspec.structs.replace(world, people=())
     for spot in _candidates(at, around):
-        if _is_out_of_the_way(spot, around) and _is_free_way(bare, at, spot, around):
+        if _is_out_of_the_way(spot, around, apart_m) and _is_free_way(bare, at, spot, around):
             return spot
     return None
 
@@ -57,9 +59,9 @@ def _candidates(at: Point, around: Around) -> Iterator[Point]:
         yield from sorted(spots, key=lambda spot: -math.dist(spot, around.robot))
 
 
-def _is_out_of_the_way(spot: Point, around: Around) -> bool:
+def _is_out_of_the_way(spot: Point, around: Around, apart_m: float) -> bool:
     ahead_m, aside_m = _in_lane(spot, around)
-    return math.dist(spot, around.robot) >= ROBOT_M and (ahead_m < 0.0 or aside_m >= LANE_M)
+    return math.dist(spot, around.robot) >= apart_m and (ahead_m < 0.0 or aside_m >= LANE_M)
 
 
 def _in_lane(spot: Point, around: Around) -> tuple[float, float]:

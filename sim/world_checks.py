@@ -199,7 +199,10 @@ def _fits(item: Object, place: Place, where: str) -> Iterator[Finding]:
     if item.shape == "cylinder" and item.size_m[0] != item.size_m[1]:
         hint = "size_m of a cylinder is [diameter, diameter, height]"
         yield Finding(f"{where}.size_m", f"{item.title} is not round", hint)
-    if item.size_m[2] > place.clearance_m:
+    if item.lies and item.shape != "cylinder":
+        hint = "give a box the size it has as it lies"
+        yield Finding(f"{where}.lies", f"{item.title} is a box, and only cylinders lie", hint)
+    if item.height_m > place.clearance_m:
         free = f"there are {place.clearance_m:.2f} m"
         yield Finding(f"{where}.size_m", f"{item.title} is too high for the {place.name}", free)
     x, y = item.at_m or (0.0, 0.0)

@@ -80,6 +80,7 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Something to handle, on a place.
 
     `at_m` is measured in the place, from its middle; left out, a free spot is drawn from the seed.
+    What `lies` is a cylinder on its side, its axis along its heading; `size_m` is as it stands.
     """
 
     category: str
@@ -90,6 +91,12 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     on: str
     at_m: tuple[q.Place, q.Place] | None = None
     yaw_deg: q.Heading = 0.0
+    lies: bool = False
+
+    @property
+    def height_m(self) -> float:
+        """Above what it stands or lies on."""
+        return self.size_m[0] if self.lies else self.size_m[2]
 
 
 class Behaviour(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

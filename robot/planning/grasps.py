@@ -27,7 +27,8 @@ TIP_HEIGHT_M = 0.008
 STEEP_RAD = 0.7
 """From here on the palm is above a low thing: a long one is taken at its middle."""
 LYING_LIFT_M = 0.01
-"""The grasp is so far above the axis of what lies: the fingertips stay clear of the table."""
+"""The grasp is at least so far above the axis of what lies: a thin one further, as the fingertips
+stay clear of the table."""
 UPRIGHT_COS = 0.95
 
 
@@ -164,9 +165,14 @@ def _ways_down(height_m: float, gripping: Gripping) -> list[tuple[float, float, 
         if tilt == 0.0 or not low
     ]
     for tilt in LOW_TILTS_RAD if low else ():
-        below_m = gripping.fingertip_m * math.sin(tilt) + gripping.finger_half_m * math.cos(tilt)
-        ways.append((tilt, below_m + TIP_HEIGHT_M - 0.5 * height_m, LOW_COST))
+        ways.append((tilt, _clear_lift_m(tilt, 0.5 * height_m, gripping), LOW_COST))
     return ways
+
+
+def _clear_lift_m(tilt: float, middle_m: float, gripping: Gripping) -> float:
+    """How far over a middle that high the grasp is with the fingertips just above the table."""
+    below_m = gripping.fingertip_m * math.sin(tilt) + gripping.finger_half_m * math.cos(tilt)
+    return below_m + TIP_HEIGHT_M - middle_m
 
 
 def _standing_cylinder(
@@ -205,7 +211,7 @@ def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping) 
             gripping,
             heading=wrap_angle(along + turn),
             tilt=tilt,
-            lift=LYING_LIFT_M,
+            lift=max(LYING_LIFT_M, _clear_lift_m(tilt, 0.5 * diameter, gripping)),
             depth=0.5 * diameter,
             width=diameter,
             cost=0.2 if turn == 0.0 else 0.5,

@@ -56,6 +56,7 @@ def search(
             radius_m=body.description.body_radius_m + 0.02,
             reference_cost=problem.reference_cost,
             walk_cost_per_m=problem.walk_cost_per_m,
+            people=problem.people,
             seed=seed,
             last=last,
         )

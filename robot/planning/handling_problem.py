@@ -29,6 +29,7 @@ class HandlingProblem:
         others: all solids without the object.
         lifts_m: heights of *up* over *main*, liked best first.
         walk_cost_per_m: of walking to the stance.
+        people: circles (x, y, radius) that somebody stands in, shape (n, 3).
         what: for messages, such as "the red cup".
     """
 
@@ -41,6 +42,7 @@ class HandlingProblem:
     others: tuple[Solid, ...]
     lifts_m: tuple[float, ...]
     walk_cost_per_m: float
+    people: Array
     what: str
 
 

@@ -15,7 +15,7 @@ from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.robot_body import Body
-from robot.planning.solids import solids_of
+from robot.planning.solids import people_of, solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import Array
 
@@ -77,6 +77,7 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         others=others,
         lifts_m=LIFTS_M,
         walk_cost_per_m=request.walk_cost_per_m,
+        people=people_of(request.around),
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
     choice = search(

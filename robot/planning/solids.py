@@ -51,6 +51,13 @@ def solids_of(around: Surroundings) -> tuple[Solid, ...]:
     return tuple(found)
 
 
+def people_of(around: Surroundings) -> Array:
+    """Circles (x, y, radius) that people stand in [m], but for the ignored, shape (n, 3)."""
+    people = [person for person in around.map.people if person.id not in around.ignored]
+    circles = [(*person.X_WO.p[:2], person.radius_m) for person in people]
+    return np.array(circles, dtype=np.float64).reshape(-1, 3)
+
+
 def solid(id: str, X_WO: SE3, shape: Shape) -> Solid:
     """A shape of a body standing at X_WO."""
     return Solid(id=id, kind=shape.kind, size_m=shape.size_m, X_WG=X_WO @ shape.X_BodyShape)

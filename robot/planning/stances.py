@@ -34,6 +34,10 @@ CHUNK = 6000
 """So many stances are looked at together: numpy's overhead is small, few are looked at in vain."""
 OPTION_SHARE = 0.5
 """Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
+NEAR_PEOPLE_M, NEAR_PEOPLE_COST = 0.6, 1.0
+"""Of a hand that is raised, or at work, so near to somebody's outline: within 0.5 m it stops."""
+RAISED_AHEAD_M, RAISED_ASIDE_M = 0.30, 0.25
+"""About where a raised hand is, from the standoff."""
 JITTER = 0.12
 """Random cost that spreads the first candidates."""
 
@@ -109,6 +113,7 @@ def propose(
     radius_m: float,
     reference_cost: Array,
     walk_cost_per_m: float,
+    people: Array,
     seed: int,
     last: bool = False,
 ) -> tuple[Candidates, int]:
@@ -124,6 +129,7 @@ def propose(
         radius_m: of the body with its arms, where it turns and walks.
         reference_cost: cost of each reference, shape (m,).
         walk_cost_per_m: cost of walking a metre to the stance.
+        people: circles (x, y, radius) that hands keep away from where they can, shape (n, 3).
         seed: of the spread.
         last: in the postures that are tried last, instead of the others.
     """
@@ -161,6 +167,9 @@ def propose(
         back, tight = standoffs.lengths(stance[rows])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
+        sign = np.where(tags[rows, 3] == 1, 1.0, -1.0)
+        cost[rows] += NEAR_PEOPLE_COST * _is_near(people, references[tags[rows, 1], :2])
+        cost[rows] += NEAR_PEOPLE_COST * _is_near(people, _raised(stance[rows], back, sign))
         inside = _within(tags[rows, 2] * len(options) + tags[rows, 0], share)
         others = np.flatnonzero(~inside)
         inside[others] = _within(tags[rows[others], 2], left)
@@ -232,6 +241,19 @@ def _around(
         + ASIDE_COST_PER_M * np.abs(aside - reaching.best_aside_m)
         + TURN_COST_PER_RAD * np.abs(turn)
     )
+
+
+def _raised(stance: Array, back_m: Array, sign: Array) -> Array:
+    """About where the raised hand is over the floor at the standoffs, shape (n, 2)."""
+    c, s = np.cos(stance[:, 2]), np.sin(stance[:, 2])
+    ahead, aside = RAISED_AHEAD_M - back_m, RAISED_ASIDE_M * sign
+    return stance[:, :2] + np.stack([c * ahead - s * aside, s * ahead + c * aside], axis=1)
+
+
+def _is_near(people: Array, points: Array) -> Mask:
+    """Which points of the floor are too near to somebody for a hand, shape (n,)."""
+    far_m = np.hypot(*(points[:, None, :] - people[None, :, :2]).transpose(2, 0, 1))
+    return (far_m < people[None, :, 2] + NEAR_PEOPLE_M).any(axis=1)
 
 
 class _Standoffs:

@@ -80,8 +80,8 @@ class Surface:
         )
         return (
             inside
-            and item.size_m[2] + LIFT_M <= self.place.clearance_m
-            and self.place.X_WP.p[2] + item.size_m[2] / 2 <= HIGHEST_GRASP_M
+            and item.height_m + LIFT_M <= self.place.clearance_m
+            and self.place.X_WP.p[2] + item.height_m / 2 <= HIGHEST_GRASP_M
             and all(
                 math.dist(at_m, other.at_m or at_m) - own - radius_m(other) >= gap_m
                 for other in others

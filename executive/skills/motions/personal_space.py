@@ -16,6 +16,10 @@ CLEAR_M = 0.6
 """More than the zone, so that somebody at its edge does not stop and free the robot in turns."""
 BELIEVED_S = 3.0
 PATIENCE_S = 15.0
+STEP_BACK = "Please step back a little."
+"""What somebody who is near a hand is told."""
+TOLD_AT_S = (1.5, 8.0)
+"""When they are told so: some leave by themselves, some do not hear it at once."""
 
 
 def somebody_near(
@@ -65,13 +69,17 @@ def near_hand(body: Body, p_W: Sequence[float], *, within_m: float = ZONE_M) -> 
 
 
 def wait_for_room(body: Body, p_W: Sequence[float]) -> Script[None]:
-    """Wait until nobody is near a hand any more, and say so.
+    """Wait until nobody is near a hand any more, and ask for room.
 
     Gives up with `person_near` after `PATIENCE_S`.
     """
     words, end_s = body.phase, body.now_s + PATIENCE_S
+    to_say = [body.now_s + after_s for after_s in TOLD_AT_S]
     while (name := near_hand(body, p_W, within_m=CLEAR_M)) is not None:
         body.phase = f"waiting for {name} to step back"
+        if to_say and body.now_s >= to_say[0]:
+            body.context.say(STEP_BACK)
+            del to_say[0]
         if body.now_s > end_s:
             raise give_up(
                 "person_near",

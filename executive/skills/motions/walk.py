@@ -40,9 +40,9 @@ MOVING_M_S = 0.03
 LET_PASS_S = 6.0
 BESIDE_M = 0.3
 """What stands as near as this to where somebody is seen is taken to be them."""
-NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 EXCUSE = "Excuse me."
 """What somebody who stands in the way is told, before a way around them is planned."""
+NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 
 
 def walk_to(body: Body, goal: Stance) -> Script[None]:

@@ -1,5 +1,6 @@
 """The judge looks at the world as it is, not as the robot believes it to be."""
 
+import msgspec
 import pytest
 
 from robot.errors import ConfigError
@@ -32,6 +33,21 @@ def test_an_object_is_on_a_place_or_it_is_not(plant):
     apply(plant, faults.KnockOver(target="box"))
     plant.step(600)
     assert judge(plant, [{"object": "box", "on": "counter"}]).wrong
+
+
+def test_what_lay_from_the_beginning_may_lie_or_stand(robot, kitchen):
+    objects = tuple(
+        msgspec.structs.replace(o, lies=True) if o.id == "red_cup" else o for o in kitchen.objects
+    )
+    plant = Plant(msgspec.structs.replace(kitchen, objects=objects), robot, seed=0)
+    plant.step(200)
+    lies = plant.oracle.X_WO("red_cup")
+    assert abs(lies.rotation()[2, 2]) < 0.05
+    assert judge(plant, [{"object": "red_cup", "on": "table"}]).wrong == ()
+    plant.put("object/red_cup", SE3((lies.p[0], lies.p[1], lies.p[2] + 0.02)))
+    plant.step(200)
+    assert judge(plant, [{"object": "red_cup", "on": "table"}]).wrong == ()
+    assert judge(plant, [{"object": "red_cup", "on": "counter"}]).wrong
 
 
 def test_an_object_is_in_a_hand_or_it_is_not(plant, robot):

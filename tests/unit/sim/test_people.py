@@ -14,7 +14,7 @@ from sim.people import wish_in
 from sim.person_arm import PersonArm, links
 from sim.plant import Plant
 from sim.somebody import LOST_M
-from sim.standing_room import LANE_M, ROBOT_M, Around, free_spot, in_the_way
+from sim.standing_room import BACK_M, LANE_M, ROBOT_M, Around, free_spot, in_the_way
 from sim.world_schema import Behaviour
 
 JUNO = description.load("juno")
@@ -92,6 +92,17 @@ def test_who_is_asked_to_steps_out_of_the_way_slowly_and_says_so():
     assert not in_the_way(before[:2], around, within_m=2.0)
     assert fastest_m_s < 0.45
     assert [m.text for m in said] == ["continue"]
+
+
+def test_who_is_told_to_step_back_does_so_also_from_beside_the_robot():
+    anna = msgspec.structs.replace(BENCH.people[0], at_m=(-0.2, -1.05), behaviour=Behaviour())
+    plant = Plant(msgspec.structs.replace(BENCH, people=(anna,)), JUNO, seed=3)
+    plant.hear("Excuse me.")
+    let_pass(plant, 4.0)
+    assert plant.where("person/anna").p[:2] == pytest.approx((-0.2, -1.05))
+    plant.hear("Please step back a little.")
+    let_pass(plant, 5.0)
+    assert math.dist(plant.where("person/anna").p[:2], plant.oracle.X_WB().p[:2]) >= BACK_M - 0.05
 
 
 def test_who_does_not_step_aside_stays():

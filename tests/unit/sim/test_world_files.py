@@ -96,6 +96,15 @@ def test_a_mistake_is_named_by_line_with_its_cure(read, old, new, line, message)
     assert message in str(caught.value)
 
 
+def test_a_cylinder_may_lie_and_a_box_may_not(read):
+    lies = read(GOOD.replace("mass_kg: 0.3", "mass_kg: 0.3\n    lies: true\n    yaw_deg: 90"))
+    X_WO = placing.object_poses(lies)["mug"]
+    assert X_WO.rotation()[:, 2] == pytest.approx([0.0, 1.0, 0.0])
+    assert X_WO.p[2] == pytest.approx(atlas.places(lies)["desk"].X_WP.p[2] + 0.04)
+    with pytest.raises(ConfigError, match="pen is a box, and only cylinders lie"):
+        read(GOOD.replace("mass_kg: 0.05", "mass_kg: 0.05, lies: true"))
+
+
 def test_all_mistakes_are_named_at_once(read):
     text = GOOD.replace("kind: table", "kind: tabel").replace("color: red", "color: rad")
     with pytest.raises(ConfigError) as caught:

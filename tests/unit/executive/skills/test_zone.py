@@ -72,6 +72,19 @@ def test_the_arm_waits_and_then_goes_on(stage):
     assert "waiting for Ann to step back" in stage.phases
 
 
+def test_who_leaves_the_hand_at_once_is_told_nothing(stage):
+    comes(stage, "reaching", lambda: SE3((1.7, 0.3, 0.0)), for_s=1.0)
+    stage.run(PickParams(object_id="cup"))
+    assert stage.said == []
+
+
+def test_who_stays_near_the_hand_is_asked_for_room(stage):
+    comes(stage, "reaching", lambda: AWAY if stage.said else SE3((1.7, 0.3, 0.0)))
+    report = stage.run(PickParams(object_id="cup"))
+    assert report.status == "succeeded", report
+    assert stage.said == ["Please step back a little."]
+
+
 def test_the_arm_does_not_move_on_while_they_are_near(stage):
     comes(stage, "reaching", lambda: SE3((1.7, 0.3, 0.0)), for_s=8.0)
     stage.run(PickParams(object_id="cup"), until_phase="waiting for Ann")

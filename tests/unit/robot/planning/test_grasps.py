@@ -59,6 +59,17 @@ def test_a_lying_bottle_is_taken_from_above(body: Body) -> None:
         assert option.R0[2, 0] < -0.7
 
 
+@pytest.mark.parametrize("diameter_m", [0.03, 0.045, 0.07])
+def test_fingertips_stay_above_the_table_around_what_lies(body: Body, diameter_m: float) -> None:
+    gripping = body.description.handy.gripping
+    lying = SE3.from_rpy(0.0, math.pi / 2, 0.0, AT.p)
+    shape = Shape(kind="cylinder", size_m=(diameter_m, diameter_m, 0.16))
+    for option in options(body, shape, lying):
+        tip_m = option.offset[2] + gripping.fingertip_m * option.R0[2, 0]
+        assert tip_m + 0.5 * diameter_m >= 0.008
+        assert tip_m <= 0.0  # below the axis
+
+
 @pytest.mark.parametrize(
     "shape",
     [

@@ -2,11 +2,12 @@
 
 import math
 
+import msgspec
 import numpy as np
 import pytest
 
 from robot.failures import Failure
-from robot.messages import Shape, Side
+from robot.messages import PersonInfo, Shape, Side
 from robot.planning.floor import Floor
 from robot.planning.requests import (
     BodyPosture,
@@ -35,6 +36,7 @@ from tests.fakes.planning_room import (
     surroundings,
 )
 
+LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
 BOARD = {board: room().places[1 + i] for i, board in enumerate(BOARDS_M)}
 TABLE = room().places[0]
 
@@ -112,6 +114,39 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     plan = pick(solver, surroundings(flat))
     assert isinstance(plan, PickPlan), plan
     assert plan.margin > 0.3
+
+
+def test_hands_keep_away_from_who_stands_beside(solver: Solver) -> None:
+    around = surroundings(on_table(-0.1, 0.0))
+    alone = pick(solver, around)
+    assert isinstance(alone, PickPlan)
+    (x, y, yaw), sign = alone.standoff, 1.0 if alone.side == "left" else -1.0
+    ann = PersonInfo(
+        id="ann",
+        name="Ann",
+        X_WO=SE3((x - 0.9 * sign * math.sin(yaw), y + 0.9 * sign * math.cos(yaw), 0.0)),
+    )
+    beside = msgspec.structs.replace(around, map=msgspec.structs.replace(around.map, people=(ann,)))
+    plan = pick(solver, beside)
+    assert isinstance(plan, PickPlan)
+    x, y, yaw = plan.standoff
+    aside = 0.25 if plan.side == "left" else -0.25
+    raised = (
+        x + 0.3 * math.cos(yaw) - aside * math.sin(yaw),
+        y + 0.3 * math.sin(yaw) + aside * math.cos(yaw),
+    )
+    assert math.dist(raised, ann.X_WO.p[:2]) > ann.radius_m + 0.5
+
+
+@pytest.mark.parametrize("yaw_rad", [-2.0, 0.0, 1.6])
+def test_a_thin_torch_that_lies_on_the_table(solver: Solver, yaw_rad: float) -> None:
+    shape = Shape(kind="cylinder", size_m=(0.045, 0.045, 0.16))
+    on = on_table(-0.1, 0.2).X_WO.p
+    z = on[2] - 0.5 * CUP.size_m[2] + 0.5 * shape.size_m[0]
+    X_WO = SE3.from_xy_yaw(on[0], on[1], yaw_rad, z_m=z) @ LYING
+    plan = pick(solver, surroundings(ObjectPose(id="cup", shape=shape, X_WO=X_WO)))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.margin > 0.2
 
 
 def test_a_bottle_with_4_cm_above_it_comes_out_from_under_a_board(solver: Solver) -> None:
