@@ -29,7 +29,7 @@ from py_trees.decorators import Decorator
 from executive.behaviours.conditions import Check
 from executive.behaviours.run_skill import RunSkill
 from executive.blackboard import BODY, HEALTH, KEYS, MAP, NOW, WORLD, Blackboard, Key
-from executive.engine.surroundings import Whereabouts, drawing
+from executive.engine.surroundings import PoseWatch, drawing
 
 if TYPE_CHECKING:
     from executive.engine.executive import Executive
@@ -65,7 +65,7 @@ class Recorder:
         write = executive.stage.record
         self._tree = TreeWatch(write)
         self._board = BoardWatch(executive.board, write)
-        self._whereabouts = Whereabouts()
+        self._poses = PoseWatch()
         self._map_known = False
         self._pose_due_s = 0.0
 
@@ -85,7 +85,7 @@ class Recorder:
             self._map_known = True
             self._stage.record("map", **drawing(world_map))
         if world is not None:
-            news = self._whereabouts.news(world, mode=body.mode if body else "")
+            news = self._poses.news(world, mode=body.mode if body else "")
             if news:
                 self._stage.record("pose", **news)
 

@@ -43,7 +43,7 @@ def drawing(world_map: WorldMap) -> Plain:
     }
 
 
-class Whereabouts:
+class PoseWatch:
     """Where the robot and the things are believed to be, told when it changes.
 
     The data of a ``pose`` event: ``x_m``, ``y_m``, ``yaw_rad`` of the pelvis in W, the body's

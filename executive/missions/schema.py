@@ -1,4 +1,4 @@
-"""What a mission file may hold, as types: the reader checks against them, editors get their schema.
+"""What a mission file may hold, as types: the reader checks against them.
 
 A step is a sentence, or a mapping with one key that says what is done (`pick`, `repeat`, ...), keys
 that belong to it, and options that every step may have. Each kind of step is one struct here; its
@@ -8,7 +8,7 @@ first field is the key that it is known by.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 from msgspec import Meta
@@ -413,34 +413,3 @@ STEPS: dict[str, type[StepRecord]] = {
 """The key that a step is known by to its type, in the order in which they are looked for."""
 
 OPTIONS = ("name", "retry", "timeout_s", "on_fail", "always")
-
-
-def json_schema() -> dict[str, Any]:
-    """The JSON Schema of a mission file, for editors."""
-    places: dict[type, dict[str, Any]] = {
-        StepNode: {"$ref": "#/$defs/Step"},
-        FaultNode: {"type": "object"},
-        BranchNode: {
-            "anyOf": [
-                {"$ref": "#/$defs/Step"},
-                {"type": "array", "items": {"$ref": "#/$defs/Step"}, "minItems": 1},
-            ]
-        },
-    }
-
-    def hook(kind: type) -> dict[str, Any]:
-        return places[kind]
-
-    (root,), parts = msgspec.json.schema_components(
-        [MissionRecord], schema_hook=hook, ref_template="#/$defs/{name}"
-    )
-    refs, steps = msgspec.json.schema_components(
-        list(STEPS.values()), schema_hook=hook, ref_template="#/$defs/{name}"
-    )
-    sentence = {"type": "string", "minLength": 1, "description": "A sentence in plain English."}
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "Mission of humanoid-executive",
-        **root,
-        "$defs": {**parts, **steps, "Step": {"anyOf": [sentence, *refs]}},
-    }

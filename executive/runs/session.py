@@ -23,7 +23,7 @@ import msgspec
 from executive.engine import loop
 from executive.engine.executive import Executive
 from executive.engine.jobs import UNLIMITED, Limits
-from executive.engine.motion import MotionWatch
+from executive.engine.motion_watch import MotionWatch
 from executive.engine.recorder import Recorder
 from executive.journal import motion
 from executive.journal.files import BackgroundFile, LineFile, Lines, Nowhere

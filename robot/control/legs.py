@@ -9,7 +9,8 @@ import numpy as np
 
 from robot.control.walking.dcm import Point
 from robot.control.walking.footsteps import Sole, Target, Twist
-from robot.control.walking.gait import Gait, Reference
+from robot.control.walking.gait import Gait
+from robot.control.walking.gait_reference import Reference
 from robot.control.whole_body import Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, OneLeg, Side, Stand, Walk, WalkTo

@@ -21,7 +21,7 @@ from robot.control.payload import Payloads
 from robot.control.posture import Posture, steady
 from robot.control.starting import planar
 from robot.control.walking.footsteps import stance_of
-from robot.control.walking.gait import Reference
+from robot.control.walking.gait_reference import Reference
 from robot.control.whole_body import WholeBody
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import Capability, MotorCommand, MotorState

@@ -15,8 +15,8 @@ from executive.frontends.output import say, write, write_json
 from executive.journal import failures
 from executive.missions import load
 from executive.missions.check import Checked, Options, check
+from executive.missions.editor_schema import json_schema
 from executive.missions.plan import forecast, lines
-from executive.missions.schema import json_schema
 from executive.missions.template import template
 from executive.trees.parts import errands
 from robot.errors import ConfigError, Problem

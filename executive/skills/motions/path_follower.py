@@ -29,7 +29,7 @@ class Velocity(NamedTuple):
     turn_rad_s: float
 
 
-class Run:
+class Stretch:
     """A polyline walked without turning on the spot, measured along its length."""
 
     def __init__(self, stances: Sequence[Stance], speeds_m_s: Sequence[float]) -> None:
@@ -116,7 +116,7 @@ class Follower:
     @property
     def way_left_m(self) -> float:
         """What is still to be walked, turns left out."""
-        return sum(leg.length_m for leg in self._legs if isinstance(leg, Run)) - self._along_m
+        return sum(leg.length_m for leg in self._legs if isinstance(leg, Stretch)) - self._along_m
 
     @property
     def done(self) -> bool:
@@ -128,7 +128,7 @@ class Follower:
         points: list[tuple[float, float]] = []
         along_m = self._along_m
         for leg in self._legs:
-            while isinstance(leg, Run) and along_m < leg.length_m and span_m > 0.0:
+            while isinstance(leg, Stretch) and along_m < leg.length_m and span_m > 0.0:
                 points.append(leg.stance(along_m)[:2])
                 along_m += step_m
                 span_m -= step_m
@@ -161,7 +161,9 @@ class Follower:
         c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
         return self._within_limits(c * vx + s * vy, c * vy - s * vx, off_rad)
 
-    def _velocity(self, leg: Run, x_m: float, y_m: float, speed_m_s: float) -> tuple[float, float]:
+    def _velocity(
+        self, leg: Stretch, x_m: float, y_m: float, speed_m_s: float
+    ) -> tuple[float, float]:
         """Velocity in W: along the run, and back onto it [m/s]."""
         does = self.walking.following
         here_x, here_y, _ = leg.stance(self._along_m)
@@ -173,7 +175,7 @@ class Follower:
         along = speed_m_s / ahead_m
         return along * ahead_x + pull * pull_x, along * ahead_y + pull * pull_y
 
-    def _ahead(self, leg: Run) -> tuple[float, float]:
+    def _ahead(self, leg: Stretch) -> tuple[float, float]:
         """From here to a little further along; further still where that is back here.
 
         A way begins behind a body that went on while it was planned, and doubles back there.
@@ -224,9 +226,9 @@ def turn_towards(yaw_error_rad: float, walking: Walking) -> Velocity:
 
 def _legs(
     start: Stance, waypoints: Sequence[Stance], speeds_m_s: Sequence[float]
-) -> list[Run | Turn]:
+) -> list[Stretch | Turn]:
     """Group stances into runs, split where the body turns on the spot."""
-    legs: list[Run | Turn] = []
+    legs: list[Stretch | Turn] = []
     run, speeds = [start], list[float]()
     for stance, speed_m_s in zip(waypoints, speeds_m_s, strict=True):
         if math.dist(stance[:2], run[-1][:2]) > SAME_PLACE_M:
@@ -234,17 +236,17 @@ def _legs(
             speeds.append(speed_m_s)
             continue
         if len(run) > 1:
-            legs.append(Run(run, speeds))
+            legs.append(Stretch(run, speeds))
         if abs(wrap_angle(stance[2] - run[-1][2])) > 1e-3:
             legs.append(Turn(run[-1][2], stance[2]))
         run, speeds = [stance], []
     if len(run) > 1:
-        legs.append(Run(run, speeds))
+        legs.append(Stretch(run, speeds))
     return legs
 
 
-def _cost_m(leg: Run | Turn) -> float:
-    if isinstance(leg, Run):
+def _cost_m(leg: Stretch | Turn) -> float:
+    if isinstance(leg, Stretch):
         return leg.length_m
     return METRES_PER_RADIAN * abs(wrap_angle(leg.to_rad - leg.from_rad))
 

@@ -11,8 +11,9 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+from robot.control.walking import zmp_plan
 from robot.control.walking.catching import Catch
-from robot.control.walking.dcm import DcmPlan, Point, Segment
+from robot.control.walking.dcm import DcmPlan, Point
 from robot.control.walking.footsteps import (
     FootstepPlanner,
     Sole,
@@ -21,14 +22,15 @@ from robot.control.walking.footsteps import (
     other,
     stance_of,
 )
+from robot.control.walking.gait_reference import Reference
 from robot.control.walking.support import SupportPolygon
 from robot.control.walking.swing import FREEZE_S, Swing
+from robot.control.walking.zmp_plan import HORIZON_STEPS, point_of
 from robot.messages import Side
 from robot.model.body import SIDES
 from robot.model.description import RobotDescription
 from robot.se3 import wrap_angle
 
-HORIZON_STEPS = 4
 TOUCHDOWN_LOAD = 0.02  # where the floor is expected a light touch is a landing
 EXPECTED_SHARE = 0.6  # of a step: from then on the foot may touch the floor,
 CLEAR_SHARE = 0.3  # and from this until then it surely hangs in the air
@@ -42,25 +44,6 @@ BACK_RAD = 0.06  # a step turns back onto the heading by so much at most,
 ASTRAY_RAD = 0.3  # and a walk that was turned by more keeps the new one
 
 Phase = Literal["stand", "double", "single"]
-
-
-@dataclass(slots=True)
-class Reference:
-    """What the gait wants of the body now; all in N.
-
-    `strain` says how far the commanded ZMP lies beyond the soles, 0 to 1: what the trunk's turning
-    must give.
-    """
-
-    xi: Point
-    zmp: Point
-    zmp_command: Point
-    contact: list[bool]
-    max_force_share: list[float]
-    heading_rad: float
-    strain: float = 0.0
-    swing: Swing | None = None
-    swing_side: Side | None = None
 
 
 @dataclass(slots=True)
@@ -300,11 +283,11 @@ class Gait:
             duration_s = self.description.walking.double_support_s + unused_s
             if urgent:
                 duration_s = min(duration_s, catching.double_support_s)
-            self._start_double(duration_s, self._zmp_of(self.planted[before]))
+            self._start_double(duration_s, point_of(self.planted[before]))
         else:
             self._landings = []
             self._start_double(
-                self.description.walking.stop_s + unused_s, self._zmp_of(self.planted[before])
+                self.description.walking.stop_s + unused_s, point_of(self.planted[before])
             )
 
     def _start_double(self, duration_s: float, zmp: Point) -> None:
@@ -322,7 +305,7 @@ class Gait:
         if not self._one_leg_s:
             self._landings = self._look_ahead(landing)
         self.swing = Swing(self.planted[side], landing, self.duration_s, walking)
-        self._replan(self._zmp_of(self.planted[self.support]))
+        self._replan(point_of(self.planted[self.support]))
         self._polygon = self._hull([self.planted[self.support]])
 
     def _stand(self) -> None:
@@ -330,8 +313,7 @@ class Gait:
         self.swing = None
         self._landings = []
         self._integral = [0.0, 0.0]
-        centre = self._stance_centre()
-        self._plan = DcmPlan([], centre, self.omega_1_s)
+        self._plan = zmp_plan.standing(self._stance_centre(), self.omega_1_s)
         self._polygon = self._hull([self.planted["left"], self.planted["right"]])
 
     # --- references ----------------------------------------------------------------------------
@@ -343,47 +325,28 @@ class Gait:
         stance = self._stance()
         return (stance.x, stance.y)
 
-    def _zmp_of(self, sole: Sole) -> Point:
-        return (sole.x, sole.y)
-
     def _hull(self, soles: list[Sole]) -> SupportPolygon:
         foot = self.description.feet["left"]
         margin_m = self.description.balance.zmp_margin_m
         return SupportPolygon(soles, foot.half_length_m, foot.half_width_m, margin_m=margin_m)
 
     def _replan(self, zmp: Point) -> None:
-        """Segments from now: the rest of this phase, then the footsteps ahead."""
+        """From now: the rest of this phase, then the footsteps ahead."""
+        double = self.phase == "double"
+        if double and not self._landings:
+            centre, omega_1_s = self._stance_centre(), self.omega_1_s
+            self._plan = zmp_plan.coming_to_rest(zmp, centre, self.duration_s, omega_1_s)
+            return
         walking = self.description.walking
-        segments: list[Segment] = []
-        foot = self._zmp_of(self.planted[self.support])
-        last = self.planted[other(self.support)]
-        current = self.planted[self.support]
-        if self.phase == "double":
-            if not self._landings:
-                centre = self._stance_centre()
-                self._plan = DcmPlan(
-                    [Segment(zmp, centre, self.duration_s)], centre, self.omega_1_s
-                )
-                return
-            segments.append(Segment(zmp, foot, self.duration_s))
-        single_s = self._one_leg_s or walking.single_support_s
-        for k, landing in enumerate(self._landings):
-            segments.append(Segment(foot, foot, single_s))
-            last, current = current, landing
-            if k + 1 < len(self._landings):
-                following = self._zmp_of(landing)
-                segments.append(Segment(foot, following, walking.double_support_s))
-                foot = following
-        stance = stance_of(last, current)
-        centre = (stance.x, stance.y)
-        if len(self._landings) < HORIZON_STEPS:
-            segments.append(Segment(foot, centre, walking.stop_s))
-            terminal = centre
-        else:
-            end = self._zmp_of(self._landings[-1])
-            segments.append(Segment(foot, end, walking.double_support_s))
-            terminal = end
-        self._plan = DcmPlan(segments, terminal, self.omega_1_s)
+        self._plan = zmp_plan.stepping(
+            walking,
+            support=self.planted[self.support],
+            swing=self.planted[other(self.support)],
+            landings=self._landings,
+            single_s=self._one_leg_s or walking.single_support_s,
+            omega_1_s=self.omega_1_s,
+            shift=(zmp, self.duration_s) if double else None,
+        )
 
     def _adjust(self, dt_s: float, xi: Point) -> None:
         """Shift the landing and its time by the DCM error that the stance foot leaves."""

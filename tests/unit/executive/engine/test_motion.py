@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from executive.blackboard import BODY, HELD, WORLD, Blackboard
-from executive.engine.motion import MotionWatch
+from executive.engine.motion_watch import MotionWatch
 from executive.journal import motion
 from executive.journal.files import LineFile
 from robot.messages import Track, WorldState

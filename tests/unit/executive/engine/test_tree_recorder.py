@@ -10,7 +10,7 @@ from py_trees.common import Status
 from py_trees.composites import Selector, Sequence
 
 from executive.engine.recorder import TreeWatch, kind
-from executive.engine.surroundings import Whereabouts, drawing
+from executive.engine.surroundings import PoseWatch, drawing
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from robot.messages import Obstacle, Shape, Track, WorldState
@@ -128,7 +128,7 @@ def world(x_m=0.0, *, cup=(1.0, 0.0, 0.7), unmapped=(), **how):
 
 
 def test_whereabouts_are_told_when_they_change():
-    whereabouts = Whereabouts()
+    whereabouts = PoseWatch()
     first = whereabouts.news(world(), mode="stand")
     assert first == {
         "x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0, "mode": "stand",
@@ -145,7 +145,7 @@ def test_whereabouts_are_told_when_they_change():
 def test_what_the_map_does_not_explain_comes_and_goes():
     box = Shape(kind="box", size_m=(0.4, 0.2, 1.0))
     chair = Obstacle(id="u1", name="?", X_WO=SE3((1, 1, 0)), shapes=(box,))
-    whereabouts = Whereabouts()
+    whereabouts = PoseWatch()
     corners = [[0.8, 0.9], [1.2, 0.9], [1.2, 1.1], [0.8, 1.1]]
     assert whereabouts.news(world(unmapped=(chair,)), mode="")["unmapped"] == {"u1": corners}
     assert whereabouts.news(world(unmapped=(chair,)), mode="") == {}

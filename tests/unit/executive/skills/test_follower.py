@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.motions.path_follower import Follower, Run, turn_towards
+from executive.skills.motions.path_follower import Follower, Stretch, turn_towards
 from robot.model.description import load
 from robot.se3 import SE3, wrap_angle
 
@@ -120,7 +120,7 @@ def test_a_way_that_begins_behind_is_taken_up_ahead():
 def test_a_stance_along_a_run_lies_on_it(stances, along_m):
     if any(math.dist(a[:2], b[:2]) < 1e-3 for a, b in itertools.pairwise(stances)):
         return
-    x, y, yaw = Run(stances, [0.4] * (len(stances) - 1)).stance(along_m)
+    x, y, yaw = Stretch(stances, [0.4] * (len(stances) - 1)).stance(along_m)
     off_m = min(_distance((x, y), a[:2], b[:2]) for a, b in itertools.pairwise(stances))
     assert off_m < 1e-6
     assert abs(wrap_angle(yaw)) <= math.pi
