@@ -31,7 +31,7 @@ GestureKind = Literal[
     "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
 ]  # fmt: skip
 
-HEAD_AHEAD_M = 1.5
+HEAD_AHEAD_M = 1.5  # where the description measures a nod
 TIMES = 3
 AHEAD_RAD = 0.9
 """What is further to the side than this is turned to before it is pointed at."""

@@ -26,7 +26,8 @@ from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array
 
 STANCE_WEIGHT = 2000.0
-"""Weights count against one another only. Soles that stand come first, then balance."""
+"""Weights count against one another only. Soles that stand come first, then balance. They are those
+of a study with a body of 1.3 m and 35 kg (docs/control.md), and serve the G1 as well."""
 COM_WEIGHT = 50.0  # with 10 the DCM was 15 mm off at 0.5 m/s, so it is 5 mm
 SWING_WEIGHT = 20.0
 PELVIS_WEIGHT = 4.0

@@ -16,7 +16,7 @@ from robot.model.paces import Paces
 from robot.planning.requests import BasePath, Stance
 from robot.se3 import SE3, wrap_angle
 
-PERIOD_S = 0.05
+PERIOD_S = 0.05  # in which skills are stepped, so that the way takes as long as the follower takes
 LONGEST_S = 600.0
 
 

@@ -11,8 +11,7 @@ from robot.control.walking.footsteps import FootstepPlanner, Sole, sign_of
 from robot.control.walking.swing import FREEZE_S
 from robot.messages import Side
 
-SHORTEST_SHARE = 0.5
-LONGEST_SHARE = 1.35
+SHORTEST_SHARE, LONGEST_SHARE = 0.5, 1.35
 """Of the planned time: [Khadiv2020] chooses time and place together (docs/control.md, 4)."""
 TIME_COST_M_S = 0.1  # 0.1 s off the planned time is as bad as landing 1 cm off the planned place
 MISS_WEIGHT = 10.0  # of a landing that the leg cannot reach, or not in time
