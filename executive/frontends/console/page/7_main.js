@@ -271,7 +271,13 @@ function frame(ms) {
     page.dirty = true;
   }
   const due = ms - (page.pictured || 0) >= (drawing && drawing.slow && !fingers.size ? SLOW_MS : 0);
-  if (page.scene && drawing && due && (page.dirty || drawing.resize()) && !document.hidden) { page.pictured = ms; picture(ms); }
+  if (page.scene && drawing && due && (page.dirty || drawing.resize()) && !document.hidden) {
+    page.pictured = ms;
+    try { picture(ms); } catch (error) { // what cannot be drawn stops neither time nor STOP
+      if (page.problem !== error.message) console.error(error);
+      page.problem = error.message;
+    }
+  }
   requestAnimationFrame(frame);
 }
 
