@@ -111,6 +111,7 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
     Raises:
         ConfigError: if the one wanted holds a run already, or another one uses it.
     """
+    from executive.journal import places
     from executive.runs import run_folder
 
     there = under_way(handle)
@@ -120,6 +121,8 @@ def folder_for(wanted: Path | None, text: str, handle: Handle | None = None) -> 
     folder = wanted or new_folder(text)
     run_folder.claim(folder, wanted=wanted is not None)
     run_folder.check_free(folder)
+    if wanted is not None:
+        places.remember_outside(folder)
     return folder
 
 

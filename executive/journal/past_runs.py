@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 from collections.abc import Iterator
 from datetime import datetime
@@ -13,7 +14,7 @@ import msgspec
 
 from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
-from executive.journal.places import HERE, all_places
+from executive.journal.places import HERE, all_places, outside
 from executive.journal.run import Run
 from robot import misfits
 from robot import quantities as q
@@ -63,10 +64,21 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     took_s: float
 
 
-def runs(base: Path | None = None, *, places: tuple[Path, ...] = ()) -> list[Path]:
-    """Every run's folder under `base` or `places`, the oldest first (none: of this folder)."""
-    places = places or (all_places() if base is None else (base,))
-    found = [path.parent for place in places for path in place.glob(f"*/{FILE}")]
+def runs(
+    base: Path | None = None, *, places: tuple[Path, ...] = (), beside: tuple[Path, ...] = ()
+) -> list[Path]:
+    """Every run's folder under `base` or `places`, and `beside`, the oldest first.
+
+    With none of them, those of this folder, kept elsewhere by name (`--run-dir`) or not.
+    """
+    if base is None and not places:
+        places, beside = all_places(), outside()
+    found = [path.parent for place in places or (base or HERE,) for path in place.glob(f"*/{FILE}")]
+    known = {os.path.realpath(folder) for folder in found}
+    for folder in beside:
+        with contextlib.suppress(OSError):
+            if os.path.realpath(folder) not in known and (folder / FILE).is_file():
+                found.append(folder)
     return sorted(found, key=lambda folder: (began_s(folder), folder.name))
 
 

@@ -8,6 +8,8 @@ import os
 import re
 from pathlib import Path
 
+import msgspec
+
 from robot.ordinary_files import read_ordinary, write_ordinary
 
 HERE = Path("runs")
@@ -17,7 +19,11 @@ NAMED = 40
 
 INDEX = "places.txt"
 """At home: the absolute paths of the folders in which runs were kept, a line each."""
+OUTSIDE = "outside.txt"
+"""At home: runs whose folder somebody named (`--run-dir`), each as a JSON list of the folder that
+it was started in and its own, a line each, the newest last."""
 MAX_BYTES = 1_000_000
+MOST_OUTSIDE = 500
 
 
 def _state() -> Path | None:
@@ -40,6 +46,42 @@ def remember(place: Path) -> None:
         there = [one for one in known if Path(os.fsdecode(one)).is_dir()]
         lines = b"".join(one + b"\n" for one in [*there, path])
         write_ordinary(state / INDEX, lines[-MAX_BYTES:])
+
+
+def remember_outside(folder: Path) -> None:
+    """Note a run that lies where somebody wanted it, for `outside`; else do without."""
+    state = _state()
+    if state is None:
+        return
+    with contextlib.suppress(OSError):
+        noted = (str(Path.cwd()), os.path.realpath(folder))
+        known = [one for one in _outside(state) if one[1] != noted[1]]
+        state.mkdir(mode=0o700, parents=True, exist_ok=True)
+        lines = [msgspec.json.encode(one) for one in (*known, noted)[-MOST_OUTSIDE:]]
+        write_ordinary(state / OUTSIDE, b"".join(one + b"\n" for one in lines))
+
+
+def outside(*, anywhere: bool = False) -> tuple[Path, ...]:
+    """Runs started in the current folder (`anywhere`: in any) that were kept where wanted."""
+    state = _state()
+    try:
+        here = str(Path.cwd())
+    except FileNotFoundError:
+        return ()
+    known = _outside(state) if state is not None else []
+    return tuple(Path(folder) for began_in, folder in known if anywhere or began_in == here)
+
+
+def _outside(state: Path) -> list[tuple[str, str]]:
+    try:
+        data = read_ordinary(state / OUTSIDE, limit=MAX_BYTES, follow_links=False)
+    except OSError:
+        return []
+    found: list[tuple[str, str]] = []
+    for line in data.splitlines()[-MOST_OUTSIDE:]:
+        with contextlib.suppress(ValueError, RecursionError):
+            found.append(msgspec.json.decode(line, type=tuple[str, str]))
+    return [one for one in found if one[1].startswith("/") and "\0" not in one[1]]
 
 
 def everywhere() -> tuple[Path, ...]:

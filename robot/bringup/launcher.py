@@ -286,6 +286,10 @@ class Launcher:
                 signal.signal(number, handler)
 
 
+AFRESH = b"\x1b[?25h\x1b[?2004l\r\n\x1b[J"
+"""The cursor is seen, pastes are plain, and of the lines that lived below it nothing is left."""
+
+
 class _Terminal:
     """The terminal between two executives, and after the last: as it was, cursor and all."""
 
@@ -320,4 +324,4 @@ class _Terminal:
         with contextlib.suppress(termios.error, OSError):
             termios.tcsetattr(sys.stdin.fileno(), when, modes)
         if sys.stdout.isatty():
-            os.write(sys.stdout.fileno(), b"\x1b[?25h\x1b[?2004l\r\n")
+            os.write(sys.stdout.fileno(), AFRESH)

@@ -127,6 +127,13 @@ def leave_stop(folder: Path) -> None:
     _touch(folder / STOP_FILE)
 
 
+def leave_stop_for_next(folder: Path) -> None:
+    """Leave a stop where an executive takes over from a dead one, and does not hear people yet."""
+    front = read(folder / FRONT_FILE, Front)
+    if front is not None and front.deaths and not (folder / hears_file(front.deaths)).exists():
+        leave_stop(folder)
+
+
 def take_stop(folder: Path) -> bool:
     """Whether people said stop, and nobody has heeded it; from here on somebody has."""
     try:

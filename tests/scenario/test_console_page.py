@@ -182,3 +182,24 @@ def test_the_picture_stands_as_mujoco_has_it(browser, shell):
         there = data.body(one.id)
         np.testing.assert_allclose(matrix[:3, 3], there.xpos, atol=1e-4, err_msg=one.id)
         np.testing.assert_allclose(matrix[:3, :3], there.xmat.reshape(3, 3), atol=1e-4)
+
+
+def test_a_body_of_no_parent_is_drawn_and_a_broken_picture_stops_nothing(browser, shell):
+    with served(shell.folder) as console:
+        page = browser.page(console.url)
+        page.wait("page.drawn > 0 && page.steers")
+        page.eval(
+            "page.scene.bodies.find((one, n) => one.role === 'robot' && n !== page.scene.base)"
+            ".parent = undefined; page.dirty = true"
+        )
+        drawn = page.eval("page.drawn")
+        page.wait(f"page.drawn > {drawn}")
+        assert page.mistakes() == []
+        page.eval(
+            "(() => { const draw = drawing.draw; page.dirty = true; drawing.draw = () => {"
+            "drawing.draw = draw; throw new Error('no picture'); }; })()"
+        )
+        page.wait("page.problem === 'no picture'")
+        page.eval("page.dirty = true")
+        drawn = page.eval("page.drawn")
+        page.wait(f"page.drawn > {drawn}")

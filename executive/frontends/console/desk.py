@@ -20,6 +20,7 @@ import msgspec
 
 from executive.frontends.line_server import LineServer, is_own
 from executive.frontends.output import as_mistake
+from executive.frontends.printer import Printer
 from robot.closing import Closing
 from robot.errors import RobotError
 from robot.printable import printable_line
@@ -118,7 +119,9 @@ class Desk(Closing):
             most_clients=MOST_CLIENTS,
             longest=MAX_ORDER,
         )
-        self._out, shell.out = shell.out, self._tee(shell.out)
+        self._out = shell.out
+        self._printer = Printer(shell.out)  # a terminal that is full keeps no stop back
+        shell.out = self._tee(self._printer)
         _write(folder / FILE, Place(socket=str(self._path)))
         threading.Thread(target=self._look, name="desk", daemon=True).start()
 
@@ -128,6 +131,7 @@ class Desk(Closing):
             return
         self._closing.set()
         self._shell.out = self._out
+        self._printer.close()
         with suppress(OSError):
             (self._folder / FILE).unlink(missing_ok=True)
         self._server.close()
@@ -167,7 +171,7 @@ class Desk(Closing):
             if order.do:
                 self._press(order.do)
             elif order.line.strip():
-                self._take(order.line[:MAX_LINE])
+                self._take(order.line)
         except RobotError as error:
             self._shell.out(f"Not done: {error}")
         except Exception as error:
@@ -187,9 +191,11 @@ class Desk(Closing):
     def _take(self, text: str) -> None:
         """A line: a stop and a halt act here, whatever else is being worked off."""
         shell, stops = self._shell, self._shell.stops
+        stopped = shell.stop_at_once(text)  # first of all, of the whole of it
+        text = text[:MAX_LINE]
         self._server.tell(_news(you=text))
-        self._out(f"(page) > {printable_line(text)}")
-        if shell.stop_at_once(text):
+        self._printer(f"(page) > {printable_line(text)}")
+        if stopped:
             return
         if text.strip().casefold() in LEAVING:
             shell.out("That is for the terminal; the page is just closed.")

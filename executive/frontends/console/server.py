@@ -248,10 +248,8 @@ class PageServer:
                 continue
             if wish.do or wish.line:
                 order = Order(do=wish.do, line=wish.line)
-                if self.show is None or not self.show.steering.open:
+                if self.show is None or not self.show.steering.send(order):
                     await connection.send(_json({"word": {"out": NOBODY}}), text=True)
-                else:
-                    self.show.steering.send(order)
             elif self.show is not None:
                 at = None if wish.at is None else self.show.following.run
                 if at is not None and wish.at is not None:
@@ -322,9 +320,10 @@ class Viewer:
             self._live = show.live
             news.append(b'"live":' + _json(show.live))
         steering = show.steering
-        if steering.open is not self._steers:
-            self._steers = steering.open
-            news.append(b'"steers":' + _json(steering.open))
+        steers = steering.reaches
+        if steers is not self._steers:
+            self._steers = steers
+            news.append(b'"steers":' + _json(steers))
         if steering.asks != self._asks:
             self._asks = steering.asks
             news.append(b'"asks":' + steering.asks)

@@ -1,10 +1,15 @@
-"""The console's end of the desk: hands on what pages want, and brings back what is answered."""
+"""The console's end of the desk: hands on what pages want, and brings back what is answered.
+
+A stop is not lost to an executive that dies: until it is answered it is left for the one that takes
+over, as `humanoid stop` does (`robot.bringup.mailbox`), and said to it again.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import os
 import stat
+import time
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
@@ -13,9 +18,14 @@ from pathlib import Path
 import msgspec
 
 from executive.frontends.console.desk import FILE, Order, Place
+from intents.stopping import is_stop
+from robot.bringup import mailbox
 from robot.ordinary_files import read_secret
 
 AGAIN_S = 0.3
+CRIES = ("stop", "estop")
+TAKE_OVER_S = 60.0
+"""So long a stop waits for an executive that takes over."""
 MAX_ANSWER = 1 << 20
 MOST_WORDS = 300
 """What was answered, the newest; a page that comes later is told that much."""
@@ -38,6 +48,16 @@ class Steering:
         self.asks = b""
         self._folder = folder
         self._writer: asyncio.StreamWriter | None = None
+        self._private: Path | None = None
+        self._cry: tuple[float, Order] | None = None
+
+    @property
+    def reaches(self) -> bool:
+        """Whether a stop arrives, be it at an executive that only takes over."""
+        if self.open:
+            return True
+        private = self._private
+        return private is not None and private.is_dir() and _place(self._folder) is not None
 
     @property
     def open(self) -> bool:
@@ -45,10 +65,23 @@ class Steering:
         return self._writer is not None and not self._writer.is_closing()
 
     def send(self, order: Order) -> bool:
-        """Hand on an order at once; whether there is anybody to take it."""
+        """Hand on an order at once; whether there is anybody to take it, now or soon."""
+        cried = order.do in CRIES or is_stop(order.line)
+        if cried and self.reaches:
+            self._cry = (time.monotonic(), order)
         if self._writer is None or not self.open:
-            return False
+            return self._cried_again()
         self._writer.write(msgspec.json.encode(order) + b"\n")
+        return True
+
+    def _cried_again(self) -> bool:
+        """Leave a stop that was not answered for the executive that takes over, if one may."""
+        if self._cry is None or self._private is None:
+            return False
+        if not self.reaches or time.monotonic() > self._cry[0] + TAKE_OVER_S:
+            self._cry = None
+            return False
+        mailbox.leave_stop_for_next(self._private)
         return True
 
     async def work(self) -> None:
@@ -57,6 +90,7 @@ class Steering:
             with suppress(OSError, ValueError, asyncio.IncompleteReadError):
                 await self._converse()
             self._writer = None
+            self._cried_again()
             await asyncio.sleep(AGAIN_S)
 
     async def _converse(self) -> None:
@@ -65,6 +99,9 @@ class Steering:
             return
         reader, writer = await asyncio.open_unix_connection(path, limit=MAX_ANSWER)
         self._writer = writer
+        self._private = Path(path).parent
+        if self._cry is not None:
+            writer.write(msgspec.json.encode(self._cry[1]) + b"\n")
         try:
             while line := await reader.readline():
                 self._take(line.strip())
@@ -76,6 +113,8 @@ class Steering:
         if "asks" in news:
             self.asks = bytes(news["asks"])
             return
+        if "out" in news:
+            self._cry = None
         told = {"t_s": round(self._now_s(), 3), **news}
         self.words.append(msgspec.json.encode({"word": told}))
         self.count += 1

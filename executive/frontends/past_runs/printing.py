@@ -50,7 +50,10 @@ def history(*, count: int, as_json: bool, everywhere: bool = False) -> int:
         as_json: for programs.
         everywhere: those of every folder in which something was run.
     """
-    known = past_runs.runs(places=places.everywhere() if everywhere else ())
+    beside = places.outside(anywhere=everywhere)
+    known = past_runs.runs(
+        places=places.everywhere() if everywhere else places.all_places(), beside=beside
+    )
     shown = [past_runs.look(folder) for folder in known[-count:]]
     if as_json:
         write_json(shown)

@@ -42,7 +42,7 @@ def prune(
     if keep is None and older_than_days is None:
         cure = "say --keep 20, or --older-than 30"
         raise ConfigError([Problem("it is not said which runs may go", suggestion=cure)])
-    known = past_runs.runs(places=places.everywhere() if everywhere else ())
+    known = past_runs.runs(places=places.everywhere() if everywhere else places.all_places())
     old = chosen(known, keep=keep or 0, older_than_days=older_than_days, now_s=time.time())
     free = [folder for folder in old if _why_not(folder) == ""]
     _tell_kept([folder for folder in old if folder not in free])

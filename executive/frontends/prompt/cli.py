@@ -32,7 +32,7 @@ from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
-from executive.frontends.prompt.typed import asks_to_stop, typed_ahead
+from executive.frontends.prompt.typed import Ahead
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.journal.journal import Event, Journal
@@ -79,13 +79,10 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
     """
     on_terminal = sys.stdin.isatty() and sys.stdout.isatty()
     taking_over = under_way(handle) is not None
-    ahead = typed_ahead(sys.stdin) if on_terminal and taking_over else b""
+    ahead = Ahead(sys.stdin) if on_terminal and taking_over else None
     aloud = speaking.able(wanted=options.aloud, model=options.voice_model)
     with speaking.opened(wanted=aloud, model=options.voice_model) as speech:
-        stopped = asks_to_stop(ahead)
-        with conversation(
-            options, "prompt", handle=handle, speech=speech, stopped=stopped
-        ) as shell:
+        with conversation(options, "prompt", handle=handle, speech=speech, ahead=ahead) as shell:
             if on_terminal:
                 return _at_terminal(shell, options, handle, ahead)
             interrupts = shell.robot.interrupts
@@ -100,7 +97,7 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
 in_executive = from_plain_options(Begun, prompt)
 
 
-def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None, ahead: bytes) -> int:
+def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None, ahead: Ahead | None) -> int:
     """Prompt on a terminal until the person leaves; returns the exit status."""
     from executive.frontends.prompt.terminal import Terminal
 
@@ -110,7 +107,8 @@ def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None, ahead: by
     kind = "fast" if handle is None else "live"
     say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
     history = Path(os.path.expanduser(HISTORY))  # noqa: PTH111 - without a home it stays as it is
-    Terminal(shell, history=history if history.is_absolute() else None, ahead=ahead).run()
+    typed = ahead.take() if ahead is not None else b""
+    Terminal(shell, history=history if history.is_absolute() else None, ahead=typed).run()
     shell.speech.hush()
     if shell.gone:
         return ExitStatus.BROKEN
@@ -125,7 +123,7 @@ def conversation(
     *,
     handle: Handle | None = None,
     speech: Speech,
-    stopped: bool = False,
+    ahead: Ahead | None = None,
     out: Callable[[str], None] = say,
 ) -> Generator[Shell]:
     """A robot to talk to, and what comes of what is said.
@@ -135,7 +133,7 @@ def conversation(
         about: what the run's folder is called by.
         handle: of a live robot.
         speech: says aloud what is for ears.
-        stopped: whether people said stop before this executive took over.
+        ahead: what people type until the prompt reads that; a stop is heard from here on.
         out: says a line to people.
 
     Raises:
@@ -162,8 +160,8 @@ def conversation(
         if under_way(handle) is not None:  # a stop comes before what is gone on with
             stack.enter_context(robot.interrupts.listen())
             hear_people(handle, robot.interrupts)
-            if stopped:
-                robot.interrupts.wish()
+            if ahead is not None:
+                ahead.hear(robot.interrupts.wish)
             stack.enter_context(robot)
         else:
             with Screen(err=True).status("starting the robot"):

@@ -6,6 +6,8 @@ import os
 import re
 import select
 import termios
+import threading
+from collections.abc import Callable
 from typing import TextIO
 
 from intents.letters import without_sequences
@@ -21,6 +23,7 @@ KEPT = 4096
 """Bytes of a line that are kept: a cry stands at its beginning or its end."""
 
 
+LOOK_S = 0.02
 MOST_AHEAD = 1 << 16
 """Bytes that are taken of what was typed while nobody read."""
 _REPORT = re.compile(rb"\x1b\[\d+;\d+R")
@@ -41,6 +44,48 @@ def typed_ahead(terminal: TextIO) -> bytes:
     except (OSError, termios.error):
         pass
     return found
+
+
+class Ahead:
+    """What is typed before the prompt of an executive that takes over reads the keyboard itself.
+
+    That takes seconds on a busy machine, and the robot goes on meanwhile: a stop is heard at once.
+    """
+
+    def __init__(self, terminal: TextIO) -> None:
+        """Take what was typed by now."""
+        self._terminal = terminal
+        self._data = typed_ahead(terminal)
+        self._taken = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def hear(self, stop: Callable[[], None]) -> None:
+        """Follow what is typed from now on, in a thread; `stop` is called once, if it asks for it.
+
+        It is called here where that was typed already.
+        """
+        heard = asks_to_stop(self._data)
+        if heard:
+            stop()
+        follow = threading.Thread(target=self._follow, args=(stop, heard), daemon=True)
+        self._thread = follow
+        follow.start()
+
+    def take(self) -> bytes:
+        """All that was typed; from here on the prompt reads."""
+        self._taken.set()
+        if self._thread is not None:
+            self._thread.join()
+        self._data += typed_ahead(self._terminal)
+        return self._data
+
+    def _follow(self, stop: Callable[[], None], heard: bool) -> None:
+        while not self._taken.wait(LOOK_S) and len(self._data) < MOST_AHEAD:
+            more = typed_ahead(self._terminal)
+            self._data += more
+            if more and not heard and asks_to_stop(self._data):
+                heard = True
+                stop()
 
 
 def asks_to_stop(data: bytes) -> bool:

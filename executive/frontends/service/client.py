@@ -180,9 +180,4 @@ def leave_stop(place: Place) -> None:
     running = places.running(place)
     if running is None or not running.private:
         return
-    private = Path(running.private)
-    front = mailbox.read(private / mailbox.FRONT_FILE, mailbox.Front)
-    if front is None or not front.deaths:
-        return
-    if not (private / mailbox.hears_file(front.deaths)).exists():
-        mailbox.leave_stop(private)
+    mailbox.leave_stop_for_next(Path(running.private))

@@ -18,13 +18,14 @@ from executive.frontends import speaking
 from executive.frontends.launching import FrontEnd, from_plain_options, here, launch
 from executive.frontends.options import Prompt
 from executive.frontends.output import say
+from executive.frontends.printer import Printer
 from executive.frontends.prompt.cli import Begun, conversation, told
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.service import place as places
 from executive.frontends.service.counter import Counter
 from executive.frontends.service.options import Up
 from executive.frontends.service.place import Place, Running
-from executive.frontends.service.telling import Log, Printer
+from executive.frontends.service.telling import Log
 from executive.journal.journal import Event
 from robot.bringup.mailbox import Handle
 from robot.exit_status import ExitStatus

@@ -142,6 +142,16 @@ INDEXES = [
         "outside": f"{OUTSIDE}\n", "many": "/\n" * 100_000, "dev": "/dev\n/proc/self\n",
     }.items()
 ]  # fmt: skip
+INDEXES += [
+    Case(name=f"outside-{name}-{argv[0]}{len(argv)}", argv=argv, files={"s/humanoid/outside.txt": content},
+         environment={"XDG_STATE_HOME": f"{WORK}/s"}, expect=Expect.ENDS)
+    for name, content in {
+        "fifo": fifo, "zero": link("/dev/zero"), "bytes": b"\xff\n[\n\x00\n", "huge": sparse(10 << 30),
+        "deep": "[" * 100_000 + "\n", "escape": f'["{WORK}", "/{QUOTED}"]\n',
+        "secret": f'["{WORK}", "{OUTSIDE}/tree"]\n', "many": f'["{WORK}", "/proc/self"]\n' * 9_000,
+    }.items()
+    for argv in (("history",), ("history", "--everywhere"), ("why",))
+]  # fmt: skip
 PRUNED = [
     Case(name=f"prune-{number}", argv=("runs", "prune", *words),
          files={"runs/a/journal.jsonl": ""}, says=("--",))

@@ -71,7 +71,7 @@ function matricesAt(scene, motion, t, resting) {
   scene.bodies.forEach((body, place) => {
     if (body.role === "robot") {
       if (place === scene.base) { found[place] = matrixOf(base || body.X_PB); return; }
-      let m = times(body.parent < 0 ? matrixOf(UNIT) : found[body.parent], resting[place]);
+      let m = times(!(body.parent >= 0) ? matrixOf(UNIT) : found[body.parent], resting[place]);
       for (const joint of body.joints || []) if (joint.motor >= 0) m = times(m, jointMatrix(joint, joint.gain * (q[joint.motor] || 0)));
       found[place] = m;
     } else if (body.role === "object" || body.role === "person") {

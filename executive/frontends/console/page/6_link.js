@@ -2,7 +2,6 @@
 // Neither side tells the token; each shows the other that it knows it (proof.py).
 
 const AGAIN_MS = [300, 700, 1500, 3000];
-const SILENT_MS = 25000;
 
 const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString(16).padStart(2, "0")).join("");
 

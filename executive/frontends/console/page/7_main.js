@@ -23,6 +23,7 @@ function taken(news) {
   if (news.live !== undefined) { page.over = page.live === true && !news.live; page.live = news.live; page.dirty = true; panels.all(); }
   for (const key of Object.keys(parts)) if (key in news) { parts[key] = news[key]; panels.soon(key); }
   if (news.then && !page.now) { page.then = news.then; panels.all(); }
+  if (news.word && news.word.out !== undefined) clearTimeout(page.unanswered);
   if (news.word) panels.answer(news.word);
   if (news.asks !== undefined) { page.asks = news.asks; panels.asking(); }
 }
@@ -270,7 +271,13 @@ function frame(ms) {
     page.dirty = true;
   }
   const due = ms - (page.pictured || 0) >= (drawing && drawing.slow && !fingers.size ? SLOW_MS : 0);
-  if (page.scene && drawing && due && (page.dirty || drawing.resize()) && !document.hidden) { page.pictured = ms; picture(ms); }
+  if (page.scene && drawing && due && (page.dirty || drawing.resize()) && !document.hidden) {
+    page.pictured = ms;
+    try { picture(ms); } catch (error) { // what cannot be drawn stops neither time nor STOP
+      if (page.problem !== error.message) console.error(error);
+      page.problem = error.message;
+    }
+  }
   requestAnimationFrame(frame);
 }
 
@@ -313,16 +320,19 @@ function order(text) {
   if (!link.send({ line: text })) panels.answer({ out: "Not sent: there is no connection." });
 }
 
+const ANSWER_MS = 3000;
 function stop() {
+  clearTimeout(page.unanswered);
   const sent = link.send({ do: "stop" });
   $("stop").classList.add("sent");
   setTimeout(() => $("stop").classList.remove("sent"), 600);
   if (!sent) panels.answer({ out: "STOP was not sent: there is no connection. Use Ctrl-C in the robot's terminal." });
+  else page.unanswered = setTimeout(() => panels.answer({ out: "STOP was not answered yet. Use Ctrl-C in the robot's terminal." }), ANSWER_MS);
 }
 
 $("stop").addEventListener("pointerdown", (event) => { event.preventDefault(); stop(); });
 $("stop").addEventListener("click", (event) => { if (event.detail === 0) stop(); }); // by keyboard
-for (const button of document.querySelectorAll("[data-do]")) button.onclick = () => link.send({ do: button.dataset.do });
+for (const button of document.querySelectorAll("[data-do]")) button.onclick = () => { if (!link.send({ do: button.dataset.do })) panels.answer({ out: "Not sent: there is no connection." }); };
 $("order").onsubmit = (event) => {
   event.preventDefault();
   const text = $("line").value.trim();

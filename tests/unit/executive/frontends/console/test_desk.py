@@ -228,3 +228,24 @@ def test_the_desk_of_an_executive_that_died_is_taken_over(told, folder):
     with Desk(told, folder=folder, private=private):
         Client(folder).order(do="stop")
         until(lambda: told.stops == 1)
+
+
+def test_a_terminal_that_shows_nothing_any_more_keeps_no_stop_back(told, folder):
+    shown = threading.Event()
+    told.out = lambda _: shown.wait(HANG_S)
+    private = folder / "private"
+    private.mkdir()
+    with Desk(told, folder=folder, private=private):
+        client = Client(folder)
+        client.order(line="go to the table")
+        client.order(line="stop")
+        until(lambda: "stop" in told.did)
+        client.order(do="stop")
+        until(lambda: told.did.count("stop") == 2)
+        shown.set()
+
+
+def test_a_stop_is_heard_in_a_line_that_is_too_long(desk, told, folder, monkeypatch):
+    monkeypatch.setattr(told, "stop_at_once", lambda text: told.did.append(text[-4:]) or True)
+    Client(folder).order(line=f"{'and ' * desks.MAX_LINE}"[: desks.MAX_ORDER // 2] + "stop")
+    until(lambda: told.did == ["stop"])
