@@ -236,3 +236,10 @@ def test_a_recording_that_is_gone_ends_a_live_run_and_is_no_crash(tmp_path):
     plain = msgspec.to_builtins(options, enc_hook=str)
     with pytest.raises(ConfigError, match="gone"):
         obeying.in_executive(None, plain)
+
+
+def test_it_listens_in_the_reality_that_is_asked_for(humanoid, told, tmp_path):
+    file = told("say welcome home")
+    arguments = ("--fast", "--reality", "real", "--run-dir", "run")
+    assert humanoid("listen", "--file", file, *arguments)[0] == 0
+    assert journal(tmp_path / "run")[0]["reality"] == "real"

@@ -14,6 +14,11 @@ from robot.model.description import Foot
 from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
+STILL_M = 0.03
+STILL_RAD = 0.06
+"""Feet that come to a stand may be so far from square: with loose gears (`real`) a step lands as
+far off, and half as much cost a step or two more."""
+
 
 class Sole(msgspec.Struct, frozen=True):
     """A planted sole."""
@@ -121,7 +126,7 @@ class FootstepPlanner:
         if isinstance(wish, Twist):
             if (wish.forward_m_s, wish.left_m_s, wish.turn_rad_s) != (0.0, 0.0, 0.0):
                 return False
-            tolerance_m, tolerance_rad = 0.015, 0.03
+            tolerance_m, tolerance_rad = STILL_M, STILL_RAD
         else:
             tolerance_m, tolerance_rad = wish.position_tolerance_m, wish.yaw_tolerance_rad
             dx, dy, turn = middle.relative(wish.stance)

@@ -30,8 +30,8 @@ FOOT, FOOT_TURN = (LEFT, RIGHT), (LEFT_TURN, RIGHT_TURN)
 LEVEL_EVERY_S = 0.05
 """Flatness and height of the soles are told once in that time: they change slowly."""
 MOST_BEHIND_S = 0.01
-"""So long the covariance may lag behind the state, which costs a tenth to integrate; over 10 ms
-nothing in it changes (`python -m benchmarks.imu_offsets`)."""
+"""So long the covariance may lag behind the state: integrating the state costs a tenth as much. A
+correction comes every 10 ms, which catches up; longer it lags only where no foot stands."""
 
 
 def _leg_rows(foot: slice, turn: slice) -> Array:
