@@ -73,12 +73,13 @@ class Simulation:
         file: str,
         rooms: int | None = None,
         things: int | None = None,
+        is_lived_in: bool = False,
     ) -> Home:
         """Make a home. Raises ConfigError for an unknown kind, and where none is that large."""
         from sim.homes.home import Size
         from sim.homes.made import made
 
-        return made(kind, seed, file=file, size=Size(rooms, things))
+        return made(kind, seed, file=file, size=Size(rooms, things), is_lived_in=is_lived_in)
 
     def cast(self, kind: str, *, seed: int) -> Cast:
         """Fill the roles of a campaign in a home. Raises ConfigError for an unknown kind."""

@@ -112,7 +112,8 @@ class WorldModel:
                 continue
             side, X_GO = hold
             hand, seen = hands.get(side), name in self._just_seen
-            if hand is not None and _fits(hand, shape) and not (seen and _is_far(hand, track.X_WO)):
+            holds = hand is not None and _fits(hand, shape, X_GO)
+            if hand is not None and holds and not (seen and _is_far(hand, track.X_WO)):
                 self._holds[name] = hold
                 X_WO = hand.X_WG @ X_GO
                 self._tracks[name] = msgspec.structs.replace(track, X_WO=X_WO, held_by=side)
@@ -164,15 +165,20 @@ def _place(
 def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE3] | None:
     """The hand that has an object between its fingers, and the object in it (X_GO)."""
     for side, hand in hands.items():
-        if _fits(hand, shape) and math.dist(hand.X_WG.p, X_WO.p) < hand.gripping.held_within_m:
-            return side, hand.X_WG.inverse() @ X_WO
+        X_GO = hand.X_WG.inverse() @ X_WO
+        if math.hypot(*X_GO.p) < hand.gripping.held_within_m and _fits(hand, shape, X_GO):
+            return side, X_GO
     return None
 
 
-def _fits(hand: Hand, shape: Shape) -> bool:
-    """Whether the fingers are as far apart as an object is wide (its longest side is not)."""
-    widths = sorted(shape.size_m)[:2]
-    return any(abs(hand.opening_m - width) < hand.gripping.gap_m for width in widths)
+def _fits(hand: Hand, shape: Shape, X_GO: SE3) -> bool:
+    """Whether the fingers, which close along y of G, are as far apart as an object is wide there.
+
+    Not along its other sides: an open hand around a box of 6 x 10 cm is as wide as it is deep.
+    """
+    across = np.abs((X_GO @ shape.X_BodyShape).rotation()[1])
+    width_m = shape.size_m[int(np.argmax(across))]
+    return abs(hand.opening_m - width_m) < hand.gripping.gap_m
 
 
 def _is_far(hand: Hand, X_WO: SE3) -> bool:

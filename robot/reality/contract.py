@@ -64,6 +64,7 @@ class Reality(Protocol):
         file: str,
         rooms: int | None = None,
         things: int | None = None,
+        is_lived_in: bool = False,
     ) -> Home:
         """Make a home, always the same of a kind and a seed.
 
@@ -73,6 +74,7 @@ class Reality(Protocol):
             file: the world's file, as the tasks name it.
             rooms: how many; None: as usual for the kind.
             things: how many; None: as usual.
+            is_lived_in: as untidy as where people live.
 
         Raises:
             ConfigError: there is no such kind, with the nearest name, or none of that size.

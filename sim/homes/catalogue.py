@@ -27,6 +27,7 @@ class PieceKind(Record, frozen=True, kw_only=True):
     Attributes:
         stands: with its back to a wall, free on the floor, or in a block of several, two and two
             back to back, each called by one of `names`.
+        boards_m: heights of a shelf's boards; empty: as many as `boards` are drawn within reach.
         chance: how likely the room has it.
     """
 
@@ -36,6 +37,7 @@ class PieceKind(Record, frozen=True, kw_only=True):
     name: str = ""
     synonyms: tuple[str, ...] = ()
     boards: int = 0
+    boards_m: tuple[float, ...] = ()
     color: str = ""
     movable: bool | None = None
     stands: Literal["wall", "free", "block"] = "wall"

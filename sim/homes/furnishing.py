@@ -25,8 +25,8 @@ FRONT_M = 0.85
 BESIDE_M = 0.04
 AISLE_M = 1.25
 """Around what stands free: a way, and somebody at work beside it."""
-LOWEST_M, HIGHEST_M, DEEPEST_M = 0.55, 1.15, 0.65
-"""Of what this robot reaches (docs/worlds.md)."""
+LOWEST_M, HIGHEST_M, DEEPEST_M = 0.55, 1.15, 0.90
+"""Of what this robot reaches (docs/worlds.md); what is deep it reaches from more than one side."""
 HOLDING = ("table", "counter", "shelf", "cabinet", "box")
 FACING: dict[Side, int] = {"north": -90, "east": 180, "south": 90, "west": 0}
 BOARDS_APART_CM = (28, 34)
@@ -215,9 +215,10 @@ def _sized(kind: PieceKind, rng: np.random.Generator) -> Furniture:
     depth, width, height = kind.size_m
     width = _round(width * rng.uniform(0.88, 1.12), 0.05)
     height = _round(height * rng.uniform(0.96, 1.04), 0.01)
-    boards: tuple[float, ...] = ()
-    if kind.boards:
+    boards = kind.boards_m
+    if kind.boards and not boards:
         boards = tuple(height_cm / 100 for height_cm in _boards_cm(kind.boards, rng))
+    if boards:
         has_roof = bool(rng.random() < 0.6)
         height = round(boards[-1] + (0.32 if has_roof else 0.0), 2)
     elif kind.kind in HOLDING and kind.size_m[2] <= HIGHEST_M:

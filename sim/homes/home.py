@@ -11,7 +11,7 @@ import numpy as np
 
 from robot.errors import ConfigError, Problem
 from sim.footprint import Point
-from sim.homes import choosing, layout
+from sim.homes import choosing, layout, lived_in
 from sim.homes.catalogue import HomeKind, Someone, home_kind, stock
 from sim.homes.draws import shuffled
 from sim.homes.furnishing import furnished
@@ -55,13 +55,20 @@ class Size(msgspec.Struct, frozen=True):
 
 
 @lru_cache(maxsize=16)  # making one takes up to 3 s, and a campaign asks for each many times
-def home(kind_name: str, seed: int, size: Size = Size()) -> Home:  # noqa: B008, it is frozen
+def home(
+    kind_name: str,
+    seed: int,
+    size: Size = Size(),  # noqa: B008, it is frozen
+    *,
+    is_lived_in: bool = False,
+) -> Home:
     """Make a home; nobody changes it afterwards.
 
     Args:
         kind_name: one of `sim.homes.catalogue.names()`.
         seed: of all that is drawn.
         size: of how many rooms and things.
+        is_lived_in: as untidy as where people live (`sim.homes.lived_in`).
 
     Raises:
         ConfigError: there is no such kind, none of that size, or no home of it was found for this
@@ -70,8 +77,9 @@ def home(kind_name: str, seed: int, size: Size = Size()) -> Home:  # noqa: B008,
     kind = home_kind(kind_name)
     _check(kind, kind_name, size)
     for attempt in range(TRIES):
-        rng = np.random.default_rng([seed, zlib.crc32(kind_name.encode()), attempt])
-        made = _attempt(kind, f"{kind_name}_{seed}", rng, size)
+        entropy = [seed, zlib.crc32(kind_name.encode()), attempt, *[1] * is_lived_in]
+        rng = np.random.default_rng(entropy)
+        made = _attempt(kind, f"{kind_name}_{seed}", rng, size, is_lived_in=is_lived_in)
         if made is not None:
             return made
     cure = "take another seed" if size == Size() else "take another seed, more rooms, fewer things"
@@ -86,24 +94,30 @@ def _check(kind: HomeKind, name: str, size: Size) -> None:
         raise ConfigError([Problem(f"{size.things} things cannot be had", suggestion=cure)])
 
 
-def _attempt(kind: HomeKind, name: str, rng: np.random.Generator, size: Size) -> Home | None:
+def _attempt(
+    kind: HomeKind, name: str, rng: np.random.Generator, size: Size, *, is_lived_in: bool
+) -> Home | None:
     """One draw; None if not everything in it can be reached, or not all that is wanted is there."""
+    kind = lived_in.of_kind(kind, rng) if is_lived_in else kind
     chosen = choosing.chosen(kind, rng, count=size.rooms)
     rooms = layout.rooms(chosen, rng)
     kinds = {room.id: room for room in chosen.rooms}
     furniture = furnished(rooms, [kinds[room.id] for room in rooms], rng)
     world = World(name=name, rooms=rooms, furniture=furniture)
+    world = lived_in.with_chairs(world, rng) if is_lived_in else world
     ground = Ground(world)
     people = _people(world, ground, rng)
     if not people:
         return None
+    people = lived_in.in_a_doorway(world, people, rng) if is_lived_in else people
     world = msgspec.structs.replace(world, people=people)
     reached = surfaces(world, ground)
     spots = _spots(kind, world, ground, rng)
-    start = _start(world, spots, ground, rng)
+    room_m, most_m = lived_in.CLOSE_M if is_lived_in else (STANDING_ROOM_M, math.inf)
+    start = _start(world, spots, ground, rng, room_m=room_m, most_m=most_m)
     if len(reached) < LEAST_SURFACES or not spots or start is None:
         return None
-    objects = stocked(kind, reached, rng, count=size.things)
+    objects = stocked(kind, reached, rng, count=size.things, is_lived_in=is_lived_in)
     goods = {good.category: good for good in stock().goods}
     plurals = {item.category: goods[item.category].plural for item in objects}
     world = msgspec.structs.replace(
@@ -164,10 +178,16 @@ def _spots(
 
 
 def _start(
-    world: World, spots: tuple[Spot, ...], ground: Ground, rng: np.random.Generator
+    world: World,
+    spots: tuple[Spot, ...],
+    ground: Ground,
+    rng: np.random.Generator,
+    *,
+    room_m: float,
+    most_m: float,
 ) -> Start | None:
     apart = [p.at_m for p in world.people] + [spot.at_m for spot in spots]
-    at = _free(ground, rng, room_m=STANDING_ROOM_M, apart=apart)
+    at = _free(ground, rng, room_m=room_m, apart=apart, most_m=most_m)
     return None if at is None else Start(at_m=at, yaw_deg=float(5 * rng.integers(-35, 37)))
 
 

@@ -8,15 +8,23 @@ from sim.homes.tasks import tasks
 from sim.homes.writing import tasks_yaml, world_yaml
 
 
-def made(kind: str, seed: int, *, file: str, size: Size = Size()) -> Home:  # noqa: B008, it is frozen
+def made(
+    kind: str,
+    seed: int,
+    *,
+    file: str,
+    size: Size = Size(),  # noqa: B008, it is frozen
+    is_lived_in: bool = False,
+) -> Home:
     """Make a home; `file` is how its tasks name its world. Raises ConfigError as `home`."""
-    found = home(kind, seed, size)
+    found = home(kind, seed, size, is_lived_in=is_lived_in)
     by = f"humanoid worlds new --kind {kind} --seed {seed}"
     by += "".join(
         f" --{name} {count}"
         for name, count in (("rooms", size.rooms), ("things", size.things))
         if count is not None
     )
+    by += " --lived-in" * is_lived_in
     return Home(
         world=world_yaml(found, head=f"A home made by `{by}`; docs/worlds.md says what is what."),
         tasks=tasks_yaml(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import msgspec
 import numpy as np
 
+from sim.homes import lived_in
 from sim.homes.catalogue import Good, HomeKind, stock
 from sim.homes.draws import one_of, shuffled
 from sim.homes.surfaces import DEEP_M, RIM_M, Surface
@@ -45,6 +46,7 @@ def stocked(
     rng: np.random.Generator,
     *,
     count: int | None = None,
+    is_lived_in: bool = False,
 ) -> tuple[Object, ...]:
     """Things, each with a spot, reachable; no two share colour and category, or a name.
 
@@ -53,6 +55,7 @@ def stocked(
         surfaces: to put them on.
         rng: of what is drawn.
         count: how many are wanted (fewer where they find no room); None: as usual.
+        is_lived_in: some of them lie on their side.
     """
     there: dict[str, list[Object]] = {surface.place.id: [] for surface in surfaces}
     found: list[Object] = []
@@ -69,6 +72,7 @@ def stocked(
                 id=name, category=good.category, color=color, shape=good.shape, size_m=size,
                 mass_kg=mass_kg, on="", synonyms=good.synonyms if most == 1 else (),
             )  # fmt: skip
+            bare = lived_in.on_its_side(bare, rng) if is_lived_in else bare
             usual = kind.goods.get(good.category, ())
             item = _put(bare, usual, surfaces, there, rng, full_per_m=full_per_m)
             if item is not None:
@@ -137,7 +141,7 @@ def _put(
         else:
             at, gap_m = _anywhere(item, surface, rng), APART_M
         if surface.takes(item, at, others, gap_m=gap_m):
-            yaw = float(5 * rng.integers(-4, 5)) if item.shape == "box" else 0.0
+            yaw = float(5 * rng.integers(-4, 5)) if item.shape == "box" else item.yaw_deg
             return msgspec.structs.replace(item, on=surface.place.id, at_m=at, yaw_deg=yaw)
     return None
 

@@ -44,6 +44,14 @@ def new(
         int | None,
         typer.Option("--things", min=9, max=400, help="How many things (default: as usual)."),
     ] = None,
+    lived_in: Annotated[
+        bool,
+        typer.Option(
+            "--lived-in",
+            help="Chairs drawn up, deep tables, odd boards, things on their side and flat ones, "
+            "somebody in a doorway.",
+        ),
+    ] = False,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -68,9 +76,19 @@ def new(
       humanoid worlds new --kind clinic            (print it)
 
       humanoid worlds new --kind clinic --rooms 12 --things 300 --out large.yaml
+
+      humanoid worlds new --kind flat --seed 7 --lived-in --out mine.yaml --tasks mine.tasks.yaml
     """
     from executive.frontends.worlds import commands
 
     raise typer.Exit(
-        commands.new(kind, seed=seed, output=output, tasks=tasks, rooms=rooms, things=things)
+        commands.new(
+            kind,
+            seed=seed,
+            output=output,
+            tasks=tasks,
+            rooms=rooms,
+            things=things,
+            lived_in=lived_in,
+        )
     )

@@ -52,6 +52,7 @@ def new(
     tasks: Path | None,
     rooms: int | None = None,
     things: int | None = None,
+    lived_in: bool = False,
 ) -> int:
     """Make a home, and print it or write it down with its tasks.
 
@@ -68,7 +69,14 @@ def new(
     for path in (output, tasks):
         if path is not None:
             _check(path)
-    home = REALITY.home(kind, seed=seed, file=_named(output, tasks), rooms=rooms, things=things)
+    home = REALITY.home(
+        kind,
+        seed=seed,
+        file=_named(output, tasks),
+        rooms=rooms,
+        things=things,
+        is_lived_in=lived_in,
+    )
     if output is None:
         write(home.world)
         return ExitStatus.DONE

@@ -2,6 +2,7 @@
 
 import math
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -141,6 +142,17 @@ def test_what_the_fingers_close_on_goes_with_the_hand_and_is_never_missing(model
         model.see(seen(k, None), X_WC, depth())
     assert not cup(model).missing
     assert cup(model).seen_s == 0.0
+
+
+def test_a_hand_open_around_the_narrow_side_of_a_box_does_not_hold_it(model):
+    box = Shape(kind="box", size_m=(0.10, 0.06, 0.10))
+    model.know((msgspec.structs.replace(CUP, shape=box),))
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    X_WO = cup(model).X_WO
+    model.feel({"right": Hand(X_WO, 0.10, GRIPPING)})
+    assert cup(model).held_by is None, "fingers open along its 6 cm"
+    model.feel({"right": Hand(X_WO, 0.06, GRIPPING)})
+    assert cup(model).held_by == "right"
 
 
 @pytest.mark.parametrize("opening_m", [0.0, 0.105])
