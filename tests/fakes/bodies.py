@@ -7,12 +7,25 @@ from pathlib import Path
 
 import msgspec
 import mujoco
+import pytest
 from msgspec.structs import asdict, replace
 
+from robot.errors import ConfigError
 from robot.model import description
 from robot.model.description import RobotDescription
 
 JUNO = description.load()
+
+
+def shipped_or_skip(name: str) -> str:
+    """The name of a robot that comes along, where the published model that it may need is here."""
+    try:
+        description.load(name)
+    except ConfigError as error:
+        if name == "juno":
+            raise
+        pytest.skip(f"no model of the {name} here: {error}")
+    return name
 
 
 def handless() -> RobotDescription:

@@ -5,28 +5,18 @@ import math
 import pytest
 
 from benchmarks.rig import Rig
-from robot.errors import ConfigError
 from robot.messages import Grip, Look, MoveArm, Stand, Walk
-from robot.model import description
 from robot.se3 import SE3
 from tests.fakes import bodies
 
 VARIANTS = ("handless", "neckless", "smaller")
 
 
-def g1_or_skip() -> str:
-    try:
-        description.load("g1")
-    except ConfigError as error:
-        pytest.skip(f"no model of the G1 here: {error}")
-    return "g1"
-
-
 @pytest.fixture(scope="module")
 def robot(request, tmp_path_factory) -> str:
     """The file of a body, or its name."""
     if request.param == "g1":
-        return g1_or_skip()
+        return bodies.shipped_or_skip(request.param)
     folder = tmp_path_factory.mktemp(request.param)
     variant = {
         "handless": lambda _: bodies.handless(),

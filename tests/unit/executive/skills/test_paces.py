@@ -9,6 +9,7 @@ from executive.skills.gesture import Gesture, GestureKind, GestureParams
 from robot.messages import WorldMap
 from robot.model.description import load
 from robot.se3 import SE3
+from tests.fakes.bodies import shipped_or_skip
 
 
 class Outlook:
@@ -21,7 +22,7 @@ class Outlook:
     )  # fmt: skip
 
     def __init__(self, name: str):
-        self.robot = load(name)
+        self.robot = load(shipped_or_skip(name))
 
     def place_of(self, _object_id: str) -> None:
         return None
