@@ -6,23 +6,18 @@ grammar. What the grammar understands is checked against what is known to be the
 
 import time
 from collections.abc import Callable
-from typing import NamedTuple
 
 from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.context import Context, answered, completed
-from intents.english.learnt.passing import remainders
-from intents.english.learnt.rewording import reworded
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
-    Offered,
     Partly,
     ReadingError,
     Unasked,
     Unclear,
-    Unpromised,
     Unread,
     listing,
 )
@@ -44,10 +39,10 @@ from intents.grounding import (
     queries,
 )
 from intents.languages import language_of, only_english
-from intents.outcomes import YES_OR_NO, Choice, Goals, Outcome, Question, Refusal
+from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
+from intents.second_look import Attempt, just_that, remarked, second_look
 from intents.stopping import is_stop
 from intents.vocabulary import Vocabulary
-from intents.wording import in_words
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
@@ -57,7 +52,6 @@ _ONE_OF = lexicon.words("one a an any either which")
 _ASKING = lexicon.words(
     "what which who whose whom where when why how is are am was were do does did can have has"
 )
-_ASKING_WHETHER = lexicon.words("is are am was were do does did have has")
 ANSWERED = (
     "I can say where things are, what I hold, see and do, how long it takes, and why I stopped."
 )
@@ -213,90 +207,46 @@ def _second_opinion(
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
-class _Reading(NamedTuple):
-    """What the grammar makes of a text, and the error if it makes no sense of it."""
-
-    outcome: Outcome
-    after: Context
-    error: ReadingError | None = None
-
-
 def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
-    """What the grammar makes of a text, if need be without background or in plainer words."""
-    whole = _as_it_stands(text, vocabulary, context)
-    if whole.error is None or isinstance(whole.error, Unasked | Offered | Unpromised):
-        return whole.outcome, whole.after
-    index = index_of(vocabulary)
-    doubtful: list[_Reading] = []
-    rests = remainders(text, index)
-    for rest in rests:
-        read_ = _as_it_stands(rest.text, vocabulary, context)
-        if isinstance(read_.outcome, Goals):
-            if rest.sure:
-                return _remarked(read_.outcome, f"I pass over {rest.passed}"), read_.after
-            doubtful.append(_asked_about(text, read_, f"I pass over {rest.passed}"))
-    if isinstance(whole.error, Unread):
-        plain = reworded(rests[-1].text if rests else text, index)
-        read_ = _as_it_stands(plain.text, vocabulary, context) if plain else whole
-        if plain and isinstance(read_.outcome, Goals):
-            asks = tokenize(text)[0].text in _ASKING_WHETHER
-            if plain.sure and not asks and all(rest.sure for rest in rests):
-                return _remarked(read_.outcome, f"I take that as “{plain.text}”"), read_.after
-            doubtful.append(_asked_about(text, read_, "I did not get every word"))
-    best = whole if isinstance(whole.outcome, Question) or not doubtful else doubtful[0]
-    return best.outcome, best.after
+    """What a text asks for: read as it stands, without background, in plainer words."""
+    first = first_look(text, vocabulary, context)
+    found = second_look(
+        text, index_of(vocabulary), first, lambda said: first_look(said, vocabulary, context)
+    )
+    return found.outcome, found.after
 
 
-def _asked_about(text: str, reading: _Reading, reason: str) -> _Reading:
-    """A reading in doubt, as a question whether to do just that."""
-    goals = reading.outcome.goals if isinstance(reading.outcome, Goals) else ()
-    return reading._replace(outcome=_partly(text, Partly(reason, goals)))
-
-
-def _as_it_stands(text: str, vocabulary: Vocabulary, context: Context) -> _Reading:
+def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
     """What the grammar makes of every word of a text."""
     words = Text(text, vocabulary)
     if not any(w[0].isalnum() for w in words.words):
         nothing = "I heard nothing; say for example “bring me the cup”."
-        return _Reading(Refusal(reason=nothing), context)
+        return Attempt(Refusal(reason=nothing), context)
     scope = Scope(words.index, context.object, context.person, context.place)
     try:
         understood = read(words, scope, context.goals)
     except Partly as partly:
-        return _Reading(*_settled(_partly(text, partly), context, scope), partly)
+        return Attempt(*_settled(just_that(text, partly), context, scope), partly)
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
         kind = "choice" if choices else "missing"
         question = Question(
             question=str(unclear), choices=choices, text=text, said=unclear.said, kind=kind
         )
-        return _Reading(question, context, unclear)
+        return Attempt(question, context, unclear)
     except ReadingError as error:
         puzzled = not isinstance(error, Unasked)
         asks = isinstance(error, Unread) and words.word(0) in _ASKING
         hint = f" {ANSWERED}" if asks else ""
         refusal = Refusal(reason=f"{_sentence(str(error))}.{hint}", puzzled=puzzled)
-        return _Reading(refusal, context, error)
+        return Attempt(refusal, context, error)
     if not understood.goals:
-        return _Reading(Refusal(reason="I see nothing to do in that."), context)
+        return Attempt(Refusal(reason="I see nothing to do in that."), context)
     checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)
-        checked = _remarked(checked, *_corrected(words), *understood.remarks)
-    return _Reading(*_settled(checked, context, scope))
-
-
-def _partly(text: str, partly: Partly) -> Question:
-    """Ask whether to do what was understood, or what would help."""
-    just = "" if isinstance(partly, Offered) else "just "
-    return Question(
-        question=f"{_sentence(str(partly))}. Shall I {just}{in_words(partly.goals)}?",
-        choices=YES_OR_NO,
-        goals=partly.goals,
-        text=text,
-        kind="confirmation",
-        puzzled=not isinstance(partly, Offered | Unpromised),
-    )
+        checked = remarked(checked, *_corrected(words), *understood.remarks)
+    return Attempt(*_settled(checked, context, scope))
 
 
 def _settled(outcome: Outcome, context: Context, scope: Scope) -> tuple[Outcome, Context]:
@@ -319,12 +269,6 @@ def _corrected(words: Text) -> tuple[str, ...]:
     """Which words were corrected."""
     taken = ", ".join(f"“{said}” for “{meant}”" for said, meant in words.corrections)
     return (f"I took {taken}",) if taken else ()
-
-
-def _remarked(goals: Goals, *remarks: str) -> Goals:
-    """Say as well what was heard and changes nothing."""
-    told = [*filter(None, [(goals.reason or "").removesuffix(".")]), *remarks]
-    return replace(goals, reason=". ".join(told) + ".") if told else goals
 
 
 def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:

@@ -1,14 +1,15 @@
 """What the names of a sentence are to what it asks for, out of the goals that are meant."""
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from intents.english.learnt.looks import Said, said
-from intents.english.learnt.roles import NOTHING, OTHER, mentions
+from intents.english.learnt.roles import ASK, IDLE, NOTHING, SEVERAL, act_of, mentions
 from intents.english.words.names import NameIndex
 from training.marked import Marked
 
 _ME = "(me)"
-Roles = dict[str, str]
+Roles = list[tuple[str, str]]
+"""What each name is, in the order of the goals."""
 
 
 class Labelled(NamedTuple):
@@ -47,7 +48,7 @@ def _by_word(
     labels = [NOTHING] * len(words)
     told = [one for one in mentions(words, index) if one.start not in (idle or ())]
     used: set[int] = set()
-    for role, name in roles.items():
+    for role, name in roles:
         fits = [m for m in told if m.start not in used and (name in m.names or
                 (name == _ME and not m.names))]  # fmt: skip
         if not fits and name != _ME:
@@ -60,43 +61,52 @@ def _by_word(
 
 
 def _of_goals(gold: Any) -> tuple[str, Roles | None]:
-    """What one goal asks for and the name of each role; None if it is not to be said again."""
-    if gold == "ask":
-        return "ask", None
-    if isinstance(gold, str) or len(gold) != 1:
-        return OTHER, None
-    goal = gold[0]
-    kind = goal["goal"]
-    thing, person = goal.get("object") or {}, goal.get("person") or {}
+    """What is asked for, and the name of each role; None where roles have nothing to say."""
+    if isinstance(gold, str):
+        return (ASK if gold == "ask" else IDLE), None
+    told = [_roles(goal) for goal in gold]
+    roles = list(dict.fromkeys(pair for pairs in told for pair in pairs or ()))
+    act = act_of(gold[0]) if len(gold) == 1 else SEVERAL
+    return act, None if None in told else roles
+
+
+def _roles(goal: dict[str, Any]) -> Roles | None:
+    thing: dict[str, Any] = goal.get("object") or {}
+    person: dict[str, Any] = goal.get("person") or {}
+    told: dict[str, Any]
+    if "relation" in thing:
+        return None
     what, who = thing.get("name") or thing.get("category"), _who(person)
     source = thing.get("at") or person.get("at")
-    if "relation" in thing:
-        return OTHER, None
-    match kind:
+    match goal["goal"]:
         case "bring" | "give":
-            told = ("bring", {"what": what, "from": source, "to": _who(goal.get("to"))})
+            told = {"what": what, "from": source, "to": _who(goal.get("to"))}
         case "place":
-            told = (kind, {"what": what, "from": source, "to": goal.get("on") or goal.get("in")})
-        case "pick" | "find" | "count":
-            told = (kind, {"what": what, "who": who, "from": source})
-        case "go_to" if isinstance(goal.get("place"), str):
-            told = (kind, {"to": _ME if goal["place"] == "operator" else goal["place"]})
+            told = {"what": what, "from": source, "to": goal.get("on") or goal.get("in")}
+        case "pick" | "find" | "count" | "greet" | "meet":
+            told = {"what": what, "who": who, "from": source}
+        case "go_to":
+            place = goal.get("place")
+            told = {"to": _ME if place == "operator" else place}
         case "guide" | "follow":
-            told = (kind, {"who": who, "from": source, "to": goal.get("to")})
-        case "greet" if who not in (None, _ME):
-            told = (kind, {"who": who, "from": source})
-        case "switch":
-            told = ("switch_on" if goal["on"] else "switch_off", {"what": goal["what"]})
-        case "open" | "close":
-            told = (kind, {"what": goal["what"]})
+            told = {"who": who, "from": source, "to": goal.get("to")}
+        case "look_at":
+            told = {"what": what, "who": who, "to": goal.get("place")}
+        case "gesture":
+            told = {"who": _who(goal.get("at"))}
+        case "tell":
+            of: dict[str, Any] = goal.get("of") or {}
+            told = {"what": of.get("name") or of.get("category"), "from": of.get("at")}
+        case "switch" | "open" | "close":
+            told = {"what": goal["what"]}
         case _:
-            return OTHER, None
-    act, roles = told
-    return act, {role: name for role, name in roles.items() if isinstance(name, str)}
+            return None
+    return [(role, name) for role, name in told.items() if isinstance(name, str)]
 
 
 def _who(to: Any) -> str | None:
     """A place, or the name of a person."""
     if not isinstance(to, dict):
         return to
-    return _ME if to.get("who") else to.get("name")
+    told = cast("dict[str, Any]", to)
+    return _ME if told.get("who") else told.get("name")

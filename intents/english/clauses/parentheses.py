@@ -18,7 +18,14 @@ from intents.english.words import lexicon
 from intents.english.words.courtesy import ADDRESSES
 from intents.english.words.dictionary import is_english
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE
-from intents.english.words.measures import UNIT_WORDS
+from intents.english.words.limits import (
+    CHOICES,
+    CONDITIONS,
+    DENIALS,
+    MEASURES,
+    QUANTITIES,
+    TIMES,
+)  # fmt: skip
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
 
@@ -95,22 +102,20 @@ _IDIOMS = lexicon.phrases(
 )
 """Comments whose words say something else where they stand by themselves."""
 _CHANGES = (
-    CARRYING | lexicon.ALL | lexicon.DIRECTIONS | lexicon.ONES | lexicon.CONTAINERS | UNIT_WORDS
+    CARRYING | CONDITIONS | TIMES | DENIALS | CHOICES | QUANTITIES | MEASURES
+    | lexicon.DIRECTIONS | lexicon.ONES | lexicon.CONTAINERS
     | lexicon.words(
-        "no not never nothing none nobody nor neither without nowhere hardly if unless whether "
-        "when whenever once while until till provided assuming case before after first then later "
-        "soon tonight tomorrow today yesterday morning evening afternoon noon midnight clock again "
-        "next last finally afterwards beforehand instead but except besides apart only several few "
-        "couple more less most least enough another other same either too also twice thrice times "
-        "or rather mean meant with by using via through along these those anything something "
-        "everything"
+        "nowhere hardly whether case first soon today yesterday morning evening afternoon noon "
+        "midnight clock again next last finally afterwards beforehand apart most least enough "
+        "another other same too also times mean meant with by using via through along these those "
+        "anything something everything"
     )
     | frozenset(
         phrase[0]
         for table in (lexicon.LOCATIVES, lexicon.GOALWARDS, lexicon.SOURCEWARDS)
         for phrase in table
     )
-) - lexicon.BODY_NOUNS - lexicon.words("good")  # fmt: skip
+) - lexicon.BODY_NOUNS - lexicon.words("good one much many should")  # fmt: skip
 """With one of these in it a segment may change what is asked."""
 _LINKS = lexicon.words("and so but well oh now")
 _SWIFT = lexicon.words("quick fast swift speedy sharp quickly")

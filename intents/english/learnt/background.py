@@ -2,9 +2,8 @@
 
 from typing import NamedTuple
 
-from intents.english.learnt.field import Field, learnt
-from intents.english.learnt.looks import looks, said
-from intents.english.words.names import NameIndex
+from intents.english.learnt.field import Array
+from intents.english.learnt.looks import Said
 
 IDLE, ASKED = "idle", "asked"
 
@@ -23,24 +22,19 @@ class Passed(NamedTuple):
     sure: float
 
 
-def background(text: str, index: NameIndex, field: Field | None = None) -> list[Passed]:
-    """What of a text is rather background than not, in order.
+def background(words: list[Said], likely: Array, least: float = 0.5) -> list[Passed]:
+    """What of a sentence is rather background than not, in order.
 
     Args:
-        text: A sentence as it was said or typed.
-        index: The names of its world.
-        field: What was learnt; by default what comes with the package.
+        words: The sentence.
+        likely: How likely each of its words is background [0..1], shape (words,).
+        least: How likely it has to be of a word.
     """
-    words = said(text)
-    if not words:
-        return []
-    field = field or learnt("background")
-    likely = field.marginals(looks(words, index))[:, field.labels.index(IDLE)]
     found: list[Passed] = []
     at = 0
     while at < len(words):
         end = at
-        while end < len(words) and (likely[end] > 0.5 or (end > at and words[end].is_sign)):
+        while end < len(words) and (likely[end] > least or (end > at and words[end].is_sign)):
             end += 1
         heard = [n for n in range(at, end) if not words[n].is_sign]
         if heard:

@@ -1,6 +1,7 @@
 """A linear-chain conditional random field: how likely each label is at each place of a chain."""
 
 import io
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+_LEVELS = (0.02, 0.08, 0.2, 0.4, 0.6, 0.8, 0.92, 0.98)
 
 
 class Field(NamedTuple):
@@ -58,6 +60,11 @@ def _log_sum(scores: Array) -> Array:
     return most + np.log(np.exp(scores - most).sum(axis=0))
 
 
+def level(likely: float) -> str:
+    """A probability [0..1] as a feature: the finer, the nearer it is to certainty."""
+    return str(sum(likely >= one for one in _LEVELS))
+
+
 def packed(field: Field) -> bytes:
     """A field as a file (npz), the same bytes for the same field."""
     names = sorted(field.rows)
@@ -85,7 +92,28 @@ def unpacked(data: bytes) -> Field:
         return Field(tuple(labels), rows, weights, stored["steps"].astype(np.float64))
 
 
+Fields = Mapping[str, Field]
+"""What was learnt, each field by its name."""
+NAMES = ("background", "acts", "roles", "trust")
+
+
 @cache
 def learnt(name: str) -> Field:
     """A field that comes with the package, read when it is first asked for."""
     return unpacked(files("intents.english.learnt").joinpath(f"{name}.npz").read_bytes())
+
+
+class _Shipped(Fields):
+    """The fields that come with the package, each read when it is first asked for."""
+
+    def __getitem__(self, name: str) -> Field:
+        return learnt(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+    def __len__(self) -> int:
+        return len(NAMES)
+
+
+LEARNT: Fields = _Shipped()

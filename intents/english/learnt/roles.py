@@ -6,26 +6,45 @@ was learnt in one world holds in another.
 """
 
 from itertools import groupby, pairwise
-from typing import Literal, NamedTuple, cast, get_args
+from typing import Any, Literal, NamedTuple, cast
 
-from intents.english.learnt.field import Field, learnt
+from intents.english.learnt.field import LEARNT, Fields
 from intents.english.learnt.looks import Said, looks, said
 from intents.english.words import lexicon
 from intents.english.words.names import NameIndex
 
-Act = Literal[
-    "bring", "place", "pick", "go_to", "find", "guide", "follow", "switch_on", "switch_off",
-    "open", "close", "count", "greet",
-]  # fmt: skip
-"""What can be said again in plain words."""
 Role = Literal["what", "who", "from", "to"]
 """What a name is: the thing, the person, where one of them is, where or to whom it is to come."""
-OTHER, NOTHING = "other", "-"
-"""Anything else, as what is asked for and as what a name is to it."""
-_ACTS: tuple[str, ...] = get_args(Act)
+ASK, IDLE, SEVERAL = "ask", "idle", "several"
+"""What a sentence may be that is no order: something to ask about, nothing to do, several orders.
+An order goes by the type of its goal, and by its kind where that says more: "gesture nod"."""
+NOTHING = "-"
+"""What a name is that has nothing to do with it."""
+_LISTED = ("bring", "place", "pick", "find")
+"""What is done with several things at once."""
 _SPEAKS = 0.1
 """A word of at least so much weight speaks for an act [log odds]."""
 _SELF = lexicon.words("me us here")
+
+
+def act_of(goal: dict[str, Any]) -> str:
+    """What a goal, as JSON, is called."""
+    kind: str = goal["goal"]
+    if kind == "switch":
+        return "switch_on" if goal["on"] else "switch_off"
+    if kind == "go_to" and "by" in goal:
+        way, amount = next(iter(goal["by"].items()), ("forward_m", 0.0))
+        return _WAYS[way][amount < 0]
+    told = goal.get(
+        {"gesture": "kind", "report": "topic", "balance": "mode", "tell": "property"}.get(kind, "")
+    )
+    return f"{kind} {told}" if told else "bring" if kind == "give" else kind
+
+
+_WAYS = {
+    "forward_m": ("forward", "back"), "left_m": ("left", "right"),
+    "turn_rad": ("turn_left", "turn_right"),
+}  # fmt: skip
 
 
 class Mention(NamedTuple):
@@ -46,14 +65,16 @@ class Meant(NamedTuple):
         act: What is to be done.
         words: The sentence.
         roles: The mention of each role.
+        also: Further things that the same is to be done with.
         idle: Mentions that have nothing to do with it.
         speaking: Words that were learnt to speak for this act.
         sure: How likely the least likely of all that is [0..1].
     """
 
-    act: Act
+    act: str
     words: list[Said]
     roles: dict[Role, Mention]
+    also: list[Mention]
     idle: list[Mention]
     speaking: frozenset[str]
     sure: float
@@ -102,26 +123,30 @@ def act_looks(words: list[Said], chain: list[list[str]]) -> list[str]:
     return sorted(found)
 
 
-def meant(text: str, index: NameIndex, fields: tuple[Field, Field] | None = None) -> Meant | None:
+def meant(text: str, index: NameIndex, fields: Fields = LEARNT) -> Meant | None:
     """What a sentence most likely asks for; None if that is nothing of what can be said again.
 
     Args:
         text: A sentence, without what is known to be background.
         index: The names of its world.
-        fields: What was learnt of acts and of roles; by default what comes with the package.
+        fields: What was learnt; by default what comes with the package.
     """
     words = said(text)
     if not words:
         return None
-    acts, parts = fields or (learnt("acts"), learnt("roles"))
+    acts, parts = fields["acts"], fields["roles"]
     chain = looks(words, index)
     likely = acts.marginals([act_looks(words, chain)])[0]
     act, sure = acts.labels[int(likely.argmax())], float(likely.max())
-    if act not in _ACTS:
+    if act == SEVERAL:  # perhaps one with several things
+        told = dict(zip(acts.labels, likely.tolist(), strict=True))
+        act = max(_LISTED, key=lambda one: told.get(one, 0.0))
+    if act in (ASK, IDLE):
         return None
     by_word = parts.marginals(chain)
     roles: dict[Role, Mention] = {}
     idle: list[Mention] = []
+    also: list[Mention] = []
     for mention in mentions(words, index):
         whole = by_word[mention.start : mention.end].min(axis=0)
         label = parts.labels[int(whole.argmax())]
@@ -130,11 +155,15 @@ def meant(text: str, index: NameIndex, fields: tuple[Field, Field] | None = None
             idle.append(mention)
             continue
         role = cast("Role", label)
-        if role in roles:
-            return None  # two things at once: that is more than one sentence says again
-        roles[role] = mention
+        if role not in roles:
+            roles[role] = mention
+        elif role == "what" and act in _LISTED and not mention.names & roles[role].names:
+            also.append(mention)
+        else:
+            idle.append(mention)
+            sure = min(sure, 1.0 - float(whole.max()))
     at = acts.labels.index(act)
     plain = {word.raw.lower().replace("’", "'") for word in words}
     rows = {word: acts.rows[f"w={word}"] for word in plain if f"w={word}" in acts.rows}
     speaking = frozenset(word for word, row in rows.items() if acts.weights[row, at] > _SPEAKS)
-    return Meant(cast("Act", act), words, roles, idle, speaking, sure)
+    return Meant(act, words, roles, also, idle, speaking, sure)

@@ -32,6 +32,8 @@ _KNOCKS = lexicon.words(
     "mash cut bung fling nudge tap slide roll wind draw"
 )
 """What a thing is made to go on, off, open or shut with, by those who do not say "switch"."""
+_MOVING = lexicon.words("put get pull push slide set")
+"""With these only a device goes on, off or out: "get the pears out" is no light."""
 _ENSURES = lexicon.phrases(
     "make sure,make sure that,ensure,ensure that,see to it that,see that,take care that,check that,"
     "see to it,be sure that,arrange that,arrange for"
@@ -82,8 +84,8 @@ def resultative(sentence: Sentence, at: int) -> Found | None:
     if wish is None and text.word(at) not in _RESULT_VERBS:
         return None
     found = brought_about(text, wish or at + 1, scope)
-    put = found and text.word(at) == "put" and isinstance(found[0][0], Switch)
-    return None if found and put and not is_device(found[0][0]) else found
+    moved = found and text.word(at) in _MOVING and isinstance(found[0][0], Switch)
+    return None if found and moved and not is_device(found[0][0]) else found
 
 
 def _knocked(sentence: Sentence, at: int) -> Found | None:

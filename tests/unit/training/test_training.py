@@ -2,7 +2,7 @@
 
 import pytest
 
-from intents.english.learnt.field import learnt
+from intents.english.learnt.field import LEARNT
 from intents.english.learnt.looks import said
 from intents.english.learnt.roles import NOTHING, mentions
 from intents.english.words.names import index_of
@@ -60,6 +60,5 @@ def test_a_field_learns_what_an_unheard_speaker_means(told: list[Marked]) -> Non
 
 def test_the_weights_that_are_shipped_know_the_sentences(told: list[Marked]) -> None:
     heard = [examples(one) for one in told[::30]]
-    fields = {name: learnt(name) for name in ("background", "acts", "roles")}
-    for line in accuracies(heard, fields):
+    for line in accuracies(heard, LEARNT):
         assert float(line.split()[1]) > 0.9, line

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from intents.english.learnt.looks import looks, said
 from intents.english.learnt.passing import remainders
 from intents.english.learnt.rewording import reworded
+from intents.english.learnt.sight import sight
 from intents.english.words.names import index_of
 from intents.goals import to_builtins
 from intents.outcomes import Goals, Question
@@ -84,7 +85,7 @@ def test_what_may_change_what_is_asked_is_never_passed_over_in_silence(said: str
 )
 def test_plain_words_that_leave_something_out_are_no_more_than_a_question(said: str) -> None:
     plain = reworded(said, INDEX)
-    assert plain is None or not plain.sure
+    assert plain is None or not plain.whole
 
 
 @settings(max_examples=60, deadline=None)
@@ -92,8 +93,10 @@ def test_plain_words_that_leave_something_out_are_no_more_than_a_question(said: 
 def test_every_text_has_looks_and_none_raises(text: str) -> None:
     words = said(text)
     assert len(looks(words, INDEX)) == len(words)
-    remainders(text, INDEX)
-    reworded(text, INDEX)
+    seen = sight(text, INDEX)
+    if seen:
+        remainders(text, seen, INDEX)
+        reworded(text, INDEX, [float(p) for p in seen.idle])
 
 
 def test_what_is_in_doubt_is_asked_with_all_that_would_be_done() -> None:
