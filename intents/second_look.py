@@ -40,6 +40,8 @@ _GUESS = 0.1
 """Below it nothing is asked."""
 _PLAIN_WORDS = 8
 """So many words without a sign between them leave no room for background."""
+_LONGEST = 60
+"""Longer than that nobody talks beside an order that the grammar reads."""
 _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
 
 
@@ -119,9 +121,10 @@ def is_settled(text: str, first: Attempt) -> bool:
     """Whether there is nothing to be gained by other words than those that were said."""
     if first.error is not None:
         return isinstance(first.error, Unasked | Offered | Unpromised)
-    short = len(text.split()) <= _PLAIN_WORDS and not _BETWEEN.search(text)
+    length = len(text.split())
+    whole = length > _LONGEST or (length <= _PLAIN_WORDS and not _BETWEEN.search(text))
     depends = any(isinstance(goal, If) for goal in first.goals)
-    return not first.goals or short or depends
+    return not first.goals or whole or depends
 
 
 def looks_at(

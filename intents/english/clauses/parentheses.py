@@ -37,7 +37,7 @@ _LONGEST = 12
 _EPITHET = 5
 """So many words a person is called in passing, the article included."""
 _SIGNS = (COMMA, FULL_STOP)
-_INTERJECTIONS = lexicon.words(
+INTERJECTIONS = lexicon.words(
     "oh ah aha ooh och ach ugh eek argh ouch ow oops whoops phew wow blimey crikey gosh golly gee "
     "jeez jeepers heavens goodness gracious mercy lord lordy christ jesus damn dang darn drat "
     "blast bother bugger fiddlesticks hurrah hooray yay yippee yikes bah pah tut tsk eh huh ahem "
@@ -238,7 +238,7 @@ def _orders(text: Text, start: int, end: int) -> bool:
     for n in range(start, end):
         word, before = text.word(n), text.word(n - 1) if n > start else ""
         begins = before in ("", "and", "to", "please", "you", "let", "just", "will", "should")
-        if word in _OPTATIVES or (word in _INTERJECTIONS and n == start):
+        if word in _OPTATIVES or (word in INTERJECTIONS and n == start):
             continue
         if begins and (verbs_at(text.words, n) or (before != "" and _may_be_verb(word))):
             return True
@@ -258,10 +258,10 @@ def _is_exclaimed(text: Text, start: int, end: int) -> bool:
         asked = end < len(text) and "?" in text.tokens[end].raw
         verb = any(text.word(n) in lexicon.AUXILIARIES for n in range(start, end))
         return not asked and not verb
-    cried = word in _INTERJECTIONS or _SOUND.fullmatch(word) is not None
+    cried = word in INTERJECTIONS or _SOUND.fullmatch(word) is not None
     if not cried:
         mine = word in ("my", "dear", "good", "holy", "great") and length > 1
-        return mine and text.word(start + 1) in _INTERJECTIONS | _ALMIGHTY | {"me", "word", "days"}
+        return mine and text.word(start + 1) in INTERJECTIONS | _ALMIGHTY | {"me", "word", "days"}
     rest = text.word(start + 1) if length > 1 else "me"
     listed = rest in ("the", "a", "an", "some")  # oh, the saucer
     return not listed and (rest in lexicon.FUNCTION_WORDS or not _may_be_verb(rest))

@@ -4,8 +4,9 @@ Linear-chain conditional random fields [Lafferty2001] look at what each word, it
 clause are (:mod:`looks`). One says which words are background (:mod:`background`: reasons, asides,
 names for the robot), so that the grammar can read the rest (:mod:`passing`). Where it cannot, two
 more say what is asked for and what each name has to do with it (:mod:`roles`), and that is said
-again in plain words (:mod:`rewording`), which the grammar reads. So nothing learnt makes a goal by
-itself, and what is in doubt is asked about. The weights come from ``python -m training``.
+again in plain words (:mod:`rewording`, :mod:`several`), which the grammar reads. The last one says
+which of these readings to trust (:mod:`trust`). So nothing learnt makes a goal by itself, and what
+is in doubt is asked about. The weights come from ``python -m training``.
 
 [Lafferty2001] J. Lafferty, A. McCallum, F. Pereira: Conditional Random Fields, ICML 2001.
 """

@@ -3,12 +3,15 @@
 from itertools import pairwise
 from typing import NamedTuple
 
+from intents.english.clauses.parentheses import INTERJECTIONS
 from intents.english.faithfulness import CARRYING
 from intents.english.learnt.background import Passed, background
 from intents.english.learnt.looks import said
 from intents.english.learnt.sight import Sight
 from intents.english.trouble import listing
 from intents.english.words import lexicon
+from intents.english.words.courtesy import ADDRESSES
+from intents.english.words.dictionary import is_english
 from intents.english.words.limits import CONDITIONS, DENIALS, MEASURES, TIMES
 from intents.english.words.names import NameIndex
 
@@ -31,6 +34,8 @@ _POLITE = lexicon.words("mind please possible convenient kind moment dare you'd"
 _WHOSE = lexicon.words("i you he she we they that which who whose")
 """After a name these may begin what says which is meant: "the cap she is wearing"."""
 _ARTICLES = lexicon.words("the a an some")
+_ASIDES = lexicon.LISTED | ADDRESSES | INTERJECTIONS
+"""What is said beside an order in a single word."""
 _EDGES = " ,.;:!?-–—…"
 
 
@@ -80,7 +85,13 @@ def _is_harmless(text: str, span: Passed, index: NameIndex) -> bool:
     named = any(index.match(words, at) for at in range(len(words)))
     much = named or bool(_CHANGING.intersection(words))
     least = _SURE_OF_MUCH if much else _SURE_OF_TALK if len(words) >= _TALK else _SURE
-    return span.sure >= least and not _describes(text, span, index)
+    return span.sure >= least and not _describes(text, span, index) and not _is_terse(words)
+
+
+def _is_terse(words: list[str]) -> bool:
+    """Whether it may be an order or a thing in a single word: "juggle", "and a saucer"."""
+    heard = [word for word in words if word[0].isalnum() and word not in lexicon.FUNCTION_WORDS]
+    return len(heard) == 1 and is_english(heard[0]) and heard[0] not in _ASIDES
 
 
 def _describes(text: str, span: Passed, index: NameIndex) -> bool:

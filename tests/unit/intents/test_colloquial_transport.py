@@ -34,6 +34,9 @@ from intents.outcomes import Goals, Question, Refusal
         ("would ye be a love and run this menu over to Hans", "bring this menu to Hans"),
         ("nip and get the torch", "get the torch"),
         ("go on and fetch us the torch", "fetch me the torch"),
+        ("get the scarf out", "pick up the scarf"),
+        ("open the wardrobe and get the cap out", "open the wardrobe and pick up the cap"),
+        ("get the desk lamp off", "switch the desk lamp off"),
     ],
 )
 def test_it_is_moved_or_switched(said: str, plainly: str) -> None:
