@@ -14,6 +14,7 @@ from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
+    Idle,
     Partly,
     ReadingError,
     Unasked,
@@ -241,7 +242,8 @@ def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
         refusal = Refusal(reason=f"{_sentence(str(error))}.{hint}", puzzled=puzzled)
         return Attempt(refusal, context, error)
     if not understood.goals:
-        return Attempt(Refusal(reason="I see nothing to do in that."), context)
+        nothing = "I see nothing to do in that."
+        return Attempt(Refusal(reason=nothing), context, Idle(nothing))
     checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)

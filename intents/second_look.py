@@ -12,18 +12,19 @@ from msgspec.structs import replace
 
 from intents.context import Context
 from intents.english.learnt.field import LEARNT, Fields
-from intents.english.learnt.passing import remainders
+from intents.english.learnt.passing import Remainder, remainders
 from intents.english.learnt.rewording import reworded
 from intents.english.learnt.roles import SEVERAL
 from intents.english.learnt.several import several
 from intents.english.learnt.sight import Sight, sight
-from intents.english.learnt.trust import Reading, trust
+from intents.english.learnt.trust import SURE, Reading, is_known, trust
 from intents.english.trouble import (
-    Misfit,
+    NotUnderstood,
     Offered,
     Partly,
     ReadingError,
     Unasked,
+    Unclear,
     Unpromised,
     Unread,
 )
@@ -32,14 +33,18 @@ from intents.goals import Goal, If
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
 from intents.wording import in_words
 
-SURE = 0.75
-"""From here on other words than those said are acted on, below it they are asked about."""
-DOUBTFUL = 0.4
-"""Below it even what the grammar reads as it stands is asked about."""
-_GUESS = 0.1
+DOUBTFUL = 0.05
+"""What the grammar reads from every word is given up only where it is less likely than that."""
+_AS_LIKELY = 0.02
+"""What differs by less is as likely; the words that are nearer to those that were said count."""
+_GUESS = 0.5
 """Below it nothing is asked."""
+_SEVERAL = 0.2
+"""From here on several orders are looked for."""
 _PLAIN_WORDS = 8
 """So many words without a sign between them leave no room for background."""
+_FEWEST = 3
+"""So few leave none at all."""
 _LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
@@ -73,14 +78,14 @@ class Look(NamedTuple):
         reading: How they came about.
         remark: What is told if they are taken.
         doubt: What is told if they are asked about.
-        whole: Whether nothing is lost in them that may change what is asked.
+        least: How likely they have to be what was meant to be acted on [0..1]; above 1 if never.
     """
 
     attempt: Attempt
     reading: Reading
     remark: str = ""
-    doubt: str = "I am not sure that I got that"
-    whole: bool = True
+    doubt: str = ""
+    least: float = SURE
 
 
 Grammar = Callable[[str], Attempt]
@@ -103,18 +108,37 @@ def second_look(
     if not seen or not found:
         return first
     sure = trust([one.reading for one in found], seen, first.trouble, fields)
-    likely, best = max(zip(sure, found, strict=True), key=lambda one: one[0])
-    as_said = sure[0] if first.goals else 0.0
-    if as_said >= DOUBTFUL or any(one.attempt.goals == first.goals for one in found[1:]):
-        return first
-    if best.whole and likely >= SURE:
+    most = max(sure)
+    likely, best = next(
+        (p, one) for p, one in zip(sure, found, strict=True) if p > most - _AS_LIKELY
+    )
+    if first.goals:
+        alike = any(one.attempt.goals == first.goals for one in found[1:])
+        sound = alike or sure[0] >= DOUBTFUL or not is_known(first.goals, fields)
+        return first if sound else _instead(text, best, likely, first, read)
+    if likely >= best.least:
         return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
     if isinstance(first.outcome, Refusal) and not isinstance(first.error, Unread):
         return first  # it says what is not there
-    if isinstance(first.outcome, Question) or (first.error is not None and likely < _GUESS):
+    if isinstance(first.outcome, Question) or likely < _GUESS:
         return first
     asked = just_that(text, Partly(best.doubt, best.attempt.goals))
     return best.attempt._replace(outcome=asked)
+
+
+def _instead(text: str, best: Look, likely: float, first: Attempt, read: Grammar) -> Attempt:
+    """What to do where a reading of every word is not to be trusted.
+
+    What is an order by itself, or asks for something of its own kind, is never taken for talk.
+    """
+    if isinstance(first.outcome, Question):
+        return first
+    kept = {type(goal) for goal in first.goals} <= {type(goal) for goal in best.attempt.goals}
+    orders = any(read(text[start:end]).goals for start, end in best.reading.spans)
+    if likely >= best.least and kept and not orders:
+        return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
+    asked = just_that(text, Partly("I am not sure that I got that", first.goals))
+    return first._replace(outcome=asked)
 
 
 def is_settled(text: str, first: Attempt) -> bool:
@@ -122,7 +146,8 @@ def is_settled(text: str, first: Attempt) -> bool:
     if first.error is not None:
         return isinstance(first.error, Unasked | Offered | Unpromised)
     length = len(text.split())
-    whole = length > _LONGEST or (length <= _PLAIN_WORDS and not _BETWEEN.search(text))
+    plain = length <= _FEWEST or (length <= _PLAIN_WORDS and not _BETWEEN.search(text))
+    whole = length > _LONGEST or plain
     depends = any(isinstance(goal, If) for goal in first.goals)
     return not first.goals or whole or depends
 
@@ -136,24 +161,27 @@ def looks_at(
     for rest in rests:
         attempt = read(rest.text)
         passed = f"I pass over {rest.passed}"
-        reading = Reading("rest", attempt.goals, rest.spans)
-        found.append(Look(attempt, reading, passed, passed, rest.plain))
-    shorter = [(rest.text, rest.spans) for rest in rests[-1:]]
-    unread = [(text, ()), *shorter] if isinstance(first.error, Unread | Misfit) else []
-    for words, spans in unread:
+        reading = Reading("rest", attempt.goals, rest.spans, harms=rest.harms)
+        found.append(Look(attempt, reading, passed, passed, rest.least))
+    whole = Remainder(text, (), "", SURE)
+    sayable = first.error is not None and type(first.error) not in (Unclear, NotUnderstood)
+    for rest in (whole, *rests[-1:]) if sayable else ():
+        words, spans = rest.text, rest.spans
         idle = [
             float(likely)
             for word, likely in zip(seen.words, seen.idle, strict=True)
             if not any(start <= word.start < end for start, end in spans)
         ]
         plainly = [reworded(words, index, idle, fields=fields)]
-        if seen.acts.get(SEVERAL, 0.0) > _GUESS:
+        if seen.acts.get(SEVERAL, 0.0) > _SEVERAL:
             plainly.append(several(words, index, idle, fields))
         for plain in filter(None, plainly):
             attempt = read(plain.text)
-            reading = Reading("plain", attempt.goals, spans, plain.left)
+            harms = rest.harms | plain.harms
+            reading = Reading("plain", attempt.goals, rest.spans, plain.left, harms)
             taken = f"I take that as “{plain.text}”"
-            found.append(Look(attempt, reading, taken, "I did not get every word", plain.whole))
+            least = max(rest.least, plain.least)
+            found.append(Look(attempt, reading, taken, "I did not get every word", least))
     return [one for one in found if one.attempt.goals and (rests or one.attempt is not first)]
 
 

@@ -11,7 +11,14 @@ from intents.english.phrases.complements import connector_end
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence, clause, not_understood
 from intents.english.substitution import substitute
-from intents.english.trouble import Misfit, NotUnderstood, Partly, ReadingError
+from intents.english.trouble import (
+    Misfit,
+    NotUnderstood,
+    Partly,
+    ReadingError,
+    Unfinished,
+    Unread,
+)
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
@@ -148,7 +155,8 @@ def _one_more(sentence: Sentence, at: int) -> Found:
     except (NotUnderstood, Misfit) as error:
         if not known or sentence.depth:
             raise
-        raise Partly(str(error), known) from None
+        unread = isinstance(error, Unread | Misfit)
+        raise (Unfinished if unread else Partly)(str(error), known) from None
 
 
 def _hangs_on(text: Text, at: int) -> bool:

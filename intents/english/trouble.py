@@ -4,9 +4,11 @@ Trouble
 ├── Misfit         the words do not fit this verb; another reading may
 ├── NotUnderstood  understood well enough to know that it cannot be done
 │   ├── Unread         no reading knows what to make of some words
+│   ├── Idle           nothing is asked for in words that a reading knows
 │   └── Unasked        nothing is asked of the robot
 └── Unclear        could be done if one thing were known
     ├── Partly     some of it is understood and some is not
+    │   ├── Unfinished some words of it no reading knows what to make of
     │   ├── Offered    it only tells something that something can be done about
     │   └── Unpromised what is not to be done may come about
     └── Doubtful   a name that is not known is like one that is
@@ -41,6 +43,10 @@ class Unread(NotUnderstood):
     """No reading makes anything of some words: other words may say it better."""
 
 
+class Idle(NotUnderstood):
+    """Nothing is asked for in words that a reading knows."""
+
+
 class Unasked(NotUnderstood):
     """Nothing is asked of the robot: it is to leave something be, or somebody else is spoken to."""
 
@@ -72,6 +78,10 @@ class Partly(Unclear):
     def __init__(self, reason: str, goals: tuple[Goal, ...]) -> None:
         super().__init__(reason)
         self.goals = goals
+
+
+class Unfinished(Partly):
+    """No reading makes anything of some words: other words may say them better."""
 
 
 class Offered(Partly):

@@ -72,7 +72,7 @@ _BEING = lexicon.words(
     "sweet brave quick fast snappy a an my"
 )
 """What one is asked to be that is no way to do something: "be honest", and not "be discreet"."""
-_COMMENTING = lexicon.words(
+COMMENTING = lexicon.words(
     "honestly frankly seriously really truly luckily sadly obviously unfortunately fortunately "
     "hopefully apparently admittedly happily clearly evidently naturally personally thankfully "
     "silly lovely ugly smelly jolly holy family friendly lonely curly bully fly"
@@ -229,7 +229,7 @@ def _is_idle(text: Text, start: int, end: int) -> bool:
 
 
 def _may_change(word: str) -> bool:
-    manner = word.endswith("ly") and word not in _COMMENTING
+    manner = word.endswith("ly") and word not in COMMENTING
     return word in _CHANGES or word[0].isdigit() or manner
 
 
@@ -281,7 +281,7 @@ def _is_comment(text: Text, start: int, end: int) -> bool:
     """Be honest; honestly; they are like rusty hinges."""
     if text.word(start) == "be" and 1 < end - start < _EPITHET:
         return text.word(start + 1) in _BEING
-    if end - start == 1 and text.word(start) in _COMMENTING and text.word(start).endswith("ly"):
+    if end - start == 1 and text.word(start) in COMMENTING and text.word(start).endswith("ly"):
         return True
     return told_end(text, start) == end
 

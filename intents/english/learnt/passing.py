@@ -7,13 +7,17 @@ from intents.english.clauses.parentheses import INTERJECTIONS
 from intents.english.faithfulness import CARRYING
 from intents.english.learnt.background import Passed, background
 from intents.english.learnt.looks import said
+from intents.english.learnt.rewording import is_unheard_verb
 from intents.english.learnt.sight import Sight
+from intents.english.learnt.trust import CERTAIN, NEVER, SURE
 from intents.english.trouble import listing
 from intents.english.words import lexicon
 from intents.english.words.courtesy import ADDRESSES
 from intents.english.words.dictionary import is_english
 from intents.english.words.limits import CONDITIONS, DENIALS, MEASURES, TIMES
+from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import NameIndex
+from intents.english.words.verbs import verbs_at
 
 _SURE = 0.8
 """From here on something is passed over at the first attempt, below it at the second."""
@@ -33,7 +37,29 @@ _POLITE = lexicon.words("mind please possible convenient kind moment dare you'd"
 """With one of these "if" is only courtesy."""
 _WHOSE = lexicon.words("i you he she we they that which who whose")
 """After a name these may begin what says which is meant: "the cap she is wearing"."""
+_RELATIVE = lexicon.words("that which who whose")
+_SUBJECTS = lexicon.words("it i you he she we they which so or is are that's it's to who not")
+"""What begins with one of these is no order."""
+_ERRANDS = lexicon.words("tell bring give fetch find put answer open close take")
+_SAYINGS = INTERJECTIONS | lexicon.words(
+    "let rest god bless see mind wait excuse forgive pardon mark cross like man note hush thank"
+)
+"""Verbs of what is said beside an order: "let me see", "rest her soul"."""
+_ONTO = lexicon.DETERMINERS | lexicon.words("me them us him her it")
+"""What stands behind the verb of an order."""
+_HOW = lexicon.words("with without by using")
+_WHEN = MEASURES | (TIMES - lexicon.words("then"))
+_SHORT = 6
+"""What has fewer words may say how, when or which, without a verb of its own."""
+_ASKING = lexicon.words("how why what who when did does")
 _ARTICLES = lexicon.words("the a an some")
+_EVENTS = ("as soon as ", "every time ", "each time ", "the moment ", "the minute ", "save for ",
+           "apart from ", "other than ")  # fmt: skip
+"""What begins so says when something is to be done, or what with it is not."""
+_PICKING = (frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES)) - lexicon.words("little light")
+_OF = lexicon.words("of o") | MEASURES
+_QUOTES = frozenset('"“”')
+_FURTHER = lexicon.words("and plus with also")
 _ASIDES = lexicon.LISTED | ADDRESSES | INTERJECTIONS
 """What is said beside an order in a single word."""
 _EDGES = " ,.;:!?-–—…"
@@ -46,13 +72,15 @@ class Remainder(NamedTuple):
         text: The sentence without its background.
         spans: The characters that were passed over, from where to where.
         passed: What was passed over, in quotation marks, as a list in words.
-        plain: Whether none of it may say which thing is meant, or how.
+        least: How likely a reading of it has to be to be acted on [0..1]; above 1 if it never is.
+        harms: What else the background may say: "manner", "when".
     """
 
     text: str
     spans: tuple[tuple[int, int], ...]
     passed: str
-    plain: bool
+    least: float
+    harms: frozenset[str] = frozenset()
 
 
 def remainders(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
@@ -85,28 +113,66 @@ def _is_harmless(text: str, span: Passed, index: NameIndex) -> bool:
     named = any(index.match(words, at) for at in range(len(words)))
     much = named or bool(_CHANGING.intersection(words))
     least = _SURE_OF_MUCH if much else _SURE_OF_TALK if len(words) >= _TALK else _SURE
-    return span.sure >= least and not _describes(text, span, index) and not _is_terse(words)
+    return span.sure >= least and not _harms(text, span, index)
 
 
-def _is_terse(words: list[str]) -> bool:
-    """Whether it may be an order or a thing in a single word: "juggle", "and a saucer"."""
-    heard = [word for word in words if word[0].isalnum() and word not in lexicon.FUNCTION_WORDS]
-    return len(heard) == 1 and is_english(heard[0]) and heard[0] not in _ASIDES
+def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
+    """What it may say, and how likely the rest then has to be what was meant [0..1].
 
-
-def _describes(text: str, span: Passed, index: NameIndex) -> bool:
-    """Whether it may say which thing is meant, how, or be the name of another."""
+    Which thing is meant, how, when, or an order: beyond 1 where it mostly does.
+    """
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
     before = [word.raw.lower() for word in said(text[: span.start])]
     heard = [word for word in words if word[0].isalnum()]
-    manner = len(heard) == 1 and heard[0].endswith("ly")
+    first, *others = heard
     verbless = not lexicon.AUXILIARIES.intersection(heard) and "'" not in "".join(heard)
-    thing = len(heard) < 6 and verbless and bool(_ARTICLES.intersection(heard[:-1]))
+    short = len(heard) < _SHORT and verbless
     named = any(
         match is not None and match.end == len(before)
         for match in (index.match(before, at) for at in range(max(0, len(before) - 4), len(before)))
     )
-    return manner or thing or (named and words[0] in _WHOSE)
+    goes_on = text[span.end :].lstrip()[:1].isalnum()
+    thing = short and not _ARTICLES.isdisjoint(heard[:-1])
+    which = named and words[0] in _WHOSE
+    found = {
+        "manner": NEVER if not others and first.endswith("ly") else 0.0,
+        "thing": (NEVER if first in _ARTICLES | _FURTHER else CERTAIN) if thing else 0.0,
+        "where": NEVER if first == "where" else 0.0,  # "where the red one is"
+        "asks": NEVER if first in _ASKING and goes_on else 0.0,  # "how would you ..."
+        "which": (NEVER if first in _RELATIVE or len(heard) < _TALK else CERTAIN) if which else 0.0,
+        "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
+        "how": NEVER if short and first in _HOW else 0.0,
+        "order": NEVER if _is_terse(heard) or _orders(heard) else 0.0,
+        "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
+        "grave": NEVER if _picks_out(heard, short=short) else 0.0,
+        "quoted": NEVER if not _QUOTES.isdisjoint(text[span.start : span.end]) else 0.0,
+    }
+    return {harm: least for harm, least in found.items() if least}
+
+
+def _orders(heard: list[str]) -> bool:
+    """Whether an order may be among the words: "and answer his question", "tell them the day"."""
+    return any(
+        (n == 0 or heard[n - 1] in _FURTHER or (verb in _ERRANDS and heard[n - 1] not in _SUBJECTS))
+        and verb not in _SAYINGS
+        and after in _ONTO
+        and (bool(verbs_at([verb], 0)) or is_unheard_verb(verb))
+        for n, (verb, after) in enumerate(pairwise(heard))
+    )
+
+
+def _picks_out(heard: list[str], *, short: bool) -> bool:
+    """Whether it may say which or how many: "blue, the ones from last week", "four of them"."""
+    counts = any(one in NUMBER_WORDS and two in _OF for one, two in pairwise(heard))
+    just = heard[0] in ("just", "only") and short
+    return heard[0] in _PICKING or "ones" in heard or counts or just
+
+
+def _is_terse(heard: list[str]) -> bool:
+    """Whether it may be an order or a thing in a single word: "juggle", "and a saucer"."""
+    telling = [word for word in heard if word not in lexicon.FUNCTION_WORDS]
+    alone = len(telling) == 1 and is_english(telling[0]) and telling[0] not in _ASIDES
+    return alone and heard[0] not in _SUBJECTS
 
 
 def _left(text: str, spans: list[Passed], index: NameIndex) -> Remainder:
@@ -114,6 +180,9 @@ def _left(text: str, spans: list[Passed], index: NameIndex) -> Remainder:
     for span in reversed(spans):
         left = f"{left[: span.start].rstrip()} {left[span.end :].lstrip()}"
     quoted = [f"“{text[span.start : span.end].strip(_EDGES)}”" for span in spans]
-    plain = all(_is_harmless(text, span, index) for span in spans)
+    harms = [harm for span in spans for harm in _harms(text, span, index).items()]
+    harmless = all(_is_harmless(text, span, index) for span in spans)
+    least = max((least for _, least in harms), default=SURE if harmless else CERTAIN)
     where = tuple((span.start, span.end) for span in spans)
-    return Remainder(left.strip(), where, listing(quoted, "and"), plain)
+    told = frozenset(harm for harm, _ in harms)
+    return Remainder(left.strip(), where, listing(quoted, "and"), least, told)

@@ -46,7 +46,8 @@ def several(
     two = reworded(rest, index, idle[start:], going_on=True, fields=fields)
     if one is None or two is None:
         return None
-    return Reworded(f"{one.text}, then {two.text}", (*one.left, *two.left), one.whole and two.whole)
+    both, least = f"{one.text}, then {two.text}", max(one.least, two.least)
+    return Reworded(both, (*one.left, *two.left), least, one.harms | two.harms)
 
 
 def _cuts(words: list[Said]) -> list[tuple[int, int]]:

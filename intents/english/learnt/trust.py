@@ -18,6 +18,9 @@ from intents.english.words import lexicon, limits
 from intents.goals import Goal, to_builtins
 
 RIGHT, WRONG = "right", "wrong"
+SURE, CERTAIN, NEVER = 0.85, 0.9, 2.0
+"""How likely a reading has to be to be acted on: where nothing is lost that may change what is
+asked; where something is that seldom does; where something is that mostly does."""
 Source = Literal["whole", "rest", "plain"]
 """A sentence as it stands, without its background, or in plain words."""
 _Plain = dict[str, Any]
@@ -43,12 +46,14 @@ class Reading(NamedTuple):
         goals: What it asks for.
         spans: The characters that were passed over, from where to where.
         left: What does not come back in plain words.
+        harms: What may be lost or amiss.
     """
 
     source: Source
     goals: tuple[Goal, ...]
     spans: tuple[tuple[int, int], ...] = ()
     left: tuple[str, ...] = ()
+    harms: frozenset[str] = frozenset()
 
 
 def trust(
@@ -69,6 +74,27 @@ def trust(
     ]  # fmt: skip
 
 
+def is_known(goals: Iterable[Goal], fields: Fields = LEARNT) -> bool:
+    """Whether speakers ask for such acts, so that trust in them says something.
+
+    Competitions ask for others: to answer questions, to tell which thing is the lightest.
+    """
+    acts = fields["acts"].labels
+    told = cast("list[_Plain]", to_builtins(tuple(goals)))
+    nameless = any("superlative" in one and "name" not in one for one in _things(told))
+    return not nameless and all(_act(goal) in acts for goal in told)
+
+
+def _things(value: object) -> Iterator[_Plain]:
+    """Every description in goals."""
+    if isinstance(value, dict):
+        known = cast("_Plain", value)
+        yield known
+        yield from chain.from_iterable(map(_things, known.values()))
+    elif isinstance(value, list | tuple):
+        yield from chain.from_iterable(map(_things, cast("list[object]", value)))
+
+
 def signs(one: Reading, readings: Iterable[Reading], seen: Sight, trouble: str) -> list[str]:
     """The features of a reading, each also together with the words it was read out of."""
     goals = cast("list[_Plain]", to_builtins(one.goals))
@@ -84,6 +110,7 @@ def signs(one: Reading, readings: Iterable[Reading], seen: Sight, trouble: str) 
             same = "as" if other.goals == one.goals else "unlike"
             found.append(f"{same}={other.source}")
     found += [f"left={word}" for word in one.left]
+    found += [f"harm={harm}" for harm in one.harms]
     return ["always", *found, one.source, *(f"{sign}|{one.source}" for sign in found)]
 
 

@@ -12,7 +12,7 @@ CONDITIONS = lexicon.words(
     "if unless until till provided providing assuming except besides otherwise else"
 )
 """They make an order one for some cases only."""
-TIMES = lexicon.words("before after when whenever once while then later tomorrow tonight")
+TIMES = lexicon.words("before after when whenever once while then later tomorrow tonight overnight")
 """They tell when, and as often why: "after all I have done for you"."""
 DENIALS = lexicon.words("not no never don't dont without nor neither nothing none nobody")
 """They say what is not to be done, and as often that something is no trouble."""

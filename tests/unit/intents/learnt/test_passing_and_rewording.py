@@ -1,14 +1,16 @@
 """Background is passed over and said so, unheard wordings are said again in plain words; what may
 change what is asked is asked about, and nothing is dropped in silence."""
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from intents.english.learnt.looks import looks, said
+from intents.english.learnt.looks import looks
+from intents.english.learnt.looks import said as looks_said
 from intents.english.learnt.passing import remainders
 from intents.english.learnt.rewording import reworded
-from intents.english.learnt.sight import sight
+from intents.english.learnt.sight import Sight, sight
 from intents.english.words.names import index_of
 from intents.goals import to_builtins
 from intents.outcomes import Goals, Question
@@ -85,13 +87,51 @@ def test_what_may_change_what_is_asked_is_never_passed_over_in_silence(said: str
 )
 def test_plain_words_that_leave_something_out_are_no_more_than_a_question(said: str) -> None:
     plain = reworded(said, INDEX)
-    assert plain is None or not plain.whole
+    assert plain is None or plain.least > 1
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "my cousin will bring the rope by himself, thanks all the same",
+        "the oil can was taken to the cellar",
+        "I put the logbook on the map table",
+        "bless this tin mug, old friend, my hands are full",
+        "wait are you filming this again",
+        "every time the horn sounds, close the locker",
+        "bring the oil can to Marit as soon as she comes down",
+        "the locker off please and the rope to Marit",
+        "Sven, I was only practising: “bring me the rope”, was that right?",
+    ],
+)
+def test_what_is_told_quoted_or_for_later_is_not_acted_on(said: str) -> None:
+    assert not isinstance(parse(said, LIGHTHOUSE), Goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "harm"),
+    [
+        ("bring me the rope, gingerly", "manner"),
+        ("bring me the rope, a bucket", "thing"),
+        ("bring me the rope, juggle", "order"),
+        ("bring me the rope as soon as she calls for it", "event"),
+        ("bring me the ropes, three of them", "grave"),
+        ("bring me the rope that Marit left at the foot of the stairs", "which"),
+    ],
+)
+def test_what_may_say_which_how_or_when_is_known_by_its_form(said: str, harm: str) -> None:
+    words = looks_said(said)
+    idle = np.array([0.0 if n < 4 else 0.99 for n in range(len(words))])
+    seen = Sight(words, idle, {}, [], [])
+    told = [rest.harms for rest in remainders(said, seen, INDEX)]
+    assert told
+    assert all(harm in harms for harms in told)
 
 
 @settings(max_examples=60, deadline=None)
 @given(st.text(max_size=120))
 def test_every_text_has_looks_and_none_raises(text: str) -> None:
-    words = said(text)
+    words = looks_said(text)
     assert len(looks(words, INDEX)) == len(words)
     seen = sight(text, INDEX)
     if seen:
@@ -100,8 +140,8 @@ def test_every_text_has_looks_and_none_raises(text: str) -> None:
 
 
 def test_what_is_in_doubt_is_asked_with_all_that_would_be_done() -> None:
-    said = "shut the locker pronto my ears are ringing like the bells of hell"
+    said = "a rope, the long one, to Marit with it"
     outcome = parse(said, LIGHTHOUSE)
     assert isinstance(outcome, Question), outcome
     assert outcome.kind == "confirmation"
-    assert to_builtins(outcome.goals) == goals_of("close the locker")
+    assert to_builtins(outcome.goals) == goals_of("bring a rope to Marit")

@@ -46,9 +46,10 @@ def test_what_is_not_trusted_is_asked_about() -> None:
     assert asked.kind == "confirmation"
 
 
-def test_even_what_the_grammar_reads_is_asked_about_where_it_is_not_trusted() -> None:
-    said = "Tell Tilda the miller is late, poor soul, and so is everybody else in this valley"
-    assert isinstance(read(said).outcome, Goals)
+def test_what_the_grammar_reads_from_every_word_is_given_up_only_if_it_is_hardly_likely() -> None:
+    said = "Tell Tilda the miller is late, you know how he is, it has been raining all day"
+    for odds in (0.0, 9.0):
+        assert looked_at(said, trusting(odds)) == read(said).outcome
     assert isinstance(looked_at(said, trusting(-9.0)), Question)
 
 
@@ -80,14 +81,14 @@ def test_a_short_order_needs_no_second_look() -> None:
     ("said", "plainly"),
     [
         (
-            "off with the oil lamp and to Tilda with the ledger",
-            "switch off the oil lamp, then bring the ledger to Tilda",
+            "would you have the cupboard shut and the ledger with Tilda",
+            "close the cupboard, then bring the ledger to Tilda",
         ),
     ],
 )
 def test_several_orders_are_said_again_one_after_the_other(said: str, plainly: str) -> None:
     outcome = parse(said, MILL)
     expected = parse(plainly, MILL)
-    assert isinstance(outcome, Goals | Question)
+    assert isinstance(outcome, Goals)
     assert isinstance(expected, Goals)
     assert to_builtins(outcome.goals) == to_builtins(expected.goals)
