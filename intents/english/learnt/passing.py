@@ -53,6 +53,10 @@ _SHORT = 6
 """What has fewer words may say how, when or which, without a verb of its own."""
 _ASKING = lexicon.words("how why what who when did does")
 _ARTICLES = lexicon.words("the a an some")
+_TELLING = lexicon.words(
+    "i we he she they who already never always say says said told to not didn't don't would will"
+)
+"""Ahead of an order these make of it what somebody does, did or said."""
 _EVENTS = ("as soon as ", "every time ", "each time ", "the moment ", "the minute ", "save for ",
            "apart from ", "other than ")  # fmt: skip
 """What begins so says when something is to be done, or what with it is not."""
@@ -143,6 +147,7 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
         "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
         "how": NEVER if short and first in _HOW else 0.0,
         "order": NEVER if _is_terse(heard) or _orders(heard) else 0.0,
+        "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
         "quoted": NEVER if not _QUOTES.isdisjoint(text[span.start : span.end]) else 0.0,
