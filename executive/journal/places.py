@@ -35,10 +35,11 @@ def _state() -> Path | None:
 
 def remember(place: Path) -> None:
     """Note that runs are kept in a folder, for `everywhere`; where that cannot be, do without."""
-    state, path = _state(), os.fsencode(place.absolute())
-    if state is None or b"\n" in path:
-        return
-    with contextlib.suppress(OSError):
+    state = _state()
+    with contextlib.suppress(OSError):  # the current folder may be gone as well
+        path = os.fsencode(place.absolute())
+        if state is None or b"\n" in path:
+            return
         known = _index(state)
         if path in known:
             return

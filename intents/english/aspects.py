@@ -44,6 +44,8 @@ _WHILE = words("while whilst as")
 _BEING = words("you are is still also and")
 _ADDED = words("including starting beginning preferably going being having doing using please")
 """What follows a comma with -ing and is no second act."""
+_NO_LINK = words("a soon long far much well")
+"""*A* while; as *soon* as."""
 _COMMENT = words("like wish want please see can know said say need")
 """As you *like*."""
 
@@ -89,7 +91,7 @@ def _beside(text: Text) -> str:
         begin = at + 1
         while text.word(begin) in _BEING:
             begin += 1
-        linked = text.word(at) in _WHILE and text.words[at - 1 : at] != ["a"]
+        linked = text.word(at) in _WHILE and text.word(at - 1) not in _NO_LINK
         added = text.word(at) == COMMA and begin == at + 1 and at > 0
         goes = "you" in text.words[at:begin] and text.word(begin) not in _COMMENT
         does = _doing(text, begin) or (goes and bool(verbs_at(text.words, begin)))
