@@ -27,10 +27,15 @@ MOST_OUTSIDE = 500
 
 
 def _state() -> Path | None:
-    """The folder for what this software keeps of this user's; None without a home."""
+    """The folder for what this software keeps of this user's; None without a home.
+
+    A home that is not there is none: root could make it, and would write where nobody looks.
+    """
     said = Path(os.environ.get("XDG_STATE_HOME", ""))
-    state = said if said.is_absolute() else Path(os.path.expanduser("~/.local/state"))  # noqa: PTH111
-    return state / "humanoid" if state.is_absolute() else None
+    if said.is_absolute():
+        return said / "humanoid"
+    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - it never raises
+    return home / ".local/state/humanoid" if home.is_absolute() and home.is_dir() else None
 
 
 def remember(place: Path) -> None:

@@ -64,3 +64,12 @@ def test_only_so_many_are_kept_and_what_is_gone_is_not_listed(here, monkeypatch)
     lines = (here / "state" / "humanoid" / places.OUTSIDE).read_text().splitlines()
     assert [json.loads(line)[1][-1] for line in lines] == ["2", "3", "4"]
     assert past_runs.runs() == []
+
+
+def test_a_home_that_is_not_there_is_not_made(tmp_path, monkeypatch):
+    monkeypatch.delenv("XDG_STATE_HOME", raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path / "no" / "home"))
+    places.remember(tmp_path / "runs")
+    places.remember_outside(tmp_path / "run")
+    assert not (tmp_path / "no").exists()
+    assert places.at_home() is None

@@ -43,7 +43,7 @@ def test_a_report_is_what_is_answered_at_the_prompt(topic, board):
 
 
 def test_it_says_what_it_holds_and_where_it_is(board):
-    assert said("holding", board) == "I am holding the red cup."
+    assert said("holding", board) == "I am holding the red cup in my left hand."
     assert said("location", board).endswith("at x 1.0 m, y 0.5 m, heading 90 degrees.")
 
 
