@@ -23,6 +23,7 @@ from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.precise import plain_quantities
+from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
 from intents.english.words.verbs import participle_base
@@ -110,7 +111,7 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
-        corrected = _wished(plain_quantities(corrected))
+        corrected = _wished(plain_quantities(repaired(corrected)))
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
         plain = _unfinished(unrepeated(_without_fillers(fluent(corrected), self.index)))

@@ -1,0 +1,132 @@
+"""Quantities and directions that are taken back at once: "turn left, no, right"; "two, no, three".
+
+The repair stands for what is of its kind before it [Shriberg1994], so the words are those that were
+meant before anything is read. Things, places and people are taken back by what they mean, in
+:mod:`intents.english.corrections`.
+
+[Shriberg1994] E. Shriberg, Preliminaries to a Theory of Speech Disfluencies, UC Berkeley, 1994.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.measures import measure, number
+
+_MARKERS = lexicon.phrases(
+    "no,no no,no sorry,sorry,sorry no,no wait,wait no,no i mean,no i meant,sorry i mean,"
+    "sorry i meant,i mean,i meant,i mean to say,i meant to say,or rather,rather,make that,"
+    "make it,no make that,no make it,correction,oops,whoops,my mistake,scratch that,i should say,pardon,"
+    "better,or better,no better,excuse me"
+)
+_PAUSES = lexicon.phrases("wait,hold on,hang on")
+"""Between commas, before a direction alone, these are markers, and else orders."""
+_APART = lexicon.words("no sorry rather correction oops whoops pardon better")
+"""Alone, these are markers only behind a comma."""
+_SIDES = lexicon.words("left right")
+_WAYS = lexicon.words(
+    "left right forward forwards ahead back backward backwards up down clockwise anticlockwise "
+    "counterclockwise"
+)
+_LEADING = lexicon.words("to with by for at on the my your")
+"""What may stand before a direction or a quantity that is said anew."""
+_SIDED = lexicon.words("hand arm one side")
+_GOES_ON = lexicon.words("and then please thanks")
+_REPORTS = lexicon.words("say tell announce shout whisper repeat sing ask spell")
+"""What is only passed on is said as it was."""
+_LONGEST_MARKER = 4
+
+
+class _Said(NamedTuple):
+    """A quantity or a direction: its kind, and the words from ``start`` to before ``end``."""
+
+    kind: str
+    start: int
+    end: int
+
+
+def repaired(tokens: list[Token]) -> list[Token]:
+    """The tokens with every quantity and direction as it was said last."""
+    words = [token.text for token in tokens]
+    at = 1
+    while at < len(words):
+        marked = _marker_end(words, at)
+        anew = _anew(words, marked) if marked is not None else None
+        begins = _begin(words, at)
+        old = _last(words, begins, at, anew) if anew else None
+        if anew is None or old is None or _REPORTS.intersection(words[:at]):
+            at += 1
+            continue
+        new, end = anew
+        stays = tokens[old.end : at]
+        tokens = tokens[: old.start] + tokens[new.start : new.end] + stays + tokens[end:]
+        words = [token.text for token in tokens]
+        at = old.start + 1
+    return tokens
+
+
+def _marker_end(words: list[str], at: int) -> int | None:
+    """Where the marker ends that begins at a word or at the comma before it."""
+    start = at + (words[at] == COMMA)
+    for size in range(_LONGEST_MARKER, 0, -1):
+        phrase = tuple(words[start : start + size])
+        if phrase in _MARKERS:
+            apart = start > at or (size > 1 or phrase[0] not in _APART)
+            end = start + size
+            return end + (words[end : end + 1] == [COMMA]) if apart else None
+        end = start + size
+        pauses = phrase in _PAUSES and words[end : end + 1] == [COMMA] == words[at : at + 1]
+        if pauses and words[end + 1 : end + 2] and words[end + 1] in _WAYS:
+            return end + 1
+    return None
+
+
+def _anew(words: list[str], at: int) -> tuple[_Said, int] | None:
+    """What is said anew behind a marker, and where it ends with all that belongs to it."""
+    start = at
+    while start < len(words) and words[start] in _LEADING:
+        start += 1
+    found = next(_said(words, start, min(len(words), start + 1)), None)
+    if found is None or found.start != start:
+        return None
+    end = found.end
+    if words[found.start] in _SIDES and words[end : end + 1] and words[end] in _SIDED:
+        end += 1
+    following = words[end] if end < len(words) else FULL_STOP
+    closes = following in _GOES_ON | {COMMA, FULL_STOP}
+    return (found, end) if closes or (found.kind != "way" and following in _WAYS) else None
+
+
+def _begin(words: list[str], at: int) -> int:
+    """Where the clause begins that a marker takes something of back."""
+    return max((n + 1 for n in range(at) if words[n] in (FULL_STOP, "then")), default=0)
+
+
+def _last(words: list[str], begin: int, end: int, anew: tuple[_Said, int]) -> _Said | None:
+    """The newest of that kind: a plain number takes the place of one with a unit, which stays."""
+    for one in reversed([one for one in _said(words, begin, end) if one.end <= end]):
+        if one.kind == anew[0].kind:
+            return one
+        counted = number(words, one.start) if anew[0].kind == "plain" else None
+        if counted is not None:
+            return one._replace(end=counted.end)
+    return None
+
+
+def _said(words: list[str], begin: int, end: int) -> Iterator[_Said]:
+    """Quantities and directions that begin between two words, one after the other."""
+    at = begin
+    while at < end:
+        with_unit, counted = measure(words, at), number(words, at)
+        if words[at] in _WAYS:
+            found = _Said("way", at, at + 1)
+        elif with_unit is not None:
+            found = _Said(with_unit.kind, at, with_unit.end)
+        elif counted is not None and not (at and words[at] == "one"):  # the red one
+            found = _Said("plain", at, counted.end)
+        else:
+            at += 1
+            continue
+        yield found
+        at = found.end
