@@ -193,9 +193,25 @@ def read_complements(text: Text, start: int) -> tuple[list[Complement], int]:
                 break
             at += 1
             continue
-        complement, at = found
+        complement, at = _without_next_theme(text, complements, *found)
         complements.append(complement)
     return complements, at
+
+
+def _without_next_theme(
+    text: Text, before: list[Complement], complement: Complement, end: int
+) -> tuple[Complement, int]:
+    """Put the fork into the drawer and *the plate on the table*: that is to be put, too."""
+    apart = complement.role in ("to", "into", "at") and complement.how != "between"
+    themed = any(c.role == "" and c.phrases for c in before)
+    if not (apart and themed and len(complement.phrases) > 1):
+        return complement, end
+    *stay, last = complement.phrases
+    goes_on = last.places or _preposition(text, end)[0] in ("to", "into", "at")
+    if not goes_on or not last.name("object", "category"):
+        return complement, end
+    complement.phrases = stay
+    return complement, stay[-1].end
 
 
 def _attach(

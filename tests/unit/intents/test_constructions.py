@@ -23,6 +23,16 @@ CASES = {
     "get the lamp going": '[{"goal":"switch","what":"lamp","on":true}]',
     "the lamp should be off": '[{"goal":"switch","what":"lamp","on":false}]',
     "make sure the lamp is on": '[{"goal":"switch","what":"lamp","on":true}]',
+    # a thing into another, and the next one
+    "put the screwdriver into the toolbox and the toolbox on the workbench": (
+        '[{"goal":"place","object":{"name":"screwdriver"},"in":"toolbox"},'
+        '{"goal":"place","object":{"name":"toolbox"},"on":"workbench"}]'
+    ),
+    "put the orange into the toolbox, and the thermos next to the screwdriver": (
+        '[{"goal":"place","object":{"name":"orange"},"in":"toolbox"},'
+        '{"goal":"place","object":{"name":"thermos"},'
+        '"relation":{"how":"near","of":{"name":"screwdriver"}}}]'
+    ),
     # the thing first
     "the thermos belongs on the workbench": (
         '[{"goal":"place","object":{"name":"thermos"},"on":"workbench"}]'
