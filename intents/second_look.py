@@ -33,8 +33,10 @@ from intents.goals import Goal, If
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
 from intents.wording import in_words
 
-DOUBTFUL = 0.05
-"""What the grammar reads from every word is given up only where it is less likely than that."""
+DOUBTFUL, RIVAL = 0.05, 0.3
+"""What the grammar reads from every word is given up only where it is less likely than the first,
+and another reading, which passes no order over, is likelier than the second: words that are only
+unheard are no talk."""
 _AS_LIKELY = 0.02
 """What differs by less is as likely; the words that are nearer to those that were said count."""
 _GUESS = 0.5
@@ -114,8 +116,9 @@ def second_look(
     )
     if first.goals:
         alike = any(one.attempt.goals == first.goals for one in found[1:])
-        sound = alike or sure[0] >= DOUBTFUL or not is_known(first.goals, fields)
-        return first if sound else _instead(text, best, likely, first, read)
+        hardly = sure[0] < DOUBTFUL and likely > RIVAL and not _passes_orders(text, best, read)
+        sound = alike or not hardly or not is_known(first.goals, fields)
+        return first if sound else _instead(text, best, likely, first)
     if likely >= best.least:
         return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
     if isinstance(first.outcome, Refusal) and not isinstance(first.error, Unread):
@@ -126,16 +129,20 @@ def second_look(
     return best.attempt._replace(outcome=asked)
 
 
-def _instead(text: str, best: Look, likely: float, first: Attempt, read: Grammar) -> Attempt:
+def _passes_orders(text: str, look: Look, read: Grammar) -> bool:
+    """Whether what a reading passes over as talk is an order by itself."""
+    return any(read(text[start:end]).goals for start, end in look.reading.spans)
+
+
+def _instead(text: str, best: Look, likely: float, first: Attempt) -> Attempt:
     """What to do where a reading of every word is not to be trusted.
 
-    What is an order by itself, or asks for something of its own kind, is never taken for talk.
+    What asks for something of its own kind is never taken for talk.
     """
     if isinstance(first.outcome, Question):
         return first
     kept = {type(goal) for goal in first.goals} <= {type(goal) for goal in best.attempt.goals}
-    orders = any(read(text[start:end]).goals for start, end in best.reading.spans)
-    if likely >= best.least and kept and not orders:
+    if likely >= best.least and kept:
         return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
     asked = just_that(text, Partly("I am not sure that I got that", first.goals))
     return first._replace(outcome=asked)

@@ -26,10 +26,12 @@ def read(said: str) -> Attempt:
     return first_look(said, MILL, Context())
 
 
-def trusting(odds: float) -> Fields:
-    """What was learnt, with the same log odds for every reading to be right."""
-    weights = np.array([[odds, 0.0]])
-    return {**LEARNT, "trust": Field(("right", "wrong"), {"always": 0}, weights, np.zeros((2, 2)))}
+def trusting(odds: float, *, whole: float = 0.0) -> Fields:
+    """What was learnt, with the same log odds for every reading to be right; `whole`: more or less
+    for the one that leaves no word out.
+    """
+    rows, weights = {"always": 0, "whole": 1}, np.array([[odds, 0.0], [whole, 0.0]])
+    return {**LEARNT, "trust": Field(("right", "wrong"), rows, weights, np.zeros((2, 2)))}
 
 
 def looked_at(said: str, fields: Fields) -> Outcome:
@@ -46,11 +48,19 @@ def test_what_is_not_trusted_is_asked_about() -> None:
     assert asked.kind == "confirmation"
 
 
-def test_what_the_grammar_reads_from_every_word_is_given_up_only_if_it_is_hardly_likely() -> None:
+def test_what_the_grammar_reads_from_every_word_is_given_up_only_if_another_is_far_likelier() -> (
+    None
+):
     said = "Tell Tilda the miller is late, you know how he is, it has been raining all day"
-    for odds in (0.0, 9.0):
+    for odds in (-9.0, 0.0, 9.0):
         assert looked_at(said, trusting(odds)) == read(said).outcome
-    assert isinstance(looked_at(said, trusting(-9.0)), Question)
+    assert looked_at(said, trusting(0.0, whole=-9.0)) != read(said).outcome
+
+
+def test_what_is_an_order_by_itself_is_never_taken_for_talk() -> None:
+    said = "go to the granary , locate a person , and say the mill stands still"
+    for whole in (-9.0, 0.0):
+        assert looked_at(said, trusting(0.0, whole=whole)) == read(said).outcome
 
 
 @pytest.mark.parametrize(
