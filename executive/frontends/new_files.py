@@ -59,6 +59,19 @@ def records_of(folder: Path) -> list[Path]:
     return [folder / name for name in names]
 
 
+def write(path: Path, data: bytes) -> None:
+    """Write a file, whatever is there, and the folders above it.
+
+    Raises:
+        ConfigError: it cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_ordinary(path, data)
+    except OSError as error:
+        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
+
+
 def put(path: Path, text: str, *, word: str = "Done") -> None:
     """Write a new file, and say so in a word.
 

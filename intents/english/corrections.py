@@ -10,22 +10,20 @@ from intents.english.substitution import substitute
 from intents.english.trouble import Misfit
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases, words
+from intents.english.words.repairs import TAKES_BACK
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Goal, ObjectQuery
 
-_MARKERS = phrases(
-    "no wait,wait no,no,i mean,i meant,or rather,rather,scratch that,correction,make that,sorry,"
-    "oh sorry,not that,no sorry,wait,oh no,oops,my mistake,i mean to say,sorry i meant,"
-    "sorry i mean,no i mean,no i meant,no not that,not that one,not this one,"
-    "no not that one,no not this one,wrong one,no make that,or better,better,on second thought,"
-    "on second thoughts,strike that,change that,not there,scrap that,forget that,cancel that,"
-    "i wanted to say,i meant to say,i was going to say,i wanted to ask for,what i meant was,"
-    "what i mean is,what i meant is,i should say,i should have said,change of plan,change of plans,"
-    "i tell a lie,hold on,hang on,just kidding,only kidding,jk,i take that back,that is wrong,"
-    "my bad,silly me,stupid me,on reflection,come to think of it,i got that wrong,or no,"
-    "what am i saying,that i think of it,that i think about it,pardon,pardon me,i beg your pardon,"
-    "nah,nope,i misspoke,i said that wrong,make it,whoops"
+_MARKERS = TAKES_BACK | phrases(
+    "oh sorry,not that,wait,oh no,no not that,not that one,not this one,no not that one,"
+    "no not this one,wrong one,on second thought,on second thoughts,strike that,change that,"
+    "not there,scrap that,forget that,cancel that,i wanted to say,i was going to say,"
+    "i wanted to ask for,what i meant was,what i mean is,what i meant is,i should have said,"
+    "change of plan,change of plans,i tell a lie,hold on,hang on,just kidding,only kidding,jk,"
+    "i take that back,that is wrong,my bad,silly me,stupid me,on reflection,come to think of it,"
+    "i got that wrong,or no,what am i saying,that i think of it,that i think about it,pardon me,"
+    "i beg your pardon,nah,nope,i misspoke,i said that wrong"
 )
 _LEADING = words("oh ah eh er uh um ach och well lol haha oops actually so ok okay wait sorry and")
 """What may stand between markers, and begins none by itself."""

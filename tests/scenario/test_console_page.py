@@ -16,8 +16,8 @@ import pytest
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.address import HOST
 from executive.frontends.console.desk import Desk
-from executive.frontends.console.scenery import scene_of
 from executive.frontends.console.server import PageServer
+from executive.frontends.recorded_place import scene_of
 from executive.runs import run_folder
 from robot.bringup import private_folder
 from robot.model import description

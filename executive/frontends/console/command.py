@@ -11,9 +11,9 @@ from contextlib import suppress
 from pathlib import Path
 
 from executive.frontends.console.address import HOST
-from executive.frontends.console.scenery import scene_of
 from executive.frontends.console.server import PageServer
 from executive.frontends.output import say
+from executive.frontends.recorded_place import scene_of
 from executive.journal import journal, past_runs
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus

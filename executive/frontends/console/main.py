@@ -9,8 +9,8 @@ import socket
 import sys
 from pathlib import Path
 
-from executive.frontends.console.scenery import scene_of
 from executive.frontends.console.server import PageServer
+from executive.frontends.recorded_place import scene_of
 from robot.bus.lifeline import tie_to_parent
 
 LAST_WORDS_S = 0.4

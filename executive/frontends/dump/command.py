@@ -11,7 +11,7 @@ import msgspec
 
 from executive.frontends.dump.writer import parse_formats
 from executive.frontends.long_journals import tell_of_length
-from executive.frontends.new_files import records_of, refuse_inputs
+from executive.frontends.new_files import records_of, refuse_inputs, write
 from executive.frontends.output import say, write_data
 from executive.journal import journal, past_runs, reader
 from executive.journal.dumps.formats import FORMATS, Wish, render
@@ -21,7 +21,6 @@ from executive.journal.run import Run
 from executive.journal.snapshot import come_to_rest
 from executive.journal.why import why
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import write_ordinary
 
 EXPORTS = ("mcap", "csv", "parquet")
 """Formats for other programs: `executive.frontends.dump.export`."""
@@ -77,7 +76,7 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         return 0
     path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
     refuse_inputs([path], records_of(folder))
-    _write(path, data)
+    write(path, data)
     say(f"Done: {path}")
     if asked.opened:
         browse(path.resolve().as_uri())
@@ -123,12 +122,3 @@ def _style(asked: Asked) -> Style:
     if asked.ascii_only is None and asked.output is None and sys.stdout.isatty():
         return "colour" if "utf" in (sys.stdout.encoding or "").lower() else "ascii"
     return "unicode"
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write a file. Raises ConfigError."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_ordinary(path, data)
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

@@ -6,22 +6,18 @@ import importlib.util
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-import msgspec
-
-from executive.frontends.composition_root import REALITY
 from executive.frontends.dump import foxglove
 from executive.frontends.dump.tables import Table, as_csv, as_parquet, tables
-from executive.frontends.new_files import records_of, refuse_inputs
+from executive.frontends.new_files import records_of, refuse_inputs, write
 from executive.frontends.output import Screen, say
-from executive.journal import journal, motion
+from executive.frontends.recorded_place import place_of
+from executive.journal import journal, motion, past_runs
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
 from executive.runs.again.recording import discreet
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.model import description
-from robot.ordinary_files import open_ordinary, write_ordinary
 from robot.reality.scene import Scene
 
 EXTRA: Mapping[str, tuple[str, str]] = {
@@ -32,9 +28,8 @@ EXTRA: Mapping[str, tuple[str, str]] = {
 TABLES: Mapping[str, Callable[[Table], bytes]] = {"csv": as_csv, "parquet": as_parquet}
 MOST_BYTES = 150_000_000
 """Of a journal or of movements: they are held in memory as they are written."""
-MAX_WALL_LINE = 200
 LAST_S = 3e9
-"""A wall clock beyond, in 2065, is none; stamps of MCAP's messages end in 2106."""
+"""Of the wall clock, in 2065: stamps of MCAP's messages end in 2106."""
 
 
 def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
@@ -58,16 +53,17 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
             refuse_inputs([place], records_of(folder))
             data = foxglove.recorded(
                 run, _events(folder), _moments(folder), scene=scene, motors=motors,
-                began_s=_began_s(folder, run),
+                began_s=min(max(past_runs.began_s(folder) - run.begin_s, 0.0), LAST_S),
             )  # fmt: skip
-            _write(place, data)
+            write(place, data)
         else:
             for table in tables(run, _events(folder), lambda: _moments(folder), motors=motors):
                 path = place / f"{table.name}.{kind}"
                 refuse_inputs([path], records_of(folder))
-                _write(path, TABLES[kind](table))
+                write(path, TABLES[kind](table))
     if scene is None:
-        say("what the world looked like is not known here: there are no shapes in it", err=True)
+        lost = "there are no shapes in it" if kind == "mcap" else "joints have numbers for names"
+        say(f"what the robot and its world look like is not known here: {lost}", err=True)
     say(f"Done: {place}")
     return ExitStatus.DONE
 
@@ -87,19 +83,16 @@ def _check(folder: Path, kind: str) -> None:
 
 
 def _looks(run: Run, folder: Path) -> tuple[tuple[str, ...], Scene | None]:
-    """Names of the robot's motors, and what it and its world look like, as far as that is known."""
-    world, robot, seed = (run.about.get(key) for key in ("world", "robot", "seed"))
-    if not (isinstance(world, str) and isinstance(robot, str)):
-        return (), None
-    vary_seed = seed if run.about.get("varied") and isinstance(seed, int) else None
+    """Names of the robot's motors, and what it and its world look like; else numbers, and None."""
     try:
         with discreet(folder):
-            described = description.load(robot)
-            scene = REALITY.world(world, vary_seed=vary_seed).scene(described)
+            place = place_of(run.about)
+            if place is not None:
+                return place.robot.motor_names, place.world.scene(place.robot)
     except ConfigError as error:
         say(str(error), err=True)
-        return (), None
-    return described.motor_names, scene
+    first = next(_moments(folder), None)
+    return tuple(map(str, range(len(first.q)))) if first is not None else (), None
 
 
 def _events(folder: Path) -> Iterator[Event]:
@@ -115,26 +108,3 @@ def _moments(folder: Path) -> Iterator[Moment]:
         yield from (one for one in motion.read(folder) if abs(one.t_s) < journal.MOST_S)
     except OSError:
         return
-
-
-class _Wall(msgspec.Struct, frozen=True):
-    n: int
-    wall_s: float
-
-
-def _began_s(folder: Path, run: Run) -> float:
-    """The wall clock at the robot's time 0, from when the first event was written; else 0."""
-    try:
-        with open_ordinary(folder / journal.WALL_FILE) as source:
-            first = msgspec.json.decode(source.readline(MAX_WALL_LINE), type=_Wall)
-    except (OSError, msgspec.DecodeError):
-        return 0.0
-    return max(0.0, first.wall_s - run.begin_s) if first.wall_s < LAST_S else 0.0
-
-
-def _write(path: Path, data: bytes) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_ordinary(path, data)
-    except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

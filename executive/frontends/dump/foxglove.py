@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from executive.frontends.dump import places
+from executive.frontends.dump import kinematics
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
@@ -82,7 +82,6 @@ class _Writer:
         self._things: dict[str, Any] = {}
         self._context = context
         self._bodies: dict[str, Body] = {}
-        self._shown: set[str] = set()
 
     # --- once ---
 
@@ -97,15 +96,17 @@ class _Writer:
             elif body.role == "robot":
                 still.append(self._entity(body.id, body, scene, SE3(), body.id, t_s))
             else:
-                X_WB = places.pose_of(body.X_PB)
+                X_WB = kinematics.pose_of(body.X_PB)
                 name = f"{body.role}/{body.id or place}"
                 still.append(self._entity(WORLD, body, scene, X_WB, name, t_s))
         still = [entity for entity in still if entity is not None]
         self._scene.log(SceneUpdate(entities=still), log_time=self._ns(t_s))
         fixed = [
-            self._transform(t_s, scene.bodies[body.parent].id, body.id, places.pose_of(body.X_PB))
-            for body in places.links(scene)
-            if not places.moves(body)
+            self._transform(
+                t_s, scene.bodies[body.parent].id, body.id, kinematics.pose_of(body.X_PB)
+            )
+            for body in kinematics.links(scene)
+            if not kinematics.moves(body)
         ]
         self._fixed.log(FrameTransforms(transforms=fixed), log_time=self._ns(t_s))
 
@@ -144,9 +145,10 @@ class _Writer:
         at = self._ns(moment.t_s)
         stamp = self._stamp(moment.t_s)
         names = motors if len(motors) == len(moment.q) else map(str, range(len(moment.q)))
-        joints = [JointState(name=name, position=q) for name, q in zip(names, moment.q)]  # noqa: B905
+        pairs = zip(names, moment.q, strict=True)
+        joints = [JointState(name=name, position=q) for name, q in pairs]
         self._joints.log(JointStates(timestamp=stamp, joints=joints), log_time=at)
-        X_WB = places.pose_of(moment.base)
+        X_WB = kinematics.pose_of(moment.base)
         pose = PoseInFrame(timestamp=stamp, frame_id=WORLD, pose=_pose(X_WB))
         self._base.log(pose, log_time=at)
         found: list[Any] = []
@@ -158,10 +160,10 @@ class _Writer:
                     moment.t_s,
                     scene.bodies[body.parent].id,
                     body.id,
-                    places.in_parent(body, moment.q),
+                    kinematics.in_parent(body, moment.q),
                 )
-                for body in places.links(scene)
-                if places.moves(body)
+                for body in kinematics.links(scene)
+                if kinematics.moves(body)
             ]
             self._transforms.log(FrameTransforms(transforms=found), log_time=at)
         for role, known in (("object", moment.objects), ("person", moment.people)):
@@ -187,7 +189,7 @@ class _Writer:
             gone = SceneEntityDeletion(timestamp=self._stamp(t_s), id=name)
             channel.log(SceneUpdate(deletions=[gone]), log_time=self._ns(t_s))
             return
-        entity = self._entity(WORLD, body, scene, places.pose_of(flat), name, t_s)
+        entity = self._entity(WORLD, body, scene, kinematics.pose_of(flat), name, t_s)
         entities = [entity] if entity is not None else []
         channel.log(SceneUpdate(entities=entities), log_time=self._ns(t_s))
 
@@ -220,7 +222,7 @@ class _Writer:
 
         shapes: Any = {}
         for geom in body.geoms:
-            X_FG = X_FB @ places.pose_of(geom.X_BG)
+            X_FG = X_FB @ kinematics.pose_of(geom.X_BG)
             for kind, shape in _shapes(geom, scene, X_FG):
                 shapes.setdefault(kind, []).append(shape)
         if not shapes:

@@ -9,18 +9,17 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from executive.frontends.composition_root import REALITY
 from executive.frontends.film import writing
 from executive.frontends.film.pictures import Composer, Frame, panel_px
 from executive.frontends.new_files import records_of, refuse_inputs
 from executive.frontends.output import Screen, say
+from executive.frontends.recorded_place import UNSAID, place_of
 from executive.journal import motion, past_runs, reader
 from executive.journal.motion import Moment
 from executive.journal.run import Run
 from executive.runs.again.recording import discreet
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.model import description
 from robot.reality.studio import Standing, Studio
 
 HELD_S = 0.35
@@ -107,13 +106,11 @@ def _span(asked: Asked, folder: Path) -> tuple[float, float]:
 
 
 def _studio(run: Run, folder: Path, width: int, height: int) -> Studio:
-    world, robot, seed = (run.about.get(key) for key in ("world", "robot", "seed"))
-    if not (isinstance(world, str) and isinstance(robot, str)):
-        raise ConfigError("the journal does not say where this was")
-    vary_seed = seed if run.about.get("varied") and isinstance(seed, int) else None
     with discreet(folder):
-        where = REALITY.world(world, vary_seed=vary_seed)
-        return where.studio(description.load(robot), width=width, height=height)
+        place = place_of(run.about)
+        if place is None:
+            raise ConfigError(UNSAID)
+        return place.world.studio(place.robot, width=width, height=height)
 
 
 def _frames(

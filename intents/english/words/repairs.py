@@ -14,12 +14,13 @@ from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
 from intents.english.words.measures import measure, number
 
-_MARKERS = lexicon.phrases(
-    "no,no no,no sorry,sorry,sorry no,no wait,wait no,no i mean,no i meant,sorry i mean,"
-    "sorry i meant,i mean,i meant,i mean to say,i meant to say,or rather,rather,make that,"
-    "make it,no make that,no make it,correction,oops,whoops,my mistake,scratch that,"
-    "i should say,pardon,better,or better,no better,excuse me"
+TAKES_BACK = lexicon.phrases(
+    "no,no sorry,sorry,no wait,wait no,no i mean,no i meant,sorry i mean,sorry i meant,i mean,"
+    "i meant,i mean to say,i meant to say,or rather,rather,make that,make it,no make that,"
+    "correction,oops,whoops,my mistake,scratch that,i should say,pardon,better,or better"
 )
+"""What is said before what is meant instead."""
+_MARKERS = TAKES_BACK | lexicon.phrases("no no,sorry no,no make it,no better,excuse me")
 _PAUSES = lexicon.phrases("wait,hold on,hang on")
 """Between commas, before a direction alone, these are markers, and else orders."""
 _APART = lexicon.words("no sorry rather correction oops whoops pardon better")

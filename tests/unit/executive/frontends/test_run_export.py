@@ -166,6 +166,9 @@ def test_a_world_that_cannot_be_read_leaves_its_shapes_out_and_is_not_told_of(
     assert "no shapes" in told and "secret" not in told and "swordfish" not in told
     found, _ = _messages(path)
     assert len(found["/joint_states"]) == len(moves) and "/tf" not in found
+    dump(Asked(run=str(folder), kind="csv", output=tmp_path / "out"))
+    rows = _csv(tmp_path / "out" / "motion.csv")
+    assert [float(row["q_0"]) for row in rows] == [moment.q[0] for moment in moves]
 
 
 NONSENSE = (
