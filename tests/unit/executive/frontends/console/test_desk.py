@@ -12,49 +12,14 @@ import pytest
 
 from executive.frontends.console import desk as desks
 from executive.frontends.console.desk import FILE, Desk
-from robot.errors import RobotError
+from tests.fakes.steered import Told
 from tests.fakes.waiting import HANG_S
 
 POLL_S = 0.005
 
 
-class Told:
-    """A shell that only notes what it is told; a line may take until `go_on` is set."""
-
-    def __init__(self):
-        self.said: list[str] = []
-        self.out = self.said.append
-        self.did: list[str] = []
-        self.stops = 0
-        self.asked: tuple[str, tuple[str, ...]] | None = None
-        self.go_on = threading.Event()
-        self.go_on.set()
-
-    def stop(self, why):
-        self.stops += 1
-        self.did.append("stop")
-        self.out("Stopping.")
-
-    def stop_at_once(self, text):
-        if text.startswith("estop"):
-            self.did.append(text)
-            if text == "estop reset":
-                raise RobotError("it is pressed")
-            return True
-        if text == "stop":
-            self.stop("")
-        return text == "stop"
-
-    def halt_at_once(self, text):
-        if text == "wait":
-            self.did.append("halt")
-        return text == "wait"
-
-    def line(self, text, *, stops=None):
-        self.go_on.wait(HANG_S)
-        if text == "a mistake":
-            raise ValueError("a mistake of this software")
-        self.did.append(f"{text} ({stops})")
+class Quiet(Told):
+    """It does what buttons say without a word."""
 
     def command(self, name):
         self.did.append(name)
@@ -94,7 +59,7 @@ def folder(tmp_path):
 
 @pytest.fixture
 def told():
-    return Told()
+    return Quiet()
 
 
 @pytest.fixture

@@ -34,6 +34,15 @@ def running(private=""):
     return Running(pid=1, run="r", private=str(private), world="w", robot="juno", runtime="live")
 
 
+def died_once(home):
+    """The private folder of a robot whose first executive is gone."""
+    private = home / "private"
+    private.mkdir()
+    front = mailbox.Front(entry="service", options={}, deaths=1)
+    mailbox.save(private / mailbox.FRONT_FILE, front)
+    return private
+
+
 @contextmanager
 def counter(told, place, private=""):
     with Counter(told, place=place, running=running(private), log=Log()) as made:
@@ -41,10 +50,7 @@ def counter(told, place, private=""):
 
 
 def test_a_stop_is_left_for_an_executive_that_takes_over_and_said_to_it(home):
-    private = home / "private"
-    private.mkdir()
-    front = mailbox.Front(entry="service", options={}, deaths=1)
-    mailbox.save(private / mailbox.FRONT_FILE, front)
+    private = died_once(home)
     with claimed("kitchen") as place:
         places.listen(place, running(private), backlog=1).close()  # that one has died
         done: list[int] = []
@@ -63,10 +69,7 @@ def test_a_stop_is_left_for_an_executive_that_takes_over_and_said_to_it(home):
 
 
 def test_other_buttons_are_not_left_for_anybody(home):
-    private = home / "private"
-    private.mkdir()
-    front = mailbox.Front(entry="service", options={}, deaths=1)
-    mailbox.save(private / mailbox.FRONT_FILE, front)
+    private = died_once(home)
     with claimed("kitchen") as place:
         places.listen(place, running(private), backlog=1).close()
         pressing = threading.Thread(target=lambda: clients.press(place, "resume", lambda _: None))
@@ -218,10 +221,7 @@ def test_what_cannot_be_decoded_is_passed_over():
 
 
 def test_a_cry_that_is_said_is_left_for_an_executive_that_takes_over(home):
-    private = home / "private"
-    private.mkdir()
-    front = mailbox.Front(entry="service", options={}, deaths=1)
-    mailbox.save(private / mailbox.FRONT_FILE, front)
+    private = died_once(home)
     with claimed("kitchen") as place:
         places.listen(place, running(private), backlog=1).close()  # that one has died
         saying = threading.Thread(
