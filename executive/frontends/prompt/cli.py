@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections.abc import Callable, Generator
@@ -43,7 +42,6 @@ from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 from robot.exit_status import ExitStatus
 
-HISTORY = Path("~/.local/state/humanoid/history")
 QUIET = frozenset({"phase", "stopping", "abort"})
 """Events that the status line shows anyway."""
 ENDINGS = {"done": "Done", "failed": "Failed", "cancelled": "Ended"}
@@ -99,16 +97,15 @@ in_executive = from_plain_options(Begun, prompt)
 
 def _at_terminal(shell: Shell, options: Prompt, handle: Handle | None, ahead: Ahead | None) -> int:
     """Prompt on a terminal until the person leaves; returns the exit status."""
-    from executive.frontends.prompt.terminal import Terminal
+    from executive.frontends.prompt.terminal import Terminal, history_at_home
 
     if under_way(handle) is not None:
         stopped = shell.robot.interrupts.pressed > 0
         say(f"The prompt is back{'; what was open is stopped' if stopped else ''}.")
     kind = "fast" if handle is None else "live"
     say(f"{options.robot} in {options.world}, {kind}. `help` shows what can be said.")
-    history = Path(os.path.expanduser(HISTORY))  # noqa: PTH111 - without a home it stays as it is
     typed = ahead.take() if ahead is not None else b""
-    Terminal(shell, history=history if history.is_absolute() else None, ahead=typed).run()
+    Terminal(shell, history=history_at_home(), ahead=typed).run()
     shell.speech.hush()
     if shell.gone:
         return ExitStatus.BROKEN

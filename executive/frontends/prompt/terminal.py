@@ -8,6 +8,7 @@ in order, however long one takes; the main one hears signals.
 from __future__ import annotations
 
 import asyncio
+import os
 import sys
 import threading
 from collections.abc import Callable
@@ -322,6 +323,12 @@ class _LastingHistory(FileHistory):
     def store_string(self, string: str) -> None:
         with suppress(OSError):
             super().store_string(string)
+
+
+def history_at_home() -> Path | None:
+    """Where this user's lines are kept; None without a home."""
+    path = Path(os.path.expanduser("~/.local/state/humanoid/history"))  # noqa: PTH111 - never raises
+    return path if path.is_absolute() else None
 
 
 def _history(path: Path | None) -> History:

@@ -5,13 +5,11 @@ It is the prompt's own terminal; what it talks to is here. Leaving it leaves the
 
 from __future__ import annotations
 
-import os
 import sys
 import threading
 import time
 from collections.abc import Mapping
 from contextlib import suppress
-from pathlib import Path
 from typing import NamedTuple
 
 import msgspec
@@ -20,7 +18,7 @@ from executive.engine.loop import Interrupts
 from executive.frontends.output import say
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.plain import lines_until, work_off
-from executive.frontends.prompt.terminal import LEAVING, Terminal
+from executive.frontends.prompt.terminal import LEAVING, Terminal, history_at_home
 from executive.frontends.prompt.view import View
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
@@ -34,7 +32,6 @@ from intents.vocabulary import Vocabulary
 from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
-HISTORY = Path("~/.local/state/humanoid/history")
 WAY_BACK_S = 60.0
 """So long a line waits for an executive that takes over."""
 
@@ -53,8 +50,7 @@ def attach(place: Place) -> int:
             if on_terminal:
                 named = f"{place.name}: {shell.hello.robot} in {shell.hello.world}"
                 say(f"{named}. `help` shows what can be said; Ctrl-D leaves, the robot goes on.")
-                history = Path(os.path.expanduser(HISTORY))  # noqa: PTH111 - it never raises
-                Terminal(shell, history=history if history.is_absolute() else None).run()
+                Terminal(shell, history=history_at_home()).run()
                 say(shell.gone or f"{place.name} goes on: humanoid attach comes back to it.")
             else:
                 interrupts = shell.robot.interrupts
