@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 
 from robot.ordinary_files import read_ordinary, write_ordinary
+from robot.user_state import user_state_folder
 
 HERE = Path("runs")
 NAMED = 40
@@ -26,21 +27,9 @@ MAX_BYTES = 1_000_000
 MOST_OUTSIDE = 500
 
 
-def _state() -> Path | None:
-    """The folder for what this software keeps of this user's; None without a home.
-
-    A home that is not there is none: root could make it, and would write where nobody looks.
-    """
-    said = Path(os.environ.get("XDG_STATE_HOME", ""))
-    if said.is_absolute():
-        return said / "humanoid"
-    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - it never raises
-    return home / ".local/state/humanoid" if home.is_absolute() and home.is_dir() else None
-
-
 def remember(place: Path) -> None:
     """Note that runs are kept in a folder, for `everywhere`; where that cannot be, do without."""
-    state = _state()
+    state = user_state_folder()
     with contextlib.suppress(OSError):  # the current folder may be gone as well
         path = os.fsencode(place.absolute())
         if state is None or b"\n" in path:
@@ -56,7 +45,7 @@ def remember(place: Path) -> None:
 
 def remember_outside(folder: Path) -> None:
     """Note a run that lies where somebody wanted it, for `outside`; else do without."""
-    state = _state()
+    state = user_state_folder()
     if state is None:
         return
     with contextlib.suppress(OSError):
@@ -69,7 +58,7 @@ def remember_outside(folder: Path) -> None:
 
 def outside(*, anywhere: bool = False) -> tuple[Path, ...]:
     """Runs started in the current folder (`anywhere`: in any) that were kept where wanted."""
-    state = _state()
+    state = user_state_folder()
     try:
         here = str(Path.cwd())
     except FileNotFoundError:
@@ -92,7 +81,7 @@ def _outside(state: Path) -> list[tuple[str, str]]:
 
 def everywhere() -> tuple[Path, ...]:
     """Every folder in which this user's runs are known to be kept, the current one's first."""
-    state = _state()
+    state = user_state_folder()
     if state is None:
         return all_places()
     noted = [Path(os.fsdecode(one)) for one in _index(state)]
@@ -115,7 +104,7 @@ def at_home() -> Path | None:
 
     Each folder has its own, so that `humanoid why` in one says nothing of a run in another.
     """
-    state = _state()
+    state = user_state_folder()
     try:
         here = str(Path.cwd())
     except FileNotFoundError:

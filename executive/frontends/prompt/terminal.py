@@ -8,7 +8,6 @@ in order, however long one takes; the main one hears signals.
 from __future__ import annotations
 
 import asyncio
-import os
 import sys
 import threading
 from collections.abc import Callable
@@ -37,6 +36,7 @@ from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
 from intents.stopping import is_stay, is_stop
 from robot.errors import RobotError
+from robot.user_state import user_state_folder
 
 REFRESH_S = 0.2
 PANEL_SHARE = 0.5
@@ -327,8 +327,8 @@ class _LastingHistory(FileHistory):
 
 def history_at_home() -> Path | None:
     """Where this user's lines are kept; None without a home."""
-    path = Path(os.path.expanduser("~/.local/state/humanoid/history"))  # noqa: PTH111 - never raises
-    return path if path.is_absolute() else None
+    state = user_state_folder()
+    return None if state is None else state / "history"
 
 
 def _history(path: Path | None) -> History:

@@ -32,6 +32,7 @@ import msgspec
 from executive.frontends.line_server import is_own
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_secret, write_ordinary
+from robot.user_state import user_state_folder
 
 SOCKET, RUNNING, LOG = "service.sock", "service.json", "up.log"
 DEFAULT_NAME = "robot"
@@ -82,11 +83,9 @@ def bases() -> tuple[Path, ...]:
     for runtime in (Path(said), Path(f"/run/user/{os.geteuid()}")):
         if runtime.is_absolute() and _is_own(runtime):
             found.append(runtime / "humanoid")
-    state = Path(os.environ.get("XDG_STATE_HOME", ""))
-    if not state.is_absolute():
-        state = Path(os.path.expanduser("~/.local/state"))  # noqa: PTH111 - it never raises
-    if state.is_absolute():
-        found.append(state / "humanoid" / "up")
+    state = user_state_folder()
+    if state is not None:
+        found.append(state / "up")
     return tuple(dict.fromkeys(found))
 
 

@@ -1,0 +1,20 @@
+"""Where this software keeps what is its user's: past runs, typed lines, robots that are up."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+
+def user_state_folder() -> Path | None:
+    """The folder for what is kept of this user's, made or not; None without a home.
+
+    `$XDG_STATE_HOME/humanoid`, or `~/.local/state/humanoid` (XDG Base Directory Specification 0.8;
+    a path there that is not absolute is to be ignored). A home that is not there is none: root
+    could make it, and would write where nobody looks.
+    """
+    said = Path(os.environ.get("XDG_STATE_HOME", ""))
+    if said.is_absolute():
+        return said / "humanoid"
+    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - it never raises
+    return home / ".local/state/humanoid" if home.is_absolute() and home.is_dir() else None
