@@ -13,8 +13,9 @@ MISSION := pick up the red cup and put it on the shelf
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-7s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-demo: env ## set up, then watch a humanoid put the red cup on the shelf, also on a page
-	@$(BIN)/humanoid do "$(MISSION)" --view $(ARGS)
+demo: env ## set up, watch a humanoid put the red cup on the shelf, also on a page; then a film of it
+	@$(BIN)/humanoid do "$(MISSION)" --view $(ARGS); status=$$?; \
+	[[ $$status -gt 1 ]] || $(BIN)/humanoid film; exit $$status
 
 test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)

@@ -27,6 +27,9 @@ HELD_S = 0.35
 LINGER_S = 1.5
 """How long the last picture stays, in seconds of the film."""
 ASPECT = 0.5625
+FOLLOW_S = 0.8
+"""The camera's time constant as it follows the robot, in seconds of the run (and not pictures: the
+robot stays in the picture at any --speed): a step's sway to the side, of 0.6 s, hardly shows."""
 MOST_THINGS = 10_000
 """Of one kind whose places are kept: more than any world has."""
 
@@ -118,9 +121,12 @@ def _frames(
 ) -> Iterator[Frame]:
     """The pictures, in order; the camera follows the robot without its sway."""
     at: tuple[float, float] | None = None
+    before_s = times[0]
     for t_s, standing in zip(times, standings(moments, times), strict=True):
         x, y, *_ = standing.base
-        at = (x, y) if at is None else (at[0] + 0.12 * (x - at[0]), at[1] + 0.12 * (y - at[1]))
+        part = 1.0 - math.exp((before_s - t_s) / FOLLOW_S)
+        at = (x, y) if at is None else (at[0] + part * (x - at[0]), at[1] + part * (y - at[1]))
+        before_s = t_s
         yield composer.compose(studio.shoot(standing, at_m=at), t_s)
 
 

@@ -93,6 +93,14 @@ def test_a_gif_has_every_picture_and_needs_nothing_else(run, studio, capsys):
     assert "Done" in capsys.readouterr().out
 
 
+def test_the_camera_follows_the_robot_as_closely_at_any_speed(run, studio):
+    for speed in (0.5, 4.0):
+        film(Asked(run=str(run), output=run / "it.gif", speed=speed, width=160))
+    (slow, _), (fast, _) = (made.looked[-1][1] for made in studio)
+    assert slow < 0.4  # where the robot is
+    assert fast == pytest.approx(slow, abs=0.05)
+
+
 def test_a_gif_shows_colours_that_come_into_view_later(tmp_path):
     grey, red = Image.new("RGB", (320, 180), "#a0a0a0"), (200, 30, 25)
     later = grey.copy()
