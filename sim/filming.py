@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 
 from robot.closing import Closing
-from robot.reality.scene import Flat
 from robot.reality.studio import Image, Standing
+from robot.reality.visual_scene import Flat
 from sim.plant import Plant, close_couplings
 from sim.render import Renderer, View
 

@@ -1,4 +1,4 @@
-"""What a plant looks like, as a value for whoever draws it elsewhere: `robot.reality.scene`."""
+"""What a plant looks like, for whoever draws it elsewhere: a `robot.reality.visual_scene`."""
 
 # pyright: basic
 
@@ -10,7 +10,17 @@ import mujoco
 import numpy as np
 
 from robot.model.description import RobotDescription
-from robot.reality.scene import Body, Flat, Geom, Joint, Kind, Mesh, Rgba, Role, Scene
+from robot.reality.visual_scene import (
+    Flat,
+    Geom,
+    Joint,
+    Kind,
+    Mesh,
+    Rgba,
+    Role,
+    VisualBody,
+    VisualScene,
+)
 from sim.bodies import BUMP, SILL
 from sim.plant import Plant
 from sim.rays import UNSENSED
@@ -40,7 +50,7 @@ WHERE_LIGHT, WHERE_DARK = (0.25, 0.25), (0.75, 0.25)
 """In a checker's texture, as parts of its width and height."""
 
 
-def scene(plant: Plant) -> Scene:
+def scene(plant: Plant) -> VisualScene:
     """Its bodies as they stand now, the robot's joints at 0 but for the base's pose."""
     return _Reading(plant).scene()
 
@@ -62,11 +72,11 @@ class _Reading:
         }
         self._motors = _motors(self._model, plant.robot)
 
-    def scene(self) -> Scene:
+    def scene(self) -> VisualScene:
         model, count = self._model, self._model.nbody
         base = int(model.body(self._robot.base_body).id)
         meshes = tuple(self._mesh(number) for number in range(model.nmesh))
-        return Scene(
+        return VisualScene(
             bodies=tuple(self._body(number, base) for number in range(count)),
             meshes=meshes,
             base=base,
@@ -75,7 +85,7 @@ class _Reading:
             bounds_m=self._world.bounds_m,
         )
 
-    def _body(self, number: int, base: int) -> Body:
+    def _body(self, number: int, base: int) -> VisualBody:
         model, data = self._model, self._data
         name = str(model.body(number).name)
         kind, slash, rest = name.partition("/")
@@ -92,7 +102,7 @@ class _Reading:
             else (model.body_pos[number], model.body_quat[number])
         )
         first, geoms = model.body_geomadr[number], model.body_geomnum[number]
-        return Body(
+        return VisualBody(
             id=rest if slash else name,
             role=role,
             name=self._titles.get(name, ""),

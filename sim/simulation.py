@@ -11,8 +11,8 @@ import msgspec
 from robot.model.description import RobotDescription
 from robot.reality.contract import Begin, Cast, Home
 from robot.reality.faults import Fault
-from robot.reality.scene import Scene
 from robot.reality.studio import Studio
+from robot.reality.visual_scene import VisualScene
 from sim import atlas, faults, placing, realities, world
 from sim.homes import catalogue
 from sim.world_schema import World
@@ -137,7 +137,7 @@ class SimulatedWorld:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         faults.verify(fault, self.entries, robot)
 
-    def scene(self, robot: RobotDescription) -> Scene:
+    def scene(self, robot: RobotDescription) -> VisualScene:
         """What it looks like. Raises RobotError as `sim.plant.Plant`."""
         from sim.scenery import scene
 

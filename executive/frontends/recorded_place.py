@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from robot.errors import RobotError
 from robot.model.description import RobotDescription
 from robot.reality.contract import World
-from robot.reality.scene import Scene
+from robot.reality.visual_scene import VisualScene
 
 UNSAID = "the journal does not say where this was"
 
@@ -39,7 +39,7 @@ def place_of(about: Mapping[str, Any]) -> RecordedPlace | None:
     return RecordedPlace(REALITY.world(world, vary_seed=vary_seed), description.load(robot))
 
 
-def scene_of(about: Mapping[str, Any]) -> Scene | str:
+def scene_of(about: Mapping[str, Any]) -> VisualScene | str:
     """What the world looks like of a run that was started with this, or why nobody knows."""
     try:
         place = place_of(about)

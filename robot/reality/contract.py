@@ -16,9 +16,9 @@ from robot.drivers.wiring import SimulatedPlant
 from robot.messages import Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
-from robot.reality.scene import Scene
 from robot.reality.studio import Studio
 from robot.reality.truth import Check, Verdict
+from robot.reality.visual_scene import VisualScene
 from robot.se3 import SE3
 
 
@@ -160,7 +160,7 @@ class World(Protocol):
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         ...
 
-    def scene(self, robot: RobotDescription) -> Scene:
+    def scene(self, robot: RobotDescription) -> VisualScene:
         """What it looks like with a robot in it. Raises RobotError if they do not fit together."""
         ...
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.closing import Closing
-from robot.reality.scene import Flat
+from robot.reality.visual_scene import Flat
 
 Image = NDArray[np.uint8]
 """Shape (height, width, 3)."""

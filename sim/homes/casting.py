@@ -19,8 +19,8 @@ from sim import atlas
 from sim.footprint import Point
 from sim.homes.home import Home
 from sim.homes.lanes import Lanes, facing, nobody
-from sim.homes.scene import Scene
 from sim.homes.surfaces import Surface
+from sim.homes.visitor import Visitor
 from sim.world_schema import Object
 
 OFF_M, ASIDE_M, AWAY_M = 0.09, 0.16, 0.28
@@ -46,11 +46,11 @@ def cast(home: Home, seed: int) -> Cast:
     Those that nothing in the home can play are vacant, with the reason.
     """
     rng = np.random.default_rng([seed, zlib.crc32(home.world.name.encode()), 0xFA17])
-    scene = Scene(home, rng)
-    lanes = Lanes(scene)
-    somebody = Cast({"person": scene.pick(home.world.people).id}, {})
+    visitor = Visitor(home, rng)
+    lanes = Lanes(visitor)
+    somebody = Cast({"person": visitor.pick(home.world.people).id}, {})
     families = (
-        _things(scene, lanes), lanes.straight(), lanes.around(), lanes.through_a_door(), somebody,
+        _things(visitor, lanes), lanes.straight(), lanes.around(), lanes.through_a_door(), somebody,
     )  # fmt: skip
     return Cast(
         {role: value for family in families for role, value in family.roles.items()},
@@ -58,10 +58,10 @@ def cast(home: Home, seed: int) -> Cast:
     )
 
 
-def _things(scene: Scene, lanes: Lanes) -> Cast:
+def _things(visitor: Visitor, lanes: Lanes) -> Cast:
     """A thing with room around it, where to begin, and what it is put on."""
     best: tuple[Object, dict[str, Any]] | None = None
-    for item, roles in _candidates(scene, lanes):
+    for item, roles in _candidates(visitor, lanes):
         if best is None or len(roles) > len(best[1]):
             best = item, roles
         if len(roles) == len(THINGS):
@@ -69,34 +69,34 @@ def _things(scene: Scene, lanes: Lanes) -> Cast:
     if best is None:
         return nobody((*THINGS, "to", *TAKEN), "there is no room to begin before any surface")
     item, roles = best
-    target = _target(scene, item)
+    target = _target(visitor, item)
     why = f"nothing has room around it for that; the {item.title} has most"
     vacant = {role: why for role in THINGS if role not in roles}
     return Cast({**roles, **target.roles}, {**vacant, **target.vacant})
 
 
-def _candidates(scene: Scene, lanes: Lanes) -> Iterator[tuple[Object, dict[str, Any]]]:
+def _candidates(visitor: Visitor, lanes: Lanes) -> Iterator[tuple[Object, dict[str, Any]]]:
     """Things in sight of where one can begin, each with the roles that it fills."""
-    for item in scene.shuffled(scene.objects):
-        surface, at = scene.surface_of(item), item.at_m or (0.0, 0.0)
+    for item in visitor.shuffled(visitor.objects):
+        surface, at = visitor.surface_of(item), item.at_m or (0.0, 0.0)
         stand = surface.standing(at)
         starts = lanes.points_around(stand, FROM_THING_M) if stand else ()
-        inside = (start for start in starts if atlas.room_at(scene.world, start) == surface.room)
+        inside = (start for start in starts if atlas.room_at(visitor.world, start) == surface.room)
         begin = next(inside, None)
         if stand is not None and begin is not None:
             at_thing = facing(begin, surface.point(at))
-            yield item, {"thing": item.id, "at_thing": at_thing, **_moves(scene, item, stand)}
+            yield item, {"thing": item.id, "at_thing": at_thing, **_moves(visitor, item, stand)}
 
 
-def _moves(scene: Scene, item: Object, stand: Point) -> dict[str, Any]:
+def _moves(visitor: Visitor, item: Object, stand: Point) -> dict[str, Any]:
     """Where a thing may be moved to, in the world's axes; what there is no room for is left out.
 
     In is away from who stands there. What falls from the hand is to land on the surface: boards of
     shelves are too shallow for that (0.3 m).
     """
-    surface, at = scene.surface_of(item), item.at_m or (0.0, 0.0)
+    surface, at = visitor.surface_of(item), item.at_m or (0.0, 0.0)
     yaw = surface.place.X_WP.yaw_rad
-    others = [one for one in scene.on(surface) if one is not item]
+    others = [one for one in visitor.on(surface) if one is not item]
     X, Y = surface.point(at)
     ahead, left = _turned((X - stand[0], Y - stand[1]), -yaw)
     into = (math.copysign(1.0, ahead), 0.0)
@@ -118,28 +118,28 @@ def _moves(scene: Scene, item: Object, stand: Point) -> dict[str, Any]:
     return {role: by_m for role, by_m in found.items() if by_m is not None}
 
 
-def _target(scene: Scene, item: Object) -> Cast:
+def _target(visitor: Visitor, item: Object) -> Cast:
     """What a thing is put on, and what takes the place there: the nearest surface that will do."""
-    stand = scene.by(item)
-    tops = [s for s in scene.targets([item]) if s.item.kind not in ("shelf", "box")]
-    near = sorted(tops, key=lambda one: scene.home.ground.walk_m(stand, scene.at(one)))
+    stand = visitor.by(item)
+    tops = [s for s in visitor.targets([item]) if s.item.kind not in ("shelf", "box")]
+    near = sorted(tops, key=lambda one: visitor.home.ground.walk_m(stand, visitor.at(one)))
     if not near:
         return nobody(("to", *TAKEN), "no other surface has room for the thing")
     for surface in near:
-        taken = _taken(scene, item, surface)
+        taken = _taken(visitor, item, surface)
         if taken:
             return Cast({"to": surface.place.id, **taken}, {})
     why = "no surface has room for two things in front and one more"
     return Cast({"to": near[0].place.id}, dict.fromkeys(TAKEN, why))
 
 
-def _taken(scene: Scene, item: Object, surface: Surface) -> dict[str, Any]:
+def _taken(visitor: Visitor, item: Object, surface: Surface) -> dict[str, Any]:
     """Two things that take the front, and leave room for a third; nothing where none do."""
-    there = scene.on(surface)
+    there = visitor.on(surface)
     ahead_m = round(surface.place.size_m[0] / 2 - FROM_FRONT_M, 3)
     spots = ((ahead_m, 0.0), (ahead_m, -APART_M))
     placed: list[Object] = []
-    for other in scene.shuffled(scene.objects):
+    for other in visitor.shuffled(visitor.objects):
         at = spots[len(placed)]
         is_spare = other is not item and other not in there
         if is_spare and surface.takes(other, at, [*there, *placed], gap_m=LIFT_M):

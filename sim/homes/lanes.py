@@ -13,7 +13,7 @@ from robot.reality.contract import Cast
 from sim import atlas, furniture
 from sim.footprint import Point
 from sim.homes.home import STANDING_ROOM_M
-from sim.homes.scene import Scene
+from sim.homes.visitor import Visitor
 from sim.world_schema import Door, Room, Spot
 
 WALK_M, LONG_WALK_M = (1.6, 2.2), (2.5, 3.3)
@@ -30,16 +30,16 @@ IN_DOOR_M = 0.55
 
 
 class Lanes:
-    """Ways of a scene, drawn from its seed."""
+    """Ways of a visitor, drawn from its seed."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, visitor: Visitor) -> None:
         """Look for nothing yet."""
-        self.scene, self.ground = scene, scene.home.ground
+        self.visitor, self.ground = visitor, visitor.home.ground
 
     def straight(self) -> Cast:
         """A spot with a name, and a short and a long way straight to it."""
         best = nobody(("goal", "walk", "at_goal", "long_walk"), "no straight way leads to a spot")
-        for spot in self.scene.shuffled(self.scene.world.spots):
+        for spot in self.visitor.shuffled(self.visitor.world.spots):
             start = next(self._starts(spot, WALK_M), None)
             far = next(self._starts(spot, LONG_WALK_M), None)
             if start is None:
@@ -56,23 +56,23 @@ class Lanes:
         names = ("chair", "wide_goal", "wide_walk", "at_wide_goal")
         chairs = [
             item
-            for item in self.scene.world.furniture
+            for item in self.visitor.world.furniture
             if item.kind == "chair" and furniture.movable(item)
         ]
         if not chairs:
             return nobody(names, "there is no chair that can be pushed")
-        for spot in self.scene.shuffled(self.scene.world.spots):
+        for spot in self.visitor.shuffled(self.visitor.world.spots):
             for start in self._starts(spot, LONG_WALK_M):
                 if self._leads_around(start, spot.at_m):
                     walk = facing(start, spot.at_m)
-                    values = (self.scene.pick(chairs).id, spot.id, walk, _at(spot))
+                    values = (self.visitor.pick(chairs).id, spot.id, walk, _at(spot))
                     return Cast(dict(zip(names, values, strict=True)), {})
         return nobody(names, "no straight way to a spot has room to go around a chair")
 
     def through_a_door(self) -> Cast:
         """A room that is reached by one doorway only from where the robot starts before it."""
-        rooms = self.scene.world.rooms
-        for room, door in self.scene.shuffled([(r, d) for r in rooms for d in r.doors]):
+        rooms = self.visitor.world.rooms
+        for room, door in self.visitor.shuffled([(r, d) for r in rooms for d in r.doors]):
             middle = _middle(room, door)
             along = 0 if door.wall in ("north", "south") else 1
             without = self._without(middle, IN_DOOR_M)
@@ -101,7 +101,7 @@ class Lanes:
         points = self.ground.points(cells)
         lengths = np.hypot(*(points - np.array(point)).T)
         near = points[(lengths >= far_m[0]) & (lengths <= far_m[1])]
-        for index in self.scene.rng.permutation(len(near)).tolist():
+        for index in self.visitor.rng.permutation(len(near)).tolist():
             x, y = near[index].tolist()
             yield round(x, 2) + 0.0, round(y, 2) + 0.0
 
@@ -125,7 +125,7 @@ class Lanes:
 
     def _beyond(self, start: Point, middle: Point, without: Mask) -> Room | None:
         """The room behind a doorway, if no other way leads there from before it."""
-        world = self.scene.world
+        world = self.visitor.world
         name = atlas.room_at(world, (2 * middle[0] - start[0], 2 * middle[1] - start[1]))
         if not name or name == atlas.room_at(world, start):
             return None

@@ -34,7 +34,7 @@ from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
 from robot.errors import RobotError
-from robot.reality.scene import Scene
+from robot.reality.visual_scene import VisualScene
 
 PERIOD_S = 0.05
 """Between two messages to a page: as often as the robot thinks."""
@@ -48,7 +48,7 @@ NOBODY = "Nobody takes orders from this page: no robot is at work here."
 BACKLOG = 16
 """Connections taken at a time: what comes at once costs no more files than that."""
 
-MakeScene = Callable[[Mapping[str, Any]], Scene | str]
+MakeScene = Callable[[Mapping[str, Any]], VisualScene | str]
 """What the world of a run looks like that was started with this, or why that is not known."""
 
 

@@ -18,7 +18,7 @@ from executive.journal.run import Run
 from executive.runs.again.recording import discreet
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.reality.scene import Scene
+from robot.reality.visual_scene import VisualScene
 
 EXTRA: Mapping[str, tuple[str, str]] = {
     "mcap": ("foxglove", "mcap"),
@@ -82,7 +82,7 @@ def _check(folder: Path, kind: str) -> None:
             raise ConfigError([Problem(text, str(path), suggestion=cure)])
 
 
-def _looks(run: Run, folder: Path) -> tuple[tuple[str, ...], Scene | None]:
+def _looks(run: Run, folder: Path) -> tuple[tuple[str, ...], VisualScene | None]:
     """Names of the robot's motors, and what it and its world look like; else numbers, and None."""
     try:
         with discreet(folder):

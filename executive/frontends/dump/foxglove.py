@@ -17,7 +17,7 @@ from executive.frontends.dump import kinematics
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
-from robot.reality.scene import Body, Geom, Rgba, Scene
+from robot.reality.visual_scene import Geom, Rgba, VisualBody, VisualScene
 from robot.se3 import SE3
 
 WORLD = "world"
@@ -33,7 +33,7 @@ def recorded(
     events: Iterable[Event],
     moments: Iterator[Moment],
     *,
-    scene: Scene | None,
+    scene: VisualScene | None,
     motors: tuple[str, ...],
     began_s: float,
 ) -> bytes:
@@ -81,11 +81,11 @@ class _Writer:
         self._state = Channel("/state", message_encoding="json", context=context)
         self._things: dict[str, Any] = {}
         self._context = context
-        self._bodies: dict[str, Body] = {}
+        self._bodies: dict[str, VisualBody] = {}
 
     # --- once ---
 
-    def scene(self, scene: Scene, t_s: float) -> None:
+    def scene(self, scene: VisualScene, t_s: float) -> None:
         """What everything looks like: it hangs on frames, which move."""
         from foxglove.messages import FrameTransforms, SceneUpdate
 
@@ -138,7 +138,7 @@ class _Writer:
         record = {"n": event.n, "event": event.event, **event.data}
         self._events.log(record, log_time=self._ns(event.t_s))
 
-    def moment(self, moment: Moment, scene: Scene | None, motors: tuple[str, ...]) -> None:
+    def moment(self, moment: Moment, scene: VisualScene | None, motors: tuple[str, ...]) -> None:
         """How everything stands."""
         from foxglove.messages import FrameTransforms, JointState, JointStates, PoseInFrame
 
@@ -174,7 +174,7 @@ class _Writer:
         if news:
             self._state.log(news, log_time=at)
 
-    def _thing(self, name: str, flat: Any, scene: Scene | None, t_s: float) -> None:
+    def _thing(self, name: str, flat: Any, scene: VisualScene | None, t_s: float) -> None:
         """Where something is seen: a topic each, so that whoever seeks finds the newest of each."""
         from foxglove import channels
         from foxglove.messages import SceneEntityDeletion, SceneUpdate
@@ -216,7 +216,7 @@ class _Writer:
         )
 
     def _entity(  # noqa: PLR0917
-        self, frame: str, body: Body, scene: Scene, X_FB: SE3, name: str, t_s: float
+        self, frame: str, body: VisualBody, scene: VisualScene, X_FB: SE3, name: str, t_s: float
     ) -> Any:
         from foxglove.messages import KeyValuePair, SceneEntity
 
@@ -234,7 +234,7 @@ class _Writer:
         )  # fmt: skip
 
 
-def _shapes(geom: Geom, scene: Scene, X_FG: SE3) -> Iterator[tuple[str, Any]]:
+def _shapes(geom: Geom, scene: VisualScene, X_FG: SE3) -> Iterator[tuple[str, Any]]:
     from foxglove import messages as m
 
     pose, color = _pose(X_FG), _color(geom.rgba)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from robot.reality.scene import Body, Flat, Joint, Scene
+from robot.reality.visual_scene import Flat, Joint, VisualBody, VisualScene
 from robot.se3 import SE3
 
 
@@ -35,7 +35,7 @@ def moved(joint: Joint, q: tuple[float, ...]) -> SE3:
     return SE3(joint.at_m) @ turn @ SE3((-px, -py, -pz))
 
 
-def in_parent(body: Body, q: tuple[float, ...]) -> SE3:
+def in_parent(body: VisualBody, q: tuple[float, ...]) -> SE3:
     """X_PB of one of the robot's bodies, other than its base."""
     found = pose_of(body.X_PB)
     for joint in body.joints:
@@ -43,12 +43,12 @@ def in_parent(body: Body, q: tuple[float, ...]) -> SE3:
     return found
 
 
-def moves(body: Body) -> bool:
+def moves(body: VisualBody) -> bool:
     """Whether any motor moves it in its parent."""
     return any(joint.motor >= 0 for joint in body.joints)
 
 
-def links(scene: Scene) -> list[Body]:
+def links(scene: VisualScene) -> list[VisualBody]:
     """The robot's bodies but its base."""
     return [
         body

@@ -1,4 +1,4 @@
-"""A home as somebody sees it who asks for something there: names, and how long a person takes."""
+"""Somebody at a home who asks for things there: their names, and how long a person takes."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ SYNONYM, PLAIN = 0.3, 0.6
 """How often something is called by a synonym; what is alone of its kind, by no more than that."""
 
 
-class Scene:
-    """A home, and one draw after the other of what is asked for in it."""
+class Visitor:
+    """Knows a home, and draws one after the other what to ask for in it."""
 
     def __init__(self, home: Home, rng: np.random.Generator) -> None:
         """Sort out what lies where."""

@@ -22,7 +22,7 @@ class Geom(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     `size_m` is as MuJoCo has it: half extents of a box; radii of an ellipsoid; radius and half
     length of a cylinder or a capsule (of what is between its caps); radius of a sphere. `mesh` is a
-    place in `Scene.meshes`. `tile_m` and `rgba2` are of a checker on it, seen from above.
+    place in `VisualScene.meshes`. `tile_m` and `rgba2` are of a checker on it, seen from above.
     """
 
     kind: Kind
@@ -44,12 +44,12 @@ class Joint(msgspec.Struct, frozen=True, kw_only=True):
     gain: float = 1.0
 
 
-class Body(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class VisualBody(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What moves as one.
 
     `id` is a name of the robot's, or the world's own of an object or a person. `X_PB` is its pose
-    in its `parent` (a place in `Scene.bodies`, -1: the world) with all joints at 0; for the robot's
-    base, objects and people it is where they begin.
+    in its `parent` (a place in `VisualScene.bodies`, -1: the world) with all joints at 0; for the
+    robot's base, objects and people it is where they begin.
     """
 
     id: str
@@ -68,14 +68,14 @@ class Mesh(msgspec.Struct, frozen=True, kw_only=True):
     faces: bytes
 
 
-class Scene(msgspec.Struct, frozen=True, kw_only=True):
+class VisualScene(msgspec.Struct, frozen=True, kw_only=True):
     """All of it; parents come before what hangs on them.
 
     `base` is the place of the robot's base; `motors` is how many it has, and `posture` how they
     stand as it begins. `bounds_m` is (least x, least y, largest x, largest y) of the world.
     """
 
-    bodies: tuple[Body, ...]
+    bodies: tuple[VisualBody, ...]
     meshes: tuple[Mesh, ...]
     base: int
     motors: int
