@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import importlib.metadata
 import os
+import re
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -323,6 +325,18 @@ def _checked(word: str) -> str:
     raise ConfigError([Problem(text, suggestion="leave it out")])
 
 
+def _check_values(words: list[str]) -> None:
+    """Refuse options whose value is empty: what a variable of the shell leaves that is not set.
+
+    As a path it would be the current folder. Raises ConfigError.
+    """
+    for before, word in pairwise(["", *words]):
+        option = before if not word else word.removesuffix("=") if word.endswith("=") else ""
+        if re.fullmatch(r"-[a-z]|--[a-z-]+", option):
+            cure = "say what it is to be, or leave it out (is a variable of the shell not set?)"
+            raise ConfigError([Problem(f"what follows {option} is empty", suggestion=cure)])
+
+
 def _whole(status: str | int | None) -> str | int | None:
     """An exit status; another one where output that was all the work did not get to its place."""
     why, product = streams.lost()
@@ -343,6 +357,7 @@ def main() -> None:
     completes = "_HUMANOID_COMPLETE" in os.environ
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
+        _check_values(sys.argv[1:])
         # what is completed needs no defaults, and a file that is wrong is no business of Tab's
         app(prog_name="humanoid", default_map=None if completes else defaults)
     except SystemExit as ended:

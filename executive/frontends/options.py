@@ -195,10 +195,10 @@ class Prompt(Place, Shuffled, Viewed, Kept, Agreeing, Voiced):
 class Walk(Place, Seeded):
     """The options of `humanoid walk`: to look at the body alone, where nothing is in its way."""
 
-    speed: Annotated[float, typer.Option("--speed", help="Forward [m/s].")] = 0.4
-    left: Annotated[float, typer.Option("--left", help="Sideways, to the left [m/s].")] = 0.0
-    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left [rad/s].")] = 0.0
-    duration: Annotated[float, typer.Option("--for", help="How long [s].")] = 10.0
+    speed: Annotated[float, typer.Option("--speed", help="Forward, in m/s.")] = 0.4
+    left: Annotated[float, typer.Option("--left", help="Sideways, to the left, in m/s.")] = 0.0
+    turn: Annotated[float, typer.Option("--turn", help="Turning, to the left, in rad/s.")] = 0.0
+    duration: Annotated[float, typer.Option("--for", help="How long, in seconds.")] = 10.0
     world: World = "empty"
     as_json: AsJson = False
 

@@ -96,7 +96,7 @@ def find(name: str | None, *, base: Path | None = None) -> Path:
         raise ConfigError([Problem(f"there is no run in {base or HERE}/", suggestion=cure)])
     if name is None:
         return known[-1]
-    fitting = [folder for folder in known if name in folder.name]
+    fitting = [folder for folder in known if name and name in folder.name]
     if fitting:
         return fitting[-1]
     hint = nearest(name, [folder.name for folder in known])

@@ -20,7 +20,6 @@ AS_IT_HAPPENS: Mapping[str, str] = {
     "resume": "going on",
     "request": "requested: {request}",
     "again": "{step}: tried again ({count})",
-    "branch": "{name}: {took}",
     "settled": "{step}: {means}",
     "held": "in the hands: {hands}",
     "warning": "warning: {text}",
@@ -121,6 +120,11 @@ def _heard(data: Mapping[str, Any]) -> str:
     return f"{data.get('who', 'somebody')}{whose} says: {data.get('text', '')}"
 
 
+def _branch(data: Mapping[str, Any]) -> str:
+    answer = "yes" if data.get("took") == "then" else "no"
+    return f"{data.get('step', 'a condition')}: {answer}"
+
+
 def _resumed(data: Mapping[str, Any]) -> str:
     what = f" with “{data['text']}”" if data.get("text") else ""
     return f"going on{what}: {data.get('why', '')}"
@@ -128,6 +132,7 @@ def _resumed(data: Mapping[str, Any]) -> str:
 
 _OF_KIND = {
     "health": _health, "heard": _heard, "expect": _expect, "fault": _fault, "resumed": _resumed,
+    "branch": _branch,
 }  # fmt: skip
 
 

@@ -147,6 +147,46 @@ def test_a_phone_has_the_stop_in_reach_and_two_pages_see_the_same(browser, shell
         assert phone.mistakes() == desktop.mistakes() == []
 
 
+def test_the_newest_line_stays_in_sight_until_somebody_scrolls_up(browser, shell):
+    """Also while another tab is shown, and on a phone, whose list is short."""
+    fill = (
+        "((n) => showTalk(Array.from({{length: n}}, (_, k) => [k, 'answer', `line ${{k}}`, '']))"
+        ")({lines})"
+    )
+    below = "talk.scrollHeight - talk.scrollTop - talk.clientHeight"
+    with served(shell.folder) as console:
+        page = browser.page(console.url, width=375, height=740, mobile=True)
+        page.wait("page.drawn > 0 && page.steers")
+        page.click("[data-show=tree]")
+        page.eval(fill.format(lines=100))
+        page.click("[data-show=talk]")
+        page.wait(f"talk.clientHeight > 0 && {below} < 2")
+        page.eval(fill.format(lines=150))
+        page.wait(f"{below} < 2")
+        page.eval("talk.scrollTop = 100")
+        page.wait("!talk.follows")
+        page.eval(fill.format(lines=200))
+        assert page.eval("talk.scrollTop") == 100
+        ordered(page, "where is the cup?")  # whose answer is to be seen
+        page.wait(f"talk.follows && {below} < 2")
+
+
+@pytest.mark.parametrize("end_s", [9.9, 235.8, 7271.0])
+def test_a_phone_shows_the_whole_time(browser, shell, end_s):
+    with served(shell.folder) as console:
+        page = browser.page(console.url, width=375, height=740, mobile=True)
+        page.wait("page.drawn > 0 && page.steers")
+        apart = page.eval(
+            f"(() => {{ motion.end = {end_s}; panels.time();"
+            "const box = (id) => document.querySelector(id).getBoundingClientRect();"
+            "const clock = document.querySelector('#clock');"
+            "return [box('#clock').left - box('#slider').right, box('#now').left"
+            " - box('#clock').right, box('#stop').left - box('#now').right,"
+            " clock.clientWidth - clock.scrollWidth]; })()"
+        )
+        assert min(apart) >= 0
+
+
 def test_a_page_without_the_token_says_so_and_shows_nothing(browser, shell):
     with served(shell.folder) as console:
         page = browser.page(console.url.partition("#")[0])

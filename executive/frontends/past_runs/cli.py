@@ -80,7 +80,9 @@ def prune(
     ] = None,
     older_than: Annotated[
         float | None,
-        typer.Option("--older-than", min=0.0, max=100_000.0, help="Only older ones [days]."),
+        typer.Option(
+            "--older-than", min=0.0, max=100_000.0, help="Only those that are older, in days."
+        ),
     ] = None,
     everywhere: Annotated[
         bool, typer.Option("--everywhere", help="Of every folder in which something was run.")

@@ -28,7 +28,7 @@ Window = Annotated[
         "--corner-window",
         min=2,
         max=50,
-        help="Half the window around a chessboard's corner [px]; less than half a square.",
+        help="Half the window around a chessboard's corner, in pixels; less than half a square.",
     ),
 ]
 

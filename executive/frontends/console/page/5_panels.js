@@ -40,8 +40,13 @@ function showTree(rows) {
   showTree.last = running;
 }
 
+// The newest line stays in sight until somebody scrolls up: while the list is not shown, and when its size changes, too.
+const talk = $("talk"), toNewest = () => { if (talk.follows) talk.scrollTop = talk.scrollHeight; };
+talk.follows = true;
+talk.addEventListener("scroll", () => { if (talk.clientHeight) talk.follows = talk.scrollHeight - talk.scrollTop - talk.clientHeight < 40; });
+new ResizeObserver(toNewest).observe(talk);
+
 function showTalk(lines) {
-  const list = $("talk"), down = list.scrollHeight - list.scrollTop - list.clientHeight < 40;
   const inOrder = lines.map((line, k) => [line, k]).sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([line]) => line);
   const items = inOrder.map(([t, kind, text, who]) => {
     const said = who && kind !== "help" ? text.replace(/^says: /, "") : text;
@@ -49,8 +54,8 @@ function showTalk(lines) {
     item.prepend(element("time", "", seconds(t)));
     return item;
   });
-  list.replaceChildren(...items);
-  if (down) list.scrollTop = list.scrollHeight;
+  talk.replaceChildren(...items);
+  toNewest();
 }
 
 function facts(pairs) {
@@ -121,4 +126,5 @@ function showTab(name) {
   (name === "tree" ? $("small") : $("left")).append(tree);
   for (const pane of document.querySelectorAll("#right > .pane")) pane.hidden = pane.dataset.tab !== (name === "tree" ? "small" : name);
   for (const tab of document.querySelectorAll("#tabs button")) tab.setAttribute("aria-selected", tab.dataset.show === name);
+  toNewest();
 }

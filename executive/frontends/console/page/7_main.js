@@ -337,6 +337,8 @@ $("order").onsubmit = (event) => {
   event.preventDefault();
   const text = $("line").value.trim();
   if (text) order(text);
+  talk.follows = true; // to its answer
+  toNewest();
   $("line").value = "";
 };
 $("slider").oninput = () => { page.playing = false; page.now = false; goTo(Number($("slider").value)); };

@@ -4,6 +4,8 @@ import errno
 import os
 
 import pytest
+import typer
+from rich.text import Text
 
 from executive.engine.job_book import JobError
 from executive.frontends import cli
@@ -28,6 +30,37 @@ def test_a_cry_to_stop_is_heard_whatever_was_pasted_along_with_it(cry):
 
 def test_any_other_word_stays_as_it_is():
     assert cli._checked("do not stop at the ▸ table") == "do not stop at the ▸ table"
+
+
+@pytest.mark.parametrize(
+    "words", [["do", "--run-dir", "", "wave"], ["film", "-o", ""], ["do", "--world=", "wave"]]
+)
+def test_an_option_whose_value_is_empty_is_refused_by_its_name(words):
+    with pytest.raises(ConfigError, match=r"what follows (--run-dir|-o|--world) is empty"):
+        cli._check_values(words)
+
+
+@pytest.mark.parametrize(
+    "words", [["parse", ""], ["mission", "run", "a.yaml", "--param", "words="], ["do", "a --b="]]
+)
+def test_a_sentence_or_a_parameter_may_be_empty(words):
+    cli._check_values(words)
+
+
+def helps(command, name="humanoid"):
+    """What is said of each option and argument of a command and of those below it."""
+    for one in command.params:
+        if getattr(one, "help", None):
+            yield f"{name} {one.name}", one.help
+    for key, below in getattr(command, "commands", {}).items():
+        yield from helps(below, f"{name} {key}")
+
+
+def test_no_help_loses_a_word_to_markup():
+    found = list(helps(typer.main.get_command(cli.app)))
+    assert len(found) > 50
+    for where, text in found:
+        assert Text.from_markup(text).plain == text, f"{where}: [...] is taken for a style"
 
 
 @pytest.mark.parametrize("text", ["9" * 5001, "-1", "nan", "", "²", "1 2"])

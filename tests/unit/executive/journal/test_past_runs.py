@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from executive.journal import past_runs
+from robot.errors import ConfigError
 
 JOURNAL = b'{"n":0,"t_s":0.0,"event":"run","text":"squat","world":"kitchen","seed":3}\n'
 
@@ -61,6 +62,12 @@ def test_nor_does_one_that_is_no_file(run, name, kind):
 def test_a_folder_of_another_age_hides_no_run(run):
     os.utime(run, (0, 4e13))
     assert len(list(past_runs.history(run.parent))) == 1
+
+
+def test_an_empty_name_is_no_runs(run):
+    assert past_runs.find("squat", base=run.parent) == run
+    with pytest.raises(ConfigError, match="there is no run ''"):
+        past_runs.find("", base=run.parent)
 
 
 def test_the_header_says_what_a_run_was_about(run):

@@ -1,12 +1,43 @@
 """What a journal holds, in words that people read."""
 
+import ast
 import math
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import executive
 from executive.journal import words
+
+
+def recorded():
+    """What is written into journals: a kind of event, and the names of its data."""
+    for path in Path(executive.__file__).parent.rglob("*.py"):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+                continue
+            if call.func.attr == "record" and call.args and isinstance(call.args[0], ast.Constant):
+                names = [one.arg for one in call.keywords]
+                if None not in names:  # else some are known only as it runs
+                    yield call.args[0].value, names
+
+
+def test_whatever_is_recorded_has_words_of_its_own():
+    kinds = [(kind, names) for kind, names in recorded() if kind not in words.DRAWN]
+    assert len(kinds) > 15
+    unworded = words.sentence("unheard of", {"took": "x"})
+    assert unworded == "unheard of, took x"
+    for kind, names in kinds:
+        told = words.sentence(kind, dict.fromkeys(names, "x"))
+        assert not told.startswith(f"{kind}, "), f"{kind} has no words for {names}: {told}"
+
+
+@pytest.mark.parametrize(("took", "answer"), [("then", "yes"), ("else", "no")])
+def test_a_branch_is_told_by_its_answer(took, answer):
+    told = words.sentence("branch", {"id": "1.1", "step": "is it there already", "took": took})
+    assert told == f"is it there already: {answer}"
 
 
 @pytest.mark.parametrize(
