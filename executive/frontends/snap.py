@@ -6,10 +6,11 @@ import io
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from executive.frontends.composition_root import REALITY
 from executive.frontends.new_files import refuse_inputs
@@ -157,7 +158,10 @@ def _saved(picture: Image, path: Path) -> None:
 
 def _archived(image: RgbdImage, path: Path) -> None:
     data = io.BytesIO()
-    np.savez_compressed(data, colours=image.picture(), depth_m=image.depth(), matrix=image.matrix())
+    arrays: dict[str, NDArray[Any]] = {"colours": image.picture(), "matrix": image.matrix()}
+    if (depth_m := image.depth()) is not None:
+        arrays["depth_m"] = depth_m
+    np.savez_compressed(data, allow_pickle=False, **arrays)
     write_ordinary(path, data.getvalue())
 
 

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, special
 
 from robot.se3 import Array
+from sim.camera.filters import moved, patches, steps
 from sim.camera.scene_view import Floats, Pinhole, SceneView
 from sim.realities import Camera
 
@@ -92,9 +92,10 @@ class CameraFlaws:
         stretch = float(np.clip(wanted, LEAST_GAIN, longest))
         amplified = float(np.clip(wanted / stretch, LEAST_GAIN, MOST_GAIN))
         exposure_s *= stretch
-        seen = light * (self.brightness * stretch * amplified * self.gain)
+        gain = self.gain * np.float32(self.brightness * stretch * amplified)
+        seen: Floats = light * gain
         seen = blurred(seen, turning_C, focal_px=self._pinhole.focal_px, exposure_s=exposure_s)
-        grain = reality.grain * math.sqrt(max(1.0, amplified))
+        grain = np.float32(reality.grain * math.sqrt(max(1.0, amplified)))
         seen = seen + grain * rng.standard_normal(seen.shape, dtype=np.float32)
         return to_bytes(seen), exposure_s
 
@@ -111,9 +112,9 @@ class CameraFlaws:
             reality.grazing * np.clip((STEEP - view.facing) / (STEEP - FLAT), 0.0, 1.0),
             reality.ragged * beside_edges(depth_m),
         ])  # fmt: skip
-        is_there &= patches(depth_m.shape, rng) >= lost
+        is_there &= patches(depth_m.shape, size_px=PATCH_PX, rng=rng) >= lost
         if reality.baseline_m > 0.0:
-            shift_px = self._pinhole.focal_px * reality.baseline_m / depth_m
+            shift_px = np.float32(self._pinhole.focal_px * reality.baseline_m) / depth_m
             is_there &= ~half_occluded(shift_px)
         measured = depth_m + reality.noise_per_m * depth_m * depth_m * noise
         return np.where(is_there, measured, 0.0).astype(np.float32)
@@ -126,8 +127,7 @@ def to_bytes(light: Floats) -> NDArray[np.uint8]:
 
 def beside_edges(depth_m: Floats) -> NDArray[np.bool_]:
     """Where the depth within 3 x 3 pixels steps by more than a slope would, shape (h, w)."""
-    most = ndimage.maximum_filter(depth_m, 3)
-    least = ndimage.minimum_filter(depth_m, 3)
+    least, most = steps(depth_m)
     return most - least > EDGE_SHARE * least
 
 
@@ -148,13 +148,6 @@ def half_occluded(shift_px: Floats) -> NDArray[np.bool_]:
     return hidden
 
 
-def patches(shape: tuple[int, ...], rng: np.random.Generator) -> Floats:
-    """Numbers that are evenly spread over 0 to 1, alike among neighbours, shape (h, w)."""
-    noise = rng.standard_normal(shape, dtype=np.float32)
-    smooth = ndimage.gaussian_filter(noise, PATCH_PX / 2, truncate=2.0, mode="wrap")
-    return special.ndtr(smooth / max(float(smooth.std()), 1e-9))
-
-
 def blurred(light: Floats, turning_C: Array, *, focal_px: float, exposure_s: float) -> Floats:
     """What a camera sees that turns while it gathers light: the mean along the way of its pixels.
 
@@ -163,8 +156,8 @@ def blurred(light: Floats, turning_C: Array, *, focal_px: float, exposure_s: flo
     way = focal_px * exposure_s * np.array([-turning_C[1], turning_C[0]])
     if float(np.hypot(*way)) < 0.5:
         return light
-    total = np.zeros_like(light)
-    for share in np.linspace(-0.5, 0.5, BLUR_STEPS):
-        offset = (float(share * way[1]), float(share * way[0]), 0.0)
-        total += ndimage.shift(light, offset, order=1, mode="nearest")
-    return total / BLUR_STEPS
+    total: Floats = np.zeros_like(light)
+    for share in np.linspace(-0.5, 0.5, BLUR_STEPS).tolist():
+        total += moved(light, share * float(way[1]), share * float(way[0]))
+    total /= BLUR_STEPS
+    return total

@@ -39,8 +39,10 @@ class Lights:
             normals_W: of the surfaces, unit vectors, shape (n, 3).
             axis_W: along which the camera looks, and its lamp shines.
         """
-        facing = np.maximum(-(normals_W @ self._rays(axis_W).T), 0.0).astype(np.float32)
-        return facing @ self._diffuse + self._ambient
+        facing: Floats = np.maximum(-(normals_W @ self._rays(axis_W).T), 0.0).astype(np.float32)
+        light: Floats = facing @ self._diffuse
+        light += self._ambient
+        return light
 
     def highlights(
         self, normals_W: Array, rays_W: Array, *, axis_W: Array, gloss: Floats, shininess: Floats
@@ -72,8 +74,8 @@ class Lights:
     def sky(self, directions_W: Array) -> Floats:
         """What is seen where nothing is, shape (n, 3): a gradient from the horizon up."""
         top, bottom = self._sky
-        share = np.clip(0.5 + 0.5 * directions_W[:, 2:], 0.0, 1.0).astype(np.float32)
-        return share * top + (1.0 - share) * bottom
+        share: Floats = np.clip(0.5 + 0.5 * directions_W[:, 2:], 0.0, 1.0).astype(np.float32)
+        return share * (top - bottom) + bottom
 
 
 def _sky(model: mujoco.MjModel) -> tuple[Floats, Floats]:

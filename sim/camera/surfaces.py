@@ -118,7 +118,8 @@ class Surfaces:
 def _halved(pattern: Floats) -> Floats:
     """A pattern of half the size, each texel the mean of four."""
     even = pattern[: pattern.shape[0] // 2 * 2, : pattern.shape[1] // 2 * 2]
-    return (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]) / 4
+    total: Floats = even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]
+    return total * np.float32(0.25)
 
 
 def _flat_texture(model: mujoco.MjModel, geom: int) -> int:
