@@ -322,6 +322,18 @@ class RgbdImage(Message, frozen=True, kw_only=True):
         return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
 
 
+class CameraState(Message, frozen=True, kw_only=True):
+    """How the camera of `RgbdImage` is: what is wrong with it is a code of `robot.failures`.
+
+    Attributes:
+        code: empty while all is well.
+        cause: a sentence, for people.
+    """
+
+    code: str = ""
+    cause: str = ""
+
+
 class LidarScan(Message, frozen=True, kw_only=True):
     """Ranges [m] of a planar scan in the lidar's frame, counter-clockwise from -pi; inf: no hit."""
 

@@ -13,7 +13,8 @@ Floats = NDArray[np.float32]
 
 def steps(values: Floats) -> tuple[Floats, Floats]:
     """The least and the greatest value within 3 x 3 pixels, shapes (h, w)."""
-    return ndimage.minimum_filter(values, 3), ndimage.maximum_filter(values, 3)
+    least, most = ndimage.minimum_filter(values, 3), ndimage.maximum_filter(values, 3)
+    return np.asarray(least, np.float32), np.asarray(most, np.float32)
 
 
 def patches(shape: tuple[int, ...], *, size_px: float, rng: np.random.Generator) -> Floats:
@@ -25,4 +26,5 @@ def patches(shape: tuple[int, ...], *, size_px: float, rng: np.random.Generator)
 
 def moved(picture: Floats, down_px: float, right_px: float) -> Floats:
     """A picture moved by parts of pixels, its border repeated; shape (h, w, 3)."""
-    return ndimage.shift(picture, (down_px, right_px, 0.0), order=1, mode="nearest")
+    found = ndimage.shift(picture, (down_px, right_px, 0.0), order=1, mode="nearest")
+    return np.asarray(found, np.float32)

@@ -93,10 +93,10 @@ class CameraFlaws:
         amplified = float(np.clip(wanted / stretch, LEAST_GAIN, MOST_GAIN))
         exposure_s *= stretch
         gain = self.gain * np.float32(self.brightness * stretch * amplified)
-        seen: Floats = light * gain
+        seen: Floats = (light * gain).astype(np.float32, copy=False)
         seen = blurred(seen, turning_C, focal_px=self._pinhole.focal_px, exposure_s=exposure_s)
         grain = np.float32(reality.grain * math.sqrt(max(1.0, amplified)))
-        seen = seen + grain * rng.standard_normal(seen.shape, dtype=np.float32)
+        seen += grain * rng.standard_normal(seen.shape, dtype=np.float32)
         return to_bytes(seen), exposure_s
 
     def _depth(self, view: SceneView, rng: np.random.Generator) -> Floats:
@@ -114,8 +114,8 @@ class CameraFlaws:
         ])  # fmt: skip
         is_there &= patches(depth_m.shape, size_px=PATCH_PX, rng=rng) >= lost
         if reality.baseline_m > 0.0:
-            shift_px = np.float32(self._pinhole.focal_px * reality.baseline_m) / depth_m
-            is_there &= ~half_occluded(shift_px)
+            shift_px = self._pinhole.focal_px * reality.baseline_m / depth_m
+            is_there &= ~half_occluded(shift_px.astype(np.float32, copy=False))
         measured = depth_m + reality.noise_per_m * depth_m * depth_m * noise
         return np.where(is_there, measured, 0.0).astype(np.float32)
 

@@ -75,7 +75,7 @@ class Lights:
         """What is seen where nothing is, shape (n, 3): a gradient from the horizon up."""
         top, bottom = self._sky
         share: Floats = np.clip(0.5 + 0.5 * directions_W[:, 2:], 0.0, 1.0).astype(np.float32)
-        return share * (top - bottom) + bottom
+        return (share * (top - bottom) + bottom).astype(np.float32, copy=False)
 
 
 def _sky(model: mujoco.MjModel) -> tuple[Floats, Floats]:

@@ -46,8 +46,10 @@ class Texture:
         level = np.log2(np.maximum(texels, 1.0)).astype(np.intp)
         level = np.minimum(level, len(self._levels) - 1)
         found = np.empty((len(across), 3), dtype=np.float32)
-        for number in np.unique(level):
-            here, pattern = level == number, self._levels[number]
+        for number, pattern in enumerate(self._levels):
+            here = np.flatnonzero(level == number)
+            if not len(here):
+                continue
             rows, columns = pattern.shape[:2]
             row = np.minimum((t[here] * rows).astype(np.intp), rows - 1)
             column = np.minimum((s[here] * columns).astype(np.intp), columns - 1)
@@ -118,8 +120,8 @@ class Surfaces:
 def _halved(pattern: Floats) -> Floats:
     """A pattern of half the size, each texel the mean of four."""
     even = pattern[: pattern.shape[0] // 2 * 2, : pattern.shape[1] // 2 * 2]
-    total: Floats = even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]
-    return total * np.float32(0.25)
+    total = even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]
+    return (0.25 * total).astype(np.float32, copy=False)
 
 
 def _flat_texture(model: mujoco.MjModel, geom: int) -> int:
