@@ -81,8 +81,8 @@ DEPTH: Topic[DepthImage] = Topic(
     "sensors/depth", DepthImage, 10.0, "perception",
     silence=Silence(code="sensor_silent", level="HOLD", text="the camera is silent"),
 )  # fmt: skip
-RGBD: Topic[RgbdImage] = Topic("sensors/rgbd", RgbdImage, None, "perception", queue=2)
-CAMERA_STATE: Topic[CameraState] = Topic("sensors/camera_state", CameraState, None, "perception")
+RGBD: Topic[RgbdImage] = Topic("sensors/rgbd", RgbdImage, 10.0, "perception", queue=2)
+CAMERA_STATE: Topic[CameraState] = Topic("sensors/camera_state", CameraState, 2.0, "perception")
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")

@@ -74,12 +74,12 @@ class CameraFlaws:
         colours, exposure_s = self._colours(view.light, turning_C, rng)
         return Shot(colours, depth_m, exposure_s)
 
-    def delivery(self, stamp_s: float) -> float | None:
-        """When a picture of that time is there [s]; None: it never is."""
+    def late_s(self, stamp_s: float) -> float | None:
+        """How long a picture of that time takes to come; None: it never does."""
         rng = np.random.default_rng((self._seed, CAMERA_STREAM, round(1e6 * stamp_s), 1))
         if rng.random() < self._reality.drops:
             return None
-        return stamp_s + 1e-3 * rng.uniform(*self._reality.late_ms)
+        return 1e-3 * rng.uniform(*self._reality.late_ms)
 
     def _colours(
         self, light: Floats, turning_C: Array, rng: np.random.Generator

@@ -80,6 +80,10 @@ class RgbdCamera(Closing):
         """What renders: EGL or rays."""
         return self._open().name
 
+    def late_s(self, stamp_s: float) -> float | None:
+        """How long a picture of that time takes to come; None: it never does."""
+        return 0.0 if self.flaws is None else self.flaws.late_s(stamp_s)
+
     def take(self, stamp_s: float) -> RgbdImage:
         """A picture of the scene as it is now; the physics does not notice."""
         viewer, pinhole = self._open(), self.pinhole
