@@ -34,7 +34,6 @@ WORLDS = ("kitchen", "flat", "office", "clinic")
 NEAR_M, FAR_M = 0.5, 2.5
 LEAST_PX = 100
 LEAST_SHARE = 0.5
-NOISE_PER_M = 0.004
 TRIES = 12
 app = typer.Typer(add_completion=False)
 
@@ -46,6 +45,7 @@ class View:
     image: RgbdImage
     X_WC: SE3
     bodies: NDArray[np.int32]
+    noise_per_m: float
     p_W: dict[int, NDArray[np.float64]]
 
 
@@ -109,7 +109,7 @@ def views(robot: RobotDescription, seed: int, *, reality: str) -> Iterator[tuple
                 continue
             where = {one: data.xpos[one].copy() for one in bodies}
             seen[~np.isin(seen, list(bodies))] = -1
-            yield View(image, X_WC, seen, where), distance_m
+            yield View(image, X_WC, seen, plant.profile.camera.noise_per_m, where), distance_m
             return
 
 
@@ -179,7 +179,7 @@ def main(
     for seed in range(first, first + count):
         for view, _ in views(robot, seed, reality=reality):
             begin = time.process_time()
-            points = cloud(view.image, view.X_WC, noise_per_m=NOISE_PER_M)
+            points = cloud(view.image, view.X_WC, noise_per_m=view.noise_per_m)
             assert points is not None
             found = things(points, rng=np.random.default_rng(0))
             near.ms.append(1e3 * (time.process_time() - begin))

@@ -129,15 +129,16 @@ def _consensus(points: Array, close_m: Array, rng: np.random.Generator) -> tuple
     """The level plane that most points are close to, and how many of them (RANSAC, 1981)."""
     best, most = np.zeros(4), 0.0
     for _ in range(TRIES):
-        a, b, c = points[rng.choice(len(points), 3, replace=False)]
-        normal = cross(b - a, c - a)
+        three = points[rng.choice(len(points), 3, replace=False)]
+        normal = cross(three[1] - three[0], three[2] - three[0])
         length = float(np.linalg.norm(normal))
         if length < 1e-6 or abs(normal[2]) < TILT_COS * length:
             continue
         normal *= math.copysign(1.0 / length, normal[2])
-        share = float(np.mean(np.abs((points - a) @ normal) < close_m))
+        away_m: Array = np.abs((points - three[0]) @ normal)
+        share = float(np.mean(away_m < close_m))
         if share > most:
-            best, most = np.append(normal, -normal @ a), share
+            best, most = np.append(normal, -normal @ three[0]), share
     return best, most
 
 
