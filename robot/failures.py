@@ -86,6 +86,14 @@ CATALOGUE: dict[str, FailureKind] = {
     # body and system
     "fallen": FailureKind("the robot lies on the floor", "make room, then say 'get up'"),
     "localisation_lost": FailureKind("the robot does not know where it is", "wait, or re-localise"),
+    "camera_unplugged": FailureKind(
+        "the camera is not there", "plug it in; it is looked for again"
+    ),
+    "camera_late": FailureKind("pictures of the camera stay away", "check cable and USB port"),
+    "camera_frozen": FailureKind(
+        "the camera gives the same picture over and over", "unplug it and plug it in again"
+    ),
+    "camera_black": FailureKind("the camera sees nothing", "uncover it, or make light"),
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
     "overheated": FailureKind("a motor is too hot", "let it cool down"),
     "battery_low": FailureKind("the battery is nearly empty", "charge it"),

@@ -11,6 +11,7 @@ from robot.clock import Clock
 from robot.messages import (
     BodyCommand,
     BodyState,
+    CameraState,
     DepthImage,
     Heard,
     LidarScan,
@@ -57,6 +58,10 @@ class BodyLink(Protocol):
         """The newest depth image."""
         ...
 
+    def camera(self) -> CameraState | None:
+        """How the camera of pictures is, None while nobody looks through it."""
+        ...
+
     def power(self) -> PowerState | None:
         """The newest state of the battery, None without one."""
         ...
@@ -86,6 +91,7 @@ class BusLink:
         self._map = bus.subscribe(topics.ORACLE_MAP)
         self._lidar = bus.subscribe(topics.LIDAR)
         self._depth = bus.subscribe(topics.DEPTH)
+        self._camera = bus.subscribe(topics.CAMERA_STATE)
         self._power = bus.subscribe(topics.POWER)
         self._heard = bus.subscribe(topics.HEARD)
         self._timing = bus.subscribe(topics.CONTROLLER_TIMING)
@@ -124,6 +130,10 @@ class BusLink:
     def depth(self) -> DepthImage | None:
         """The newest depth image."""
         return self._depth.latest
+
+    def camera(self) -> CameraState | None:
+        """How the camera of pictures is, None while nobody looks through it."""
+        return self._camera.latest
 
     def power(self) -> PowerState | None:
         """The newest state of the battery, None without one."""

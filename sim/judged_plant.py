@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from robot.reality.faults import Fault
+from robot.reality.studio import Renderer
 from robot.reality.truth import Check, Verdict
 from sim import faults, judge, render
 from sim.plant import Plant
 from sim.witness import Witness
+
+if TYPE_CHECKING:
+    from sim.camera.rgbd import RgbdCamera
 
 
 class JudgedPlant(Plant):
@@ -40,6 +45,18 @@ class JudgedPlant(Plant):
     def judge(self, checks: Iterable[Check]) -> Verdict:
         """How it truly is. Raises ConfigError if a check names what is not there."""
         return judge.judge(self, checks, self._witness or Witness(self))
+
+    def camera(
+        self, *, renderer: Renderer = "auto", size: tuple[int, int] | None = None
+    ) -> RgbdCamera:
+        """The robot's camera, with the flaws of this reality."""
+        from sim.camera.rgbd import RgbdCamera  # scipy's filters, which no run needs
+
+        reality = None if self.is_ideal else self.profile.camera
+        return RgbdCamera(
+            self.model, self.data, self.robot, seed=self.seed, reality=reality,
+            renderer=renderer, size=size,
+        )  # fmt: skip
 
     def save_picture(self, path: Path) -> None:
         """Write a picture, PNG or JPEG by its name. Raises ConfigError, or OSError for the file."""

@@ -14,6 +14,7 @@ from robot.reality.faults import FAULT
 from sim import faults
 from sim.plant import Plant
 from sim.ray_sensors import developed
+from sim.scene_memory import SceneMemory
 
 PERIOD_MS = 2
 PERIOD_S = PERIOD_MS / 1000.0
@@ -35,8 +36,26 @@ class LivePlant:
         refused: faults that named what is not there.
     """
 
-    def __init__(self, plant: Plant, body: PlantServer, bus: Bus, *, clock: Clock) -> None:
-        """Put the parts together; nothing runs before `run`."""
+    def __init__(
+        self,
+        plant: Plant,
+        body: PlantServer,
+        bus: Bus,
+        *,
+        clock: Clock,
+        scene: SceneMemory | None = None,
+    ) -> None:
+        """Put the parts together; nothing runs before `run`.
+
+        Args:
+            plant: to run.
+            body: how the controller reaches it.
+            bus: for what is not urgent.
+            clock: of the wall.
+            scene: for who takes pictures of it, where somebody does.
+        """
+        self._scene, self._picture_s = scene, 0.0
+        self._picture_period_s = 1.0 / plant.robot.sensors.camera.pictures().rate_hz
         self.refused: list[str] = []
         self._plant, self._body, self._bus, self._clock = plant, body, bus, clock
         self._faults = bus.subscribe(FAULT)
@@ -69,6 +88,9 @@ class LivePlant:
             plant.sending.relieved = timing.pressed
         for topic, message in plant.sense():
             self._bus.publish(topic, developed(message))
+        if self._scene is not None and plant.time_s >= self._picture_s - 1e-9:
+            self._picture_s += self._picture_period_s
+            self._scene.write(plant.time_s, plant.data)
         waits = self._begun and not sample.motors.watchdog
         self._exchange(patience_s=PATIENCE_S if waits else 0.0)
         if self._begun:

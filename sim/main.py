@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import ExitStack
 
 from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
@@ -11,6 +12,7 @@ from robot.clock import WallClock
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
+from sim.scene_memory import SceneMemory
 from sim.simulation import Simulation
 
 
@@ -21,9 +23,14 @@ def main(run_file: str, parent_pid: str) -> None:
     world = Simulation().under(config.reality).world(config.world, vary_seed=config.variation_seed)
     robot = description.load(config.robot)
     plant = world.plant(robot, seed=config.seed)
-    with ZenohBus("plant", config.sockets) as bus, PlantServer(robot, config.memory) as body:
+    with ExitStack() as stack:
+        bus = stack.enter_context(ZenohBus("plant", config.sockets))
+        body = stack.enter_context(PlantServer(robot, config.memory))
+        scene = SceneMemory(plant.model, config.memory, create=True) if config.pictures else None
+        if scene is not None:
+            stack.enter_context(scene)
         ask_for_real_time()
-        LivePlant(plant, body, bus, clock=WallClock()).run(lambda: bool(stop))
+        LivePlant(plant, body, bus, clock=WallClock(), scene=scene).run(lambda: bool(stop))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
@@ -19,6 +19,7 @@ from robot.errors import ConfigError, DriverError
 from robot.messages import Message, Place
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
+from robot.reality.faults import check_name
 from robot.se3 import SE3, Array
 from sim import atlas
 from sim.assembly import compile_scene
@@ -50,7 +51,9 @@ class Plant:
     Attributes:
         world: the world, every object with its spot.
         robot: the robot's description.
+        seed: of everything random.
         profile: the reality it is of.
+        is_ideal: whether that is the one without flaws.
         model, data: the simulation; only `sim`, tests and views touch them.
         motors: the motors' firmware.
         battery: an emulated one, if the robot describes one.
@@ -87,6 +90,7 @@ class Plant:
             ConfigError: if there is no such reality, or a place is too full for the objects that
                 want a random spot.
         """
+        self.seed, self.is_ideal = seed, reality == IDEAL
         seeds = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(7)]
         self.profile = profile(reality)
         self.world = placed(world, seeds[0])
@@ -96,7 +100,7 @@ class Plant:
         self.model = compile_scene(self.world, robot, timestep_s=physics_ms / 1000.0)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
-        flaws = None if reality == IDEAL else draw(self.profile, self.model, robot, seeds[4])
+        flaws = None if self.is_ideal else draw(self.profile, self.model, robot, seeds[4])
         self._body = BodySensors(
             self.model, self.data, robot, motors=self.motors, rng=seeds[1] if noisy else None,
             flaws=flaws, wander=seeds[5],
@@ -157,6 +161,19 @@ class Plant:
         X_WB = X_WS.flat() @ _stance(self.robot, data).inverse()
         data.qpos[base_q : base_q + 7] = (*X_WB.p, *X_WB.quat_wxyz)
         mujoco.mj_forward(model, data)
+
+    def pose(self, angles: Mapping[str, float]) -> None:
+        """Put motors, at rest, to such angles [rad] or travels [m] at once.
+
+        Raises:
+            ConfigError: there is no such motor, with the nearest name.
+        """
+        names = list(self.robot.motors)
+        for name, angle in angles.items():
+            check_name(name, names, "motor")
+            self.data.qpos[self.motors.q_index[names.index(name)]] = angle
+        close_couplings(self.model, self.data.qpos)
+        mujoco.mj_forward(self.model, self.data)
 
     def open(self) -> None:
         """It is there already: a driver in this process reaches it."""

@@ -18,6 +18,8 @@ UNSENSED = 4
 
 They were added to look at; what it senses, and so every run, is to stay as it was.
 """
+SEEN = np.array([1, 1, 1, 0, 1, 0], dtype=np.uint8)
+"""Groups of what is to be looked at."""
 HIDDEN = 5  # a group that no ray meets
 STATIC = True  # hit what cannot move, too
 

@@ -23,6 +23,7 @@ IDEAL = "ideal"
 
 Size: TypeAlias = Annotated[float, Meta(ge=0.0, le=100.0)]
 Range: TypeAlias = tuple[Size, Size]
+Share: TypeAlias = Annotated[float, Meta(ge=0.0, le=1.0)]
 SAME: Range = (1.0, 1.0)
 NONE: Range = (0.0, 0.0)
 
@@ -72,14 +73,43 @@ class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """Of the lidar; `dropouts` is the share of beams that come back empty."""
 
     noise_m: Size = 0.01
-    dropouts: Annotated[float, Meta(ge=0.0, le=1.0)] = 0.0
+    dropouts: Share = 0.0
     least_m: Size = 0.0
 
 
 class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Of the depth camera: 1 sigma at a metre, growing with the square of the depth."""
+    """Of the camera. Coarse depth has noise alone, whole pictures all of it (`sim.camera.flaws`).
+
+    Attributes:
+        noise_per_m: 1 sigma of depth at a metre, growing with the square of the depth.
+        least_m: nothing nearer has a depth.
+        baseline_m: between the two eyes of the depth; what only one of them sees has none.
+        ragged: share of the pixels beside an edge that have no depth.
+        dark, shiny, grazing: share of the pixels without depth where hardly any light comes back:
+            on black; on a mirror; on what is seen along its surface.
+        brightness: of the light, by the run; what exposure makes up for.
+        colour_cast: 1 sigma of the gain of red and of blue, by the run.
+        grain: 1 sigma of the noise of a colour, of its greatest value, in good light.
+        exposure_ms: how long light is gathered in good light; what moves is blurred.
+        longest_exposure_ms: at most, in bad light.
+        drops: share of the pictures that never come.
+        late_ms: from the end of an exposure until the picture is there.
+    """
 
     noise_per_m: Size = 0.002
+    least_m: Size = 0.0
+    baseline_m: Size = 0.0
+    ragged: Share = 0.0
+    dark: Share = 0.0
+    shiny: Share = 0.0
+    grazing: Share = 0.0
+    brightness: Range = SAME
+    colour_cast: Size = 0.0
+    grain: Share = 0.0
+    exposure_ms: Size = 0.0
+    longest_exposure_ms: Size = 0.0
+    drops: Share = 0.0
+    late_ms: Range = NONE
 
 
 class Body(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

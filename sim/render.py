@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.closing import Closing
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError
 from robot.ordinary_files import write_ordinary
 from robot.se3 import Vector3
+from sim.gl_context import gl_context
 from sim.plant import Plant
 from sim.rays import UNSENSED
 from sim.world_schema import World
 
-PACKAGES = "libegl1 libgl1-mesa-dri libopengl0"
 Image = NDArray[np.uint8]
 JPEG = (".jpg", ".jpeg")
 
@@ -76,7 +76,7 @@ class Renderer(Closing):
         Raises:
             ConfigError: if EGL is not installed, naming the packages.
         """
-        self._gl = _context(self._width, self._height)
+        self._gl = gl_context(self._width, self._height)
         self._gl.make_current()
         self._context = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._context)
@@ -157,15 +157,3 @@ def save_picture(path: Path | str, image: Image) -> None:
     data = io.BytesIO()
     Picture.fromarray(image).save(data, kind)
     write_ordinary(path, data.getvalue())
-
-
-def _context(width: int, height: int) -> Any:
-    """An EGL context of MuJoCo's own wrapper, or an error that says what to install."""
-    try:
-        from mujoco.egl import GLContext  # pyright: ignore[reportMissingTypeStubs]
-
-        return GLContext(width, height)
-    except Exception as error:  # PyOpenGL fails in many ways where EGL is missing
-        cure = f"apt install {PACKAGES}"
-        problem = Problem(f"rendering needs EGL, which is not here: {error}", suggestion=cure)
-        raise ConfigError([problem]) from error

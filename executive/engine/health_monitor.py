@@ -18,7 +18,7 @@ from executive.engine.estop import EmergencyStop
 from executive.health import Finding, Health, Level
 from robot.bus.topics import TOPICS, Silence
 from robot.failures import failure
-from robot.messages import BodyState, LoopTiming, PowerState, WorldState
+from robot.messages import BodyState, CameraState, LoopTiming, PowerState, WorldState
 
 START_UP_S = 10.0
 """How long the first message of a topic may take after the start."""
@@ -161,6 +161,7 @@ class HealthMonitor:
         *,
         body: BodyState | None,
         world: WorldState | None,
+        camera: CameraState | None = None,
         power: PowerState | None = None,
         timing: LoopTiming | None = None,
     ) -> Health:
@@ -171,6 +172,7 @@ class HealthMonitor:
             stamps_s: stamp of the newest message of each topic, None before the first.
             body: the newest body state.
             world: the newest world model.
+            camera: how the camera of pictures is.
             power: the newest state of the battery.
             timing: how well the controller keeps its time.
         """
@@ -190,6 +192,9 @@ class HealthMonitor:
         if world is not None:
             place = [*_fix(world, now_s), *self._jump(world, now_s)]
             findings += [] if body is not None and body.mode in DOWN else place
+        if camera is not None and camera.code:
+            reason = failure(camera.code, camera.cause)  # nothing is done by pictures yet
+            findings.append(Finding(name="camera", level=Level.WARN, failure=reason))
         if power is not None:
             findings += _battery(power)
         if timing is not None:

@@ -71,6 +71,7 @@ class Sense(Behaviour):
             stamps_s,
             body=body,
             world=world,
+            camera=link.camera(),
             power=link.power(),
             timing=link.timing(),
         )

@@ -107,7 +107,7 @@ def carry_out(
 def setup(where: Setting, options: Seeded, folder: Path) -> Setup:
     """What a run is set up with."""
     kind: runtimes.Kind = "fast" if options.fast else "live"
-    return Setup(where=where, kind=kind, seed=options.seed, folder=folder)
+    return Setup(where=where, kind=kind, seed=options.seed, folder=folder, pictures=options.camera)
 
 
 def _begun(handle: Handle | None) -> Prepared | None:

@@ -93,6 +93,14 @@ class Seeded:
             "--fast", help="As fast as the machine goes, and the same every time, in one process."
         ),
     ] = False
+    camera: Annotated[
+        bool,
+        typer.Option(
+            "--camera",
+            help="Render what its camera sees as well, in a process of its own, and keep the "
+            "newest picture as seen.png in the run's folder (not with --fast).",
+        ),
+    ] = False
 
 
 @dataclass(frozen=True, kw_only=True)

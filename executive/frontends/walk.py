@@ -39,7 +39,7 @@ def walk(options: Walk) -> int:
     interrupts, wall = Interrupts(), WallClock()
     begun_s = wall.now_s()
     kind: runtimes.Kind = "fast" if options.fast else "live"
-    setup = Setup(where=where, kind=kind, seed=options.seed)
+    setup = Setup(where=where, kind=kind, seed=options.seed, pictures=options.camera)
     with interrupts.listen(), runtimes.opened(setup) as (runtime, _):
         with Screen(quiet=options.as_json).status("walking") as status:
 

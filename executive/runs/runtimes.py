@@ -16,6 +16,7 @@ import msgspec
 from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
 from robot.bringup.mailbox import Handle
+from robot.errors import ConfigError, Problem
 from robot.planning.worker import Planner
 
 if TYPE_CHECKING:
@@ -34,12 +35,14 @@ class Setup(msgspec.Struct, frozen=True, kw_only=True):
         kind: which runtime.
         seed: of everything random.
         folder: of the run, for its journal and the processes' logs (None: nothing is kept).
+        pictures: whether what the robot's camera sees is rendered, in a live run.
     """
 
     where: Setting
     kind: Kind = "fast"
     seed: int = 0
     folder: Path | None = None
+    pictures: bool = False
 
 
 class Opened(NamedTuple):
@@ -80,6 +83,9 @@ def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
         RobotError: if a part cannot be built or a process does not start.
     """
     where = setup.where
+    if setup.kind == "fast" and setup.pictures:
+        cure = "leave out --camera or --fast; humanoid sensors snap takes a picture at any time"
+        raise ConfigError([Problem("pictures are rendered in live runs only", suggestion=cure)])
     if setup.kind == "fast":
         with fast(setup) as (runtime, planner):
             yield Opened(runtime, planner)
@@ -90,6 +96,11 @@ def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
         logs = setup.folder or Path(stack.enter_context(temporary))
         planner = stack.enter_context(planner_type(where.description))
         live = runtime_type(
-            where.world, where.robot_name, folder=logs, seed=setup.seed, handle=handle
+            where.world,
+            where.robot_name,
+            folder=logs,
+            seed=setup.seed,
+            pictures=setup.pictures,
+            handle=handle,
         )
         yield Opened(stack.enter_context(live), planner)

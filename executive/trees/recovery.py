@@ -99,6 +99,10 @@ RULES: dict[str, Rule] = {
     # body and system
     "fallen": _first(get_up=1),
     "localisation_lost": _first(wait=2, ask=1),
+    "camera_unplugged": NONE,  # nothing is done by pictures yet
+    "camera_late": NONE,
+    "camera_frozen": NONE,
+    "camera_black": NONE,
     "sensor_silent": _first(wait=2, ask=1),
     "overheated": NONE,
     "battery_low": NONE,

@@ -213,6 +213,7 @@ class Launcher:
                 clock=self._clock,
                 processes=self._processes,
                 simulated=wanted.simulated,
+                pictures=wanted.pictures,
             )
             try:
                 self._robot.__enter__()

@@ -79,6 +79,7 @@ class LiveRuntime(Closing):
         seed: int = 0,
         wall: Clock | None = None,
         simulated: bool = True,
+        pictures: bool = False,
         handle: Handle | None = None,
     ) -> None:
         """Check everything that can be checked before a process starts.
@@ -90,6 +91,7 @@ class LiveRuntime(Closing):
             seed: of the plant's noise.
             wall: the wall clock; another one in tests.
             simulated: whether reality is: without, no plant is started.
+            pictures: whether what the robot's camera sees is rendered, in a process of its own.
             handle: on the process above, where that one looks after the processes.
 
         Raises:
@@ -106,6 +108,7 @@ class LiveRuntime(Closing):
             variation_seed=world.vary_seed,
             reality=world.profile,
             simulated=simulated,
+            pictures=pictures,
         )
         self._handle = handle
         self._crew: Crew | None = None
@@ -147,7 +150,11 @@ class LiveRuntime(Closing):
         self._join(private)
         logs = self._folder / "logs"
         supervisor = Supervisor(
-            private / RUN_FILE, logs=logs, clock=self._wall, simulated=self.run.simulated
+            private / RUN_FILE,
+            logs=logs,
+            clock=self._wall,
+            simulated=self.run.simulated,
+            pictures=self.run.pictures,
         )
         self._crew = supervisor.__enter__()
 

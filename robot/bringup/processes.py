@@ -16,9 +16,11 @@ class Process:
     Attributes:
         name: its name on the bus and of its log.
         module: run as `python -m module FILE PARENT`.
-        when: "always", or only where reality is simulated.
+        when: "always", only where reality is simulated, or only where that is looked at through its
+            robot's camera as well.
         death: failure code that its death means, once it is not restarted any more.
         restarts: how often it may be started again within `RESTART_WINDOW_S`.
+        is_vital: whether a run ends when it is not restarted any more.
         spare_after_s: how long after the first start a second one is loaded, which waits for its
             turn; not at once, as it would compete for the processor. None: never.
         stop_s: how long it may take to stop before it is killed.
@@ -26,9 +28,10 @@ class Process:
 
     name: str
     module: str
-    when: Literal["always", "simulation"]
+    when: Literal["always", "simulation", "pictures"]
     death: str
     restarts: int = 0
+    is_vital: bool = True
     spare_after_s: float | None = None
     stop_s: float = 3.0
 
@@ -37,9 +40,10 @@ class Process:
         recent = [start_s for start_s in starts_s[1:] if start_s > now_s - RESTART_WINDOW_S]
         return len(recent) < self.restarts
 
-    def needed(self, *, simulated: bool) -> bool:
-        """Whether it is run, where reality is simulated or not."""
-        return simulated or self.when == "always"
+    def needed(self, *, simulated: bool, pictures: bool = False) -> bool:
+        """Whether it is run, where reality is simulated or not, and looked at or not."""
+        wanted = self.when != "pictures" or pictures
+        return self.when == "always" or (simulated and wanted)
 
 
 CONTROLLER = Process(
@@ -52,10 +56,14 @@ PROCESSES: tuple[Process, ...] = (
     Process("plant", "sim.main", "simulation", death="plant_lost"),
     CONTROLLER,
     Process("perception", "robot.perception.main", "always", death="localisation_lost", restarts=3),
-)
+    Process(
+        "camera", "sim.camera_main", "pictures",
+        death="camera_unplugged", restarts=3, is_vital=False,
+    ),
+)  # fmt: skip
 """In the order of starting; they are stopped in the order of `STOP_ORDER`."""
 
-STOP_ORDER = ("controller", "perception", "plant")
+STOP_ORDER = ("controller", "perception", "camera", "plant")
 """The controller first, while there is still a plant that takes its last command: damping."""
 
 EXECUTIVE = Process(

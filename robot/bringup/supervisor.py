@@ -33,6 +33,7 @@ class Supervisor(Closing):
         clock: Clock,
         processes: tuple[Process, ...] = PROCESSES,
         simulated: bool = True,
+        pictures: bool = False,
     ) -> None:
         """Start nothing yet.
 
@@ -42,6 +43,7 @@ class Supervisor(Closing):
             clock: wall clock.
             processes: the table.
             simulated: whether reality is; without, the rows for simulation are left out.
+            pictures: whether somebody looks through the robot's camera; without, its row is.
         """
         self.restarted: list[str] = []
         self._logs = logs
@@ -49,7 +51,7 @@ class Supervisor(Closing):
         self._children = {
             row.name: Child(row, run_file, log=self._log(row.name), clock=clock)
             for row in processes
-            if row.needed(simulated=simulated)
+            if row.needed(simulated=simulated, pictures=pictures)
         }
         self._failure: Failure | None = None
 
@@ -83,6 +85,8 @@ class Supervisor(Closing):
             return self._failure
         for child in self._children.values():
             if (status := child.status) is not None and not self._mended(child, status):
+                if not child.row.is_vital:
+                    continue
                 self._failure = self._death(child, status)
                 return self._failure
             child.prepare()

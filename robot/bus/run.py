@@ -14,7 +14,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
 
     `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
     sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
-    `reality` is the profile of the simulated one; `simulated` says whether there is one.
+    `reality` is the profile of the simulated one; `simulated` says whether there is one, `pictures`
+    whether somebody looks through its camera.
     """
 
     folder: str
@@ -25,6 +26,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     variation_seed: int | None = None
     reality: str = "ideal"
     simulated: bool = True
+    pictures: bool = False
 
     @property
     def memory(self) -> Path:

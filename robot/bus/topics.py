@@ -12,12 +12,14 @@ from typing import Any, Generic, Literal, TypeVar
 from robot.messages import (
     BodyCommand,
     BodyState,
+    CameraState,
     DepthImage,
     Heard,
     LidarScan,
     LoopTiming,
     PoseFix,
     PowerState,
+    RgbdImage,
     Sightings,
     Spoken,
     WorldMap,
@@ -79,6 +81,8 @@ DEPTH: Topic[DepthImage] = Topic(
     "sensors/depth", DepthImage, 10.0, "perception",
     silence=Silence(code="sensor_silent", level="HOLD", text="the camera is silent"),
 )  # fmt: skip
+RGBD: Topic[RgbdImage] = Topic("sensors/rgbd", RgbdImage, 10.0, "perception", queue=2)
+CAMERA_STATE: Topic[CameraState] = Topic("sensors/camera_state", CameraState, 2.0, "perception")
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
@@ -98,6 +102,8 @@ TOPICS: tuple[Topic[Any], ...] = (
     WORLD_STATE,  # before camera and lidar: when perception dies, that is what is told first
     LIDAR,
     DEPTH,
+    RGBD,
+    CAMERA_STATE,
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,

@@ -1,9 +1,10 @@
 """A bus between processes of one machine: zenoh over unix sockets in a private folder.
 
 Nothing listens on a network. Every process listens on a socket of its own name and connects to the
-names before it in `PEERS` (retrying, so that any order of starts and restarts will do): a full
-mesh, because zenoh peers do not forward for one another when gossip is off. The last of them
-listens nowhere, as nobody connects to it: of the controller there may be two, one of them a spare.
+names before it in `LISTENING` (retrying, so that any order of starts and restarts will do): a full
+mesh, because zenoh peers do not forward for one another when gossip is off. The last two of
+`PEERS` listen nowhere: of the controller there may be two, one of them a spare, and the camera that
+is simulated has nothing to say to it.
 """
 
 # pyright: basic
@@ -23,7 +24,8 @@ from robot.closing import Closing
 from robot.errors import BusError
 
 M = TypeVar("M")
-PEERS = ("executive", "plant", "perception", "observer", "controller")
+PEERS = ("executive", "plant", "perception", "observer", "controller", "camera")
+LISTENING = PEERS[:4]
 MAX_PATH_BYTES = 100
 RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 
@@ -91,7 +93,7 @@ class ZenohBus(Closing):
         self._encoder = msgspec.msgpack.Encoder()
         self._session: zenoh.Session | None = None
         socket = socket_path(name, folder)
-        if name != PEERS[-1]:
+        if name in LISTENING:
             socket.unlink(missing_ok=True)  # what a killed process of this name left
         try:
             self._session = zenoh.open(_config(name, Path(folder)))
@@ -163,8 +165,8 @@ def socket_path(name: str, folder: Path | str) -> Path:
 
 def _config(name: str, folder: Path) -> zenoh.Config:
     """Peer mode, unix sockets only, no scouting of any kind, join without waiting for anyone."""
-    earlier = PEERS[: PEERS.index(name)]
-    own = [f"unixsock-stream/{socket_path(name, folder)}"] if name != PEERS[-1] else []
+    earlier = [one for one in PEERS[: PEERS.index(name)] if one in LISTENING]
+    own = [f"unixsock-stream/{socket_path(name, folder)}"] if name in LISTENING else []
     settings: dict[str, Any] = {
         "mode": "peer",
         "scouting/multicast/enabled": False,

@@ -19,7 +19,7 @@ from robot.drivers.motor_bus import MotorBus
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError
-from robot.messages import DepthImage, LidarScan, PowerState
+from robot.messages import DepthImage, LidarScan, PowerState, RgbdImage
 from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescription
 
 R = TypeVar("R")
@@ -48,6 +48,10 @@ class Family(Generic[D_co]):
         """
         check(wiring.robot)
         return self.drivers[wiring.robot.drivers.get(self.device, SIMULATED)](wiring)
+
+    def is_simulated(self, robot: RobotDescription) -> bool:
+        """Whether a robot's device is, or would be."""
+        return robot.drivers.get(self.device, SIMULATED) == SIMULATED
 
 
 @dataclass(frozen=True)
@@ -89,6 +93,18 @@ def _simulated_camera(wiring: Wiring) -> SensorSource[DepthImage, Camera]:
     return make(wiring)
 
 
+def _simulated_rgbd(wiring: Wiring) -> SensorSource[RgbdImage, Camera]:
+    from robot.drivers.camera.simulated import make_rgbd
+
+    return make_rgbd(wiring)
+
+
+def _uvc_rgbd(wiring: Wiring) -> SensorSource[RgbdImage, Camera]:
+    from robot.drivers.camera.uvc import make
+
+    return make(wiring)
+
+
 def _simulated_lidar(wiring: Wiring) -> SensorSource[LidarScan, Lidar]:
     from robot.drivers.lidar.simulated import make
 
@@ -107,6 +123,9 @@ MOTORS = Family("motors", {SIMULATED: _simulated_motors})
 IMU = Family("imu", {SIMULATED: _simulated_imu})
 FORCE = Family("force", {SIMULATED: _simulated_force})
 
+# Whole pictures: perception opens it where somebody looks at them (`robot.perception.eye`).
+RGBD = Family("rgbd", {SIMULATED: _simulated_rgbd, "uvc": _uvc_rgbd})
+
 # What is published: its topic's source is the process that opens it
 # (`robot.drivers.published_sensors`).
 SENSES: tuple[Sense[Any], ...] = (
@@ -115,7 +134,7 @@ SENSES: tuple[Sense[Any], ...] = (
     Sense("battery", {SIMULATED: _simulated_battery}, topics.POWER),
 )
 
-FAMILIES: tuple[Family[object], ...] = (MOTORS, IMU, FORCE, *SENSES)
+FAMILIES: tuple[Family[object], ...] = (MOTORS, IMU, FORCE, RGBD, *SENSES)
 
 
 def check(robot: RobotDescription) -> None:

@@ -81,8 +81,30 @@ class Imu(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     accel_noise_m_s2: q.AccelerationNoise
 
 
+class Picture(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What the head's camera gives as a whole (`robot.messages.RgbdImage`).
+
+    Attributes:
+        width, height: in pixels.
+        rate_hz: most pictures a second.
+        depth_range_m: depth is measured up to there.
+        source: of these figures and of the camera's field of view.
+    """
+
+    width: q.Pixels
+    height: q.Pixels
+    rate_hz: q.Rate
+    depth_range_m: q.Sight
+    source: str
+
+
 class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """The head's RGB-D camera; its site is C (OpenCV: x right, y down, z forward)."""
+    """The head's RGB-D camera; its site is C (OpenCV: x right, y down, z forward).
+
+    `width`, `height` and `range_m` are of the coarse depth that perception looks at all the time;
+    `fovy_rad`, the vertical field of view, is of its pictures as well. Where nothing is said of
+    pictures they are like that depth.
+    """
 
     camera: str
     site: str
@@ -90,6 +112,17 @@ class Camera(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     height: q.Pixels
     fovy_rad: q.View
     range_m: q.Sight
+    picture: Picture | None = None
+
+    def pictures(self) -> Picture:
+        """What its pictures are like."""
+        return self.picture or Picture(
+            width=self.width,
+            height=self.height,
+            rate_hz=10.0,
+            depth_range_m=self.range_m,
+            source="the coarse depth",
+        )
 
 
 class Lidar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

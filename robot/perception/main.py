@@ -21,7 +21,7 @@ def main(run_file: str, parent_pid: str) -> None:
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     with ZenohBus("perception", config.sockets) as bus:
-        node = PerceptionNode(Wiring(robot=robot, clock=clock, bus=bus))
+        node = PerceptionNode(Wiring(robot=robot, clock=clock, bus=bus), looks=config.pictures)
         stop = Stop()
         with node:
             while not stop:

@@ -11,6 +11,7 @@ import numpy as np
 from robot.bus import topics
 from robot.closing import Closing
 from robot.drivers.published_sensors import PublishedSensors
+from robot.drivers.registry import RGBD
 from robot.drivers.wiring import Wiring
 from robot.fusion.history import BodyHistory
 from robot.fusion.localisation import Localiser
@@ -27,6 +28,7 @@ from robot.messages import (
     WorldState,
 )
 from robot.model.body import BodyModel
+from robot.perception.eye import Eye
 from robot.se3 import SE3
 
 PERIOD_S = 0.1
@@ -45,8 +47,12 @@ class PerceptionNode(Closing):
     head and base stood where it is believed that they stood. Time is the newest stamp.
     """
 
-    def __init__(self, wiring: Wiring) -> None:
+    def __init__(self, wiring: Wiring, *, looks: bool = False) -> None:
         """Subscribe; compile the body for the poses of camera and lidar.
+
+        Args:
+            wiring: for the drivers.
+            looks: whether pictures are to be looked at, though the camera is simulated.
 
         Raises:
             DescriptionError: if description and MJCF disagree.
@@ -55,6 +61,7 @@ class PerceptionNode(Closing):
         bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
         self._senses = PublishedSensors(wiring, "perception")
+        self._eye = Eye(wiring) if looks or not RGBD.is_simulated(description) else None
         self._bus = bus
         self._states = bus.subscribe(topics.BODY_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)
@@ -82,15 +89,21 @@ class PerceptionNode(Closing):
     def __enter__(self) -> Self:
         """Open the sensors. Raises DriverError if one is not there."""
         self._senses.__enter__()
+        if self._eye is not None:
+            self._eye.__enter__()
         return self
 
     def close(self) -> None:
         """Let go of the sensors."""
+        if self._eye is not None:
+            self._eye.close()
         self._senses.close()
 
     def step(self) -> None:
         """Work off what came; publish the world state at most every `PERIOD_S`."""
         self._learn_map()
+        if self._eye is not None:
+            self._eye.step()
         for state in self._states.take():
             self._history.add(state)
             self._now_s = max(self._now_s, state.stamp_s)

@@ -16,7 +16,7 @@ from robot.drivers.wiring import SimulatedPlant
 from robot.messages import Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
-from robot.reality.studio import Studio
+from robot.reality.studio import Renderer, RobotCamera, Studio
 from robot.reality.truth import Check, Verdict
 from robot.reality.visual_scene import VisualScene
 from robot.se3 import SE3
@@ -214,6 +214,29 @@ class Plant(SimulatedPlant, Protocol):
 
         Raises:
             ConfigError: if a check names what is not there.
+        """
+        ...
+
+    def stand(self, X_WS: SE3) -> None:
+        """Put the robot, at rest, with its soles' midpoint at X_WS (x, y, yaw)."""
+        ...
+
+    def pose(self, angles: Mapping[str, float]) -> None:
+        """Put motors, at rest, to such angles [rad] or travels [m] at once: for pictures.
+
+        Raises:
+            ConfigError: there is no such motor, with the nearest name.
+        """
+        ...
+
+    def camera(
+        self, *, renderer: Renderer = "auto", size: tuple[int, int] | None = None
+    ) -> RobotCamera:
+        """The robot's camera, which takes pictures only when asked to.
+
+        Args:
+            renderer: how it is imitated.
+            size: width and height [px] in place of the description's, the same field of view.
         """
         ...
 

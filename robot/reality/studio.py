@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Literal, Protocol, TypeAlias
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from robot.closing import Closing
+from robot.messages import RgbdImage
 from robot.reality.visual_scene import Flat
 
 Image = NDArray[np.uint8]
 """Shape (height, width, 3)."""
+Renderer: TypeAlias = Literal["auto", "rays", "egl"]
+"""How the robot's camera is imitated: "auto" takes EGL where it is installed, else rays."""
 
 
 class Standing(msgspec.Struct, frozen=True, kw_only=True):
@@ -33,4 +36,17 @@ class Studio(Closing, Protocol):
 
     def shoot(self, standing: Standing, *, at_m: tuple[float, float]) -> Image:
         """One picture, which looks at a point of the floor."""
+        ...
+
+
+class RobotCamera(Closing, Protocol):
+    """The robot's own camera in a simulation, with the flaws of its reality; a context manager."""
+
+    @property
+    def by(self) -> str:
+        """What renders, for people: EGL or rays."""
+        ...
+
+    def take(self, stamp_s: float) -> RgbdImage:
+        """A picture as everything is now; nothing that is simulated notices."""
         ...

@@ -10,23 +10,25 @@ import pytest
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
-from robot.drivers.registry import FORCE, IMU, SENSES
+from robot.drivers.camera.uvc import Settings, UvcCamera
+from robot.drivers.registry import FORCE, IMU, RGBD, SENSES
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.simulation.plant_sensors import emulated
 from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
-from robot.messages import DepthImage, LidarScan, PowerState
+from robot.messages import DepthImage, LidarScan, PowerState, RgbdImage
 from robot.model import description
 from robot.model.body import BodyModel
+from tests.fakes.cameras import FakeCapture
 from tests.fakes.motors import FakePlant
 
 ROBOT = description.load("juno")
 COUNT = len(ROBOT.motors)
-FAMILIES = {family.device: family for family in (IMU, FORCE, *SENSES)}
+FAMILIES = {family.device: family for family in (IMU, FORCE, RGBD, *SENSES)}
 CALIBRATION = {
     "imu": ROBOT.sensors.imu, "force": None, "camera": ROBOT.sensors.camera,
-    "lidar": ROBOT.sensors.lidar, "battery": ROBOT.battery,
+    "rgbd": ROBOT.sensors.camera, "lidar": ROBOT.sensors.lidar, "battery": ROBOT.battery,
 }  # fmt: skip
 
 
@@ -85,6 +87,27 @@ def inside_elsewhere(name):
     return bench
 
 
+def webcam(tmp_path: Path) -> Device:
+    clock, capture = SimulatedClock(), FakeCapture()
+    camera = ROBOT.sensors.camera
+    source = UvcCamera(Settings(device="/dev/video9"), camera, clock, opens=capture.open)
+
+    def measure(stamp_s: float) -> object:
+        clock.set(stamp_s)
+        pixels = np.full((2, 3, 3), round(100 * stamp_s), np.uint8)
+        capture.show(pixels)
+        return source.image(pixels, stamp_s)
+
+    return Device("rgbd", source, measure)
+
+
+def picture(stamp_s: float) -> RgbdImage:
+    return RgbdImage(
+        stamp_s=stamp_s, width=2, height=1, focal_px=(1.0, 1.0), centre_px=(0.5, 0.0),
+        frame="head_camera", colours=bytes(6), depth_m=bytes(8),
+    )  # fmt: skip
+
+
 def image(stamp_s: float) -> DepthImage:
     return DepthImage(stamp_s=stamp_s, width=2, height=1, fovy_rad=1.0, depth_m=bytes(8))
 
@@ -101,6 +124,8 @@ BENCHES = {
     ("imu", "simulated"): (inside_here("imu"), inside_elsewhere("imu")),
     ("force", "simulated"): (inside_here("force"), inside_elsewhere("force")),
     ("camera", "simulated"): (bus_device("camera", topics.DEPTH, image),),
+    ("rgbd", "simulated"): (bus_device("rgbd", topics.RGBD, picture),),
+    ("rgbd", "uvc"): (webcam,),
     ("lidar", "simulated"): (bus_device("lidar", topics.LIDAR, scan),),
     ("battery", "simulated"): (bus_device("battery", topics.POWER, power),),
 }

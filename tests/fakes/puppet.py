@@ -106,6 +106,9 @@ class Puppet:
     def depth(self) -> None:
         return None
 
+    def camera(self) -> m.CameraState | None:
+        return None
+
     def power(self) -> m.PowerState | None:
         return None
 

@@ -114,6 +114,9 @@ class SilentLink:
     def depth(self):
         return self.messages["depth"]
 
+    def camera(self):
+        return self.messages.get("camera")
+
     def power(self):
         return self.messages["power"]
 

@@ -9,10 +9,13 @@ import time
 from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 
 from robot.bringup.live import LiveRuntime
 from robot.bringup.processes import CONTROLLER
+from robot.bus import topics
+from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.motors.simulated import SimulatedMotors
 from robot.drivers.simulation.shared_plant import SharedPlant
@@ -189,3 +192,25 @@ def test_a_killed_executive_leaves_no_process(tmp_path: Path):
         parent.wait()
     assert eventually(lambda: all(gone(pid) for pid in pids))
     shutil.rmtree(sockets)  # the one thing that nobody was left to take away
+
+
+def test_pictures_are_rendered_beside_the_plant(tmp_path: Path):
+    world = Simulation().world("kitchen")
+    with LiveRuntime(world, folder=tmp_path / "run", seed=1, pictures=True) as runtime:
+        assert runtime.failure() is None, runtime.failure()
+        with ZenohBus("observer", runtime.run.sockets) as bus:
+            pictures = bus.subscribe(topics.RGBD)
+            seen = []
+
+            def has_seen() -> bool:
+                runtime.advance(0.05)
+                seen.extend(pictures.take())
+                return len(seen) >= 3
+
+            assert eventually(has_seen)
+        assert runtime.failure() is None
+        image = seen[-1]
+        assert (image.width, image.height) == (320, 240)
+        assert image.picture().std() > 10.0
+        assert 0.0 < np.median(image.depth()) < 5.0
+        assert eventually(lambda: (runtime.advance(0.05), runtime.link.camera().code)[1] == "")

@@ -22,7 +22,7 @@ from executive.engine.sense import Sense
 from executive.health import Health, Level
 from robot.bus.topics import TOPICS
 from robot.failures import CATALOGUE
-from robot.messages import LoopTiming, PowerState, WorldState
+from robot.messages import CameraState, LoopTiming, PowerState, WorldState
 from robot.se3 import SE3
 from tests.fakes.puppet import Puppet
 from tests.fakes.worlds import puppet
@@ -61,6 +61,20 @@ def test_silence_becomes_a_finding(robot, topic, age_s, level, code):
     health = look(robot, 100.0, **{topic: age_s})
     assert health.level is level
     assert (health.failure.code if health.failure else None) == code
+
+
+@pytest.mark.parametrize(
+    "code", ["camera_unplugged", "camera_late", "camera_frozen", "camera_black"]
+)
+def test_a_camera_that_is_unwell_is_told_and_stops_nothing(robot, code):
+    monitor = HealthMonitor(RATES, start_s=0.0)
+    camera = CameraState(stamp_s=100.0, code=code, cause="so it is")
+    fresh = dict.fromkeys(RATES, 100.0)
+    health = monitor.look(100.0, fresh, body=robot.body(), world=None, camera=camera)
+    assert (health.level, health.findings[0].failure.code) == (Level.WARN, code)
+    well = CameraState(stamp_s=100.1)
+    fresh = dict.fromkeys(RATES, 100.1)
+    assert not monitor.look(100.1, fresh, body=robot.body(), world=None, camera=well).findings
 
 
 def test_dead_perception_is_told_before_the_sensors_that_it_published(robot):

@@ -213,6 +213,23 @@ def test_children_of_a_killed_parent_die_with_it(tmp_path, word):
     assert eventually(lambda: not any(alive(pid) for pid in pids))
 
 
+def test_a_camera_is_started_where_it_is_wanted_and_ends_no_run_when_it_dies(supervise, tmp_path):
+    camera = Process(
+        "camera", STUB, "pictures", death="camera_unplugged", restarts=1, is_vital=False
+    )
+    processes = (*THREE, camera)
+    with supervise(processes=processes) as supervisor:
+        ready(supervisor, tmp_path, *ALL)
+        assert "camera" not in supervisor.pids
+    with supervise(processes=processes, pictures=True) as supervisor:
+        for times in range(2):
+            pids = ready(supervisor, tmp_path, *ALL, "camera")
+            os.kill(pids["camera"], signal.SIGKILL)
+            assert eventually(lambda pids=pids: not alive(pids["camera"]))
+            assert supervisor.check() is None
+            assert len(supervisor.restarted) == min(times + 1, 1)
+
+
 def test_the_table_is_sound():
     names = [entry.name for entry in PROCESSES]
     assert sorted(names) == sorted(STOP_ORDER)

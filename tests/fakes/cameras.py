@@ -1,0 +1,44 @@
+"""An emulated webcam: `Capture` without a device behind it."""
+
+import queue
+import threading
+
+import numpy as np
+
+
+class FakeCapture:
+    """Gives the pictures that it is shown, each once it is asked for; then it may be unplugged."""
+
+    is_device = True
+
+    def __init__(self) -> None:
+        self._pictures: queue.Queue[np.ndarray | None] = queue.Queue()
+        self._asked = threading.Semaphore(0)
+        self.closed = False
+
+    def open(self) -> "FakeCapture":
+        self._pictures, self._asked = queue.Queue(), threading.Semaphore(0)
+        self.closed = False
+        return self
+
+    def show(self, pixels: np.ndarray) -> None:
+        """Put a picture before it, and wait until the driver has taken it and asks for the next."""
+        assert self._asked.acquire(timeout=20.0)
+        self._pictures.put(pixels)
+        assert self._asked.acquire(timeout=20.0)
+        self._asked.release()
+
+    def unplug(self) -> None:
+        self._pictures.put(None)
+
+    def read(self) -> np.ndarray | None:
+        self._asked.release()
+        while True:
+            try:
+                return self._pictures.get(timeout=0.05)
+            except queue.Empty:
+                if self.closed:
+                    return None
+
+    def close(self) -> None:
+        self.closed = True
