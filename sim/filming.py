@@ -1,4 +1,4 @@
-"""Pictures of a scene that is put into postures: `robot.reality.studio`, through EGL."""
+"""Pictures of a scene that is put into postures: `robot.reality.studio`."""
 
 # pyright: basic
 
@@ -42,9 +42,14 @@ class FilmStudio(Closing):
             self._renderer.leave_out(WALLS)
 
     def __enter__(self) -> Self:
-        """Open an EGL context. Raises ConfigError if there is none, with the cure."""
+        """Open what renders."""
         self._renderer.__enter__()
         return self
+
+    @property
+    def by(self) -> str:
+        """What renders, for people: EGL or rays."""
+        return self._renderer.by
 
     def close(self) -> None:
         """Free the context."""

@@ -1,8 +1,9 @@
-"""Pictures of a simulation without a display, through EGL."""
+"""Pictures of a simulation without a display: through EGL where it is installed, else by rays."""
 
 from __future__ import annotations
 
 import io
+import math
 from pathlib import Path
 from typing import Any, Self
 
@@ -15,9 +16,12 @@ from robot.closing import Closing
 from robot.errors import ConfigError
 from robot.ordinary_files import write_ordinary
 from robot.se3 import Vector3
+from sim.camera.by_rays import Tracer
+from sim.camera.flaws import to_bytes
+from sim.camera.scene_view import Pinhole
 from sim.gl_context import gl_context
 from sim.plant import Plant
-from sim.rays import UNSENSED
+from sim.rays import SEEN, UNSENSED
 from sim.world_schema import World
 
 Image = NDArray[np.uint8]
@@ -58,12 +62,16 @@ def overview(world: World) -> View:
 
 
 class Renderer(Closing):
-    """Draws one model. A context manager: the GL context lives inside the `with`."""
+    """Draws one model. A context manager: a GL context lives inside the `with`.
+
+    Rays show the same, without shadows and with ragged edges.
+    """
 
     def __init__(self, model: mujoco.MjModel, *, width: int = 1280, height: int = 720) -> None:
         """Prepare; nothing is opened before `with`."""
         self._model, self._width, self._height = model, width, height
         self._gl: Any = None
+        self._groups = SEEN.copy()
         self._scene = mujoco.MjvScene(model, maxgeom=2000)
         self._option = mujoco.MjvOption()
         self._option.geomgroup[UNSENSED] = 1
@@ -71,20 +79,24 @@ class Renderer(Closing):
         self._rect = mujoco.MjrRect(0, 0, width, height)
 
     def __enter__(self) -> Self:
-        """Open an EGL context.
-
-        Raises:
-            ConfigError: if EGL is not installed, naming the packages.
-        """
-        self._gl = gl_context(self._width, self._height)
+        """Open an EGL context; where there can be none, rays need nothing."""
+        try:
+            self._gl = gl_context(self._width, self._height)
+        except ConfigError:
+            return self
         self._gl.make_current()
         self._context = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._context)
         return self
 
+    @property
+    def by(self) -> str:
+        """What draws, for people."""
+        return "rays" if self._gl is None else "EGL"
+
     def leave_out(self, group: int) -> None:
         """Draw no geoms of a group."""
-        self._option.geomgroup[group] = 0
+        self._option.geomgroup[group] = self._groups[group] = 0
 
     def close(self) -> None:
         """Free the context."""
@@ -95,6 +107,8 @@ class Renderer(Closing):
 
     def image(self, data: mujoco.MjData, view: View) -> Image:
         """One picture, shape (height, width, 3)."""
+        if self._gl is None:
+            return self._traced(data, view)
         self._aim(view)
         visible = mujoco.mjtCatBit.mjCAT_ALL.value
         mujoco.mjv_updateScene(
@@ -106,6 +120,28 @@ class Renderer(Closing):
         pixels = np.empty((self._height, self._width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, self._rect, self._context)
         return np.flipud(pixels)
+
+    def _traced(self, data: mujoco.MjData, view: View) -> Image:
+        """One picture by rays."""
+        fovy_deg = float(self._model.vis.global_.fovy)
+        if view.camera:
+            camera = self._model.camera(view.camera).id
+            fovy_deg = float(self._model.cam_fovy[camera])
+            eye_W = data.cam_xpos[camera].copy()
+            right, above, back = data.cam_xmat[camera].reshape(3, 3).T
+            axes = right, -above, -back
+        else:
+            heading, down = math.radians(view.heading_deg), math.radians(view.down_deg)
+            level = np.array([math.cos(heading), math.sin(heading), 0.0])
+            forward = math.cos(down) * level - np.array([0.0, 0.0, math.sin(down)])
+            right = np.array([level[1], -level[0], 0.0])
+            below = -math.sin(down) * level - np.array([0.0, 0.0, math.cos(down)])
+            eye_W = np.array(view.at) - view.distance_m * forward
+            axes = right, below, forward
+        focal_px = self._height / 2 / math.tan(math.radians(fovy_deg) / 2)
+        pinhole = Pinhole(self._width, self._height, focal_px)
+        tracer = Tracer(self._model, data, pinhole, groups=self._groups)
+        return to_bytes(tracer.look(eye_W, np.column_stack(axes)).light)
 
     def _aim(self, view: View) -> None:
         camera = self._camera
@@ -127,11 +163,7 @@ def snapshot(
     width: int = 1280,
     height: int = 720,
 ) -> None:
-    """Save a picture of the plant as it is now (by default the whole world): PNG or JPEG.
-
-    Raises:
-        ConfigError: if EGL is not installed, naming the packages.
-    """
+    """Save a picture of the plant as it is now (by default the whole world): PNG or JPEG."""
     with Renderer(plant.model, width=width, height=height) as renderer:
         save_picture(path, renderer.image(plant.data, view or overview(plant.world)))
 

@@ -145,7 +145,7 @@ def _egl() -> Finding:
     if ctypes.util.find_library("EGL") and ctypes.util.find_library("OpenGL"):
         return Finding(name="EGL", verdict="ok", text="pictures can be rendered without a display")
     return Finding(
-        name="EGL", verdict="optional", text="not there: view --snapshot cannot render",
+        name="EGL", verdict="optional", text="not there: pictures are drawn by rays, slower",
         cure=EGL_PACKAGES,
     )  # fmt: skip
 

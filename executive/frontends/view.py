@@ -18,7 +18,7 @@ def look(world: str, robot: str, *, seed: int, snapshot: Path | None) -> int:
     """Render into a file, or open the viewer; returns the exit status.
 
     Raises:
-        ConfigError: EGL, the display or a file is missing; the error names the cure.
+        ConfigError: the display or a file is missing; the error names the cure.
     """
     if snapshot is None and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         cure = "make a picture instead: humanoid view --snapshot out.png"

@@ -34,6 +34,11 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
 class Studio(Closing, Protocol):
     """A context manager in which pictures are taken."""
 
+    @property
+    def by(self) -> str:
+        """What renders, for people: EGL or rays."""
+        ...
+
     def shoot(self, standing: Standing, *, at_m: tuple[float, float]) -> Image:
         """One picture, which looks at a point of the floor."""
         ...

@@ -41,13 +41,19 @@ def film(
         float | None, typer.Option("--to", min=0.0, max=LAST_S, help="End at this time.")
     ] = None,
     width: Annotated[
-        int, typer.Option("--width", min=160, max=1920, help="Of the film, in pixels.")
-    ] = 800,
+        int | None,
+        typer.Option(
+            "--width",
+            min=160,
+            max=1920,
+            help="Of the film, in pixels (default: 800; 480 where there is no EGL).",
+        ),
+    ] = None,
 ) -> None:
     """Make a film of a run: the robot at work, the task tree beside it, what it says below.
 
     A .gif can always be made; .webm and .mp4 take the extra `film` (PyAV), and are a tenth of its
-    size. Pictures are rendered through EGL.
+    size. Pictures are rendered through EGL where it is installed, else by rays: slower, no shadows.
 
     [bold]Examples[/bold]
 

@@ -44,6 +44,8 @@ def run(tmp_path):
 class Studio:
     """Takes pictures of nothing, and keeps what it was to look at."""
 
+    by = "EGL"
+
     def __init__(self, width, height):
         self.size, self.looked = (height, width, 3), []
 
@@ -99,6 +101,17 @@ def test_the_camera_follows_the_robot_as_closely_at_any_speed(run, studio):
     (slow, _), (fast, _) = (made.looked[-1][1] for made in studio)
     assert slow < 0.4  # where the robot is
     assert fast == pytest.approx(slow, abs=0.05)
+
+
+def test_without_egl_a_film_is_smaller_and_says_so(run, studio, monkeypatch, capsys):
+    monkeypatch.setattr(Studio, "by", "rays")
+    film(Asked(run=str(run), output=run / "it.gif"))
+    with Image.open(run / "it.gif") as made:
+        assert made.size == (480, 270)
+    assert "drawn by rays" in capsys.readouterr().err
+    film(Asked(run=str(run), output=run / "it.gif", width=640))
+    with Image.open(run / "it.gif") as made:
+        assert made.size == (640, 360)
 
 
 def test_a_gif_shows_colours_that_come_into_view_later(tmp_path):
