@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -49,10 +50,10 @@ class RealSense:
             DriverError: it is not there, cannot stream that, or the library is not installed.
         """
         try:
-            import pyrealsense2 as rs
+            rs: Any = import_module("pyrealsense2")
         except ImportError as error:
             raise DriverError(f"a RealSense needs its library: {INSTALL}") from error
-        self._rs: Any = rs
+        self._rs = rs
         config = rs.config()
         if serial:
             config.enable_device(serial)
