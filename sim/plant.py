@@ -163,14 +163,18 @@ class Plant:
         mujoco.mj_forward(model, data)
 
     def pose(self, angles: Mapping[str, float]) -> None:
-        """Put motors, at rest, to such angles [rad] or travels [m] at once.
+        """Put motors that turn, at rest, to such angles [rad] at once.
 
         Raises:
-            ConfigError: there is no such motor, with the nearest name.
+            ConfigError: there is no such motor, with the nearest name, or it does not go so far.
         """
         names = list(self.robot.motors)
         for name, angle in angles.items():
             check_name(name, names, "motor")
+            joint = self.model.joint(self.robot.motors[name].joint)
+            low, high = joint.range.tolist()
+            if self.model.jnt_limited[joint.id] and not low <= angle <= high:
+                raise ConfigError(_too_far(name, low, high, angle))
             self.data.qpos[self.motors.q_index[names.index(name)]] = angle
         close_couplings(self.model, self.data.qpos)
         mujoco.mj_forward(self.model, self.data)
@@ -370,6 +374,12 @@ class Plant:
         for _, body, force in self._pulls:
             self.data.xfrc_applied[body, :3] += force
         self.people.press()
+
+
+def _too_far(name: str, low: float, high: float, angle: float) -> str:
+    """That a joint does not go so far; people think in degrees."""
+    least, most, wanted = (math.degrees(value) for value in (low, high, angle))
+    return f"{name} goes from {least:.0f} to {most:.0f} deg, not to {wanted:.0f}"
 
 
 def close_couplings(model: mujoco.MjModel, qpos: Array) -> None:

@@ -105,6 +105,12 @@ def _uvc_rgbd(wiring: Wiring) -> SensorSource[RgbdImage, Camera]:
     return make(wiring)
 
 
+def _realsense_rgbd(wiring: Wiring) -> SensorSource[RgbdImage, Camera]:
+    from robot.drivers.camera.realsense import make
+
+    return make(wiring)
+
+
 def _simulated_lidar(wiring: Wiring) -> SensorSource[LidarScan, Lidar]:
     from robot.drivers.lidar.simulated import make
 
@@ -124,7 +130,7 @@ IMU = Family("imu", {SIMULATED: _simulated_imu})
 FORCE = Family("force", {SIMULATED: _simulated_force})
 
 # Whole pictures: perception opens it where somebody looks at them (`robot.perception.eye`).
-RGBD = Family("rgbd", {SIMULATED: _simulated_rgbd, "uvc": _uvc_rgbd})
+RGBD = Family("rgbd", {SIMULATED: _simulated_rgbd, "uvc": _uvc_rgbd, "realsense": _realsense_rgbd})
 
 # What is published: its topic's source is the process that opens it
 # (`robot.drivers.published_sensors`).

@@ -222,10 +222,10 @@ class Plant(SimulatedPlant, Protocol):
         ...
 
     def pose(self, angles: Mapping[str, float]) -> None:
-        """Put motors, at rest, to such angles [rad] or travels [m] at once: for pictures.
+        """Put motors that turn, at rest, to such angles [rad] at once: for pictures.
 
         Raises:
-            ConfigError: there is no such motor, with the nearest name.
+            ConfigError: there is no such motor, with the nearest name, or it does not go so far.
         """
         ...
 

@@ -10,6 +10,8 @@ import pytest
 from robot.bus import topics
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
+from robot.drivers.camera.librealsense import Frame
+from robot.drivers.camera.realsense import RealSenseCamera
 from robot.drivers.camera.uvc import Settings, UvcCamera
 from robot.drivers.registry import FORCE, IMU, RGBD, SENSES
 from robot.drivers.sensor_source import SensorSource
@@ -20,7 +22,7 @@ from robot.errors import DriverError
 from robot.messages import DepthImage, LidarScan, PowerState, RgbdImage
 from robot.model import description
 from robot.model.body import BodyModel
-from tests.fakes.cameras import FakeCapture
+from tests.fakes.cameras import FakeCapture, FakeRealSense
 from tests.fakes.motors import FakePlant
 
 ROBOT = description.load("juno")
@@ -101,6 +103,21 @@ def webcam(tmp_path: Path) -> Device:
     return Device("rgbd", source, measure)
 
 
+def realsense(tmp_path: Path) -> Device:
+    clock, camera = SimulatedClock(), FakeRealSense()
+    source = RealSenseCamera(ROBOT.sensors.camera, clock, opens=lambda: camera)
+
+    def measure(stamp_s: float) -> object:
+        clock.set(stamp_s)
+        value = round(100 * stamp_s)
+        colours, depth_m = np.full((2, 3, 3), value, np.uint8), np.ones((2, 3), np.float32)
+        frame = Frame(stamp_s, colours, depth_m, 0.01)
+        camera.frames.append(frame)
+        return source.image(frame, camera.lens, stamp_s)
+
+    return Device("rgbd", source, measure)
+
+
 def picture(stamp_s: float) -> RgbdImage:
     return RgbdImage(
         stamp_s=stamp_s, width=2, height=1, focal_px=(1.0, 1.0), centre_px=(0.5, 0.0),
@@ -126,6 +143,7 @@ BENCHES = {
     ("camera", "simulated"): (bus_device("camera", topics.DEPTH, image),),
     ("rgbd", "simulated"): (bus_device("rgbd", topics.RGBD, picture),),
     ("rgbd", "uvc"): (webcam,),
+    ("rgbd", "realsense"): (realsense,),
     ("lidar", "simulated"): (bus_device("lidar", topics.LIDAR, scan),),
     ("battery", "simulated"): (bus_device("battery", topics.POWER, power),),
 }

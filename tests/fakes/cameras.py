@@ -1,9 +1,12 @@
-"""An emulated webcam: `Capture` without a device behind it."""
+"""Emulated cameras: `Capture` and `RealSense` without a device behind them."""
 
 import queue
 import threading
+from collections import deque
 
 import numpy as np
+
+from robot.drivers.camera.librealsense import Frame, Lens
 
 
 class FakeCapture:
@@ -42,3 +45,22 @@ class FakeCapture:
 
     def close(self) -> None:
         self.closed = True
+
+
+class FakeRealSense:
+    """Has a queue of pictures, as the library has."""
+
+    serial = "f0"
+    lens = Lens((381.0, 382.0), (319.0, 241.0))
+
+    def __init__(self) -> None:
+        self.frames: deque[Frame] = deque()
+
+    def poll(self) -> Frame | None:
+        return self.frames.popleft() if self.frames else None
+
+    def is_there(self) -> bool:
+        return True
+
+    def close(self) -> None:
+        pass

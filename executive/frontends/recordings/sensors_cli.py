@@ -83,7 +83,9 @@ def snap(
     ] = "",
     head: Annotated[
         str,
-        typer.Option("--head", help="How its head is turned: YAW,PITCH [deg]; left, down are +."),
+        typer.Option(
+            "--head", help="How its head is turned: YAW,PITCH [deg]; left and down are +."
+        ),
     ] = "",
     size: Annotated[
         str, typer.Option("--size", help="WIDTHxHEIGHT [px] (default: the robot's camera).")

@@ -111,6 +111,11 @@ def test_the_physics_does_not_notice_a_picture(robot, kitchen):
     assert fallen(is_watched=True) == fallen(is_watched=False)
 
 
+def test_a_motor_goes_no_further_than_it_can(plant: Plant):
+    with pytest.raises(ConfigError, match=r"head_yaw goes from -\d+ to \d+ deg, not to 516"):
+        plant.pose({"head_yaw": 9.0})
+
+
 def test_a_motor_that_is_none_has_no_pose(plant: Plant):
     with pytest.raises(ConfigError, match="did you mean 'head_yaw'"):
         plant.pose({"head_jaw": 0.1})
