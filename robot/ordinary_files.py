@@ -125,7 +125,7 @@ def make_below(base: Path | str, folder: Path | str) -> None:
     """
     place = Path(base)
     place.mkdir(parents=True, exist_ok=True)
-    for part in Path(os.path.relpath(folder, base)).parts:  # noqa: PTH100 - links stay
+    for part in Path(os.path.relpath(folder, base)).parts:
         place /= part
         with contextlib.suppress(FileExistsError):
             place.mkdir()

@@ -69,6 +69,9 @@ WRITTEN = [
 
 # what a folder's file may not say, and where it may not lead
 REACHES = {
+    "slash": 'world = "../outside/secret.yaml/"\n',
+    "dot": 'robot = "../outside/secret.yml/."\n',
+    "nul": 'world = "a\\u0000.yaml"\n',
     "model": 'model = "x.toml"\n',
     "hooks": '[hooks]\ndone = ["touch", "owned"]\n',
     "voice": 'voice_model = "x.onnx"\n',
