@@ -17,6 +17,7 @@ from executive.journal.motion import Moment
 from robot.errors import ConfigError
 from robot.model import description
 from robot.model.body import BodyModel
+from robot.printable import is_printable
 from robot.se3 import SE3
 
 CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
@@ -140,6 +141,30 @@ def test_tables_hold_every_moment_and_event(run, tmp_path, kind):
     assert [json.loads(row["data"])["text"] for row in rows["events"]] == [
         "wave", "Hello, =1+1.", "low",
     ]  # fmt: skip
+
+
+HOSTILE = (
+    "=cmd|' /C calc'!A0", "@SUM(1+1)", "+1", "-1", "\t=1", "\r=1", " =1", "\n=1", "＝1",
+    "\x1b]0;owned\x07", "a\u202eb", "a\u200bb", "\x9b31m",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_no_cell_of_a_csv_is_worked_out_or_obeyed(text, run, tmp_path):
+    folder, _ = run
+    event = {"n": 9, "t_s": 2.0, "event": text, "text": text, text: text}
+    moment = {"t_s": 9.0, "base": [0, 0, -1.5, 1, 0, 0, 0], "q": [], "objects": {text: CUP}}
+    for name, line in ((journal.FILE, event), (motion.FILE, moment)):
+        with (folder / name).open("ab") as file:
+            file.write(msgspec.json.encode(line) + b"\n")
+    dump(Asked(run=str(folder), kind="csv", output=tmp_path / "out"))
+    for path in (tmp_path / "out").iterdir():
+        assert is_printable(path.read_text())
+        for row in csv.reader(path.open(newline="")):
+            for cell in row:
+                assert cell[:1] not in "=+-@\t\r\n＝" or cell == "" or float(cell) < 0
+    assert _csv(tmp_path / "out" / "motion.csv")[-1]["base_z_m"] == "-1.5"
+    assert json.loads(_csv(tmp_path / "out" / "events.csv")[-1]["data"])[text] == text
 
 
 def _csv(path):
