@@ -10,9 +10,10 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
+from msgspec import Meta
 
 from executive.evaluation import roles
 from executive.meaning import request
@@ -33,6 +34,8 @@ LIMIT_S = 420.0
 """Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
 IDEAL = "ideal"
 """The reality where nobody says otherwise."""
+MOST_CASES = 1000
+"""Of a file: each is checked as if it were to be done, which takes milliseconds."""
 BENCH, JUNO = "bench", "juno"
 """Where a sentence is done, and by whom, if nothing else is said."""
 
@@ -88,7 +91,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A file of cases; `roles` say what plays the roles that they name (`evaluation.roles`)."""
 
-    cases: tuple[Case, ...]
+    cases: Annotated[tuple[Case, ...], Meta(max_length=MOST_CASES)]
     roles: dict[str, Any] = {}
 
 
@@ -135,10 +138,11 @@ def load(path: Path | str, reality: Reality, *, robot: str = "") -> tuple[Case, 
         for index, case in enumerate(cases)
         for text in problems_of(case, settings)
     ]
+    first = {case.name: index for index, case in reversed([*enumerate(cases)])}
     problems += [
         config.place(node, f"$.cases[{index}]").problem(f"there are two cases {case.name!r}")
         for index, case in enumerate(cases)
-        if case.name in {other.name for other in cases[:index]}
+        if first[case.name] != index
     ]
     if not cases:
         problems.append(node.problem("there are no cases in it", "see docs/evaluation.md"))

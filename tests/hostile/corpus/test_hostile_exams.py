@@ -40,6 +40,36 @@ CASES = [
         )
         for name, pattern in PATTERNS.items()
     ),
+    *(
+        Case(
+            name=f"roles-{name}",
+            argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+            files={"c.yaml": f"roles: {roles}\ncases:\n" + f"  - {{name: a, {case}}}\n" * 150},
+            says=("with its roles",),
+            memory_mb=400,
+        )
+        for name, roles, case in (
+            ("list", "{x: [" + "1," * 60_000 + "]}", 'mission: wave, faults: "{x}"'),
+            ("words", "{x: [" + "1," * 60_000 + "]}", f"mission: '{'{x}' * 3000}'"),
+            ("text", "{x: " + "a" * 9000 + "}", 'mission: wave, why: "{x}", world: "{x}"'),
+            ("letters", "{x: " + "a" * 9900 + "}", 'mission: wave, why: "{x}", world: "b {x}"'),
+        )
+    ),
+    Case(
+        name="many-cases",
+        argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+        files={
+            "c.yaml": "cases:\n"
+            + "".join(f"  - {{name: a{number}, mission: wave}}\n" for number in range(12_000))
+        },
+        says=("cases",),
+    ),
+    Case(
+        name="many-of-one-name",
+        argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+        files={"c.yaml": "cases:\n" + "  - {name: a, mission: wave}\n" * 1000},
+        says=("there are two cases",),
+    ),
     Case(
         name="many-unknown-names",
         argv=EVAL,
