@@ -36,6 +36,8 @@ IDEAL = "ideal"
 """The reality where nobody says otherwise."""
 MOST_CASES = 1000
 """Of a file: each is checked as if it were to be done, which takes milliseconds."""
+MOST_RUNS = 100_000
+"""Of one evaluation: ten weeks on one core, and half of what a file of results holds."""
 BENCH, JUNO = "bench", "juno"
 """Where a sentence is done, and by whom, if nothing else is said."""
 
@@ -166,7 +168,14 @@ def check_names(cases: Sequence[Case]) -> None:
         if count > 1
     ]
     if problems:
-        raise ConfigError(problems)
+        raise ConfigError(problems[: config.MOST_PROBLEMS])
+
+
+def check_count(runs: int) -> None:
+    """Refuse more runs than an evaluation has, before they are made. Raises ConfigError."""
+    if runs > MOST_RUNS:
+        text = f"{runs} runs; one evaluation has at most {MOST_RUNS}"
+        raise ConfigError([Problem(text, suggestion="fewer seeds, cases or homes")])
 
 
 class Meant(msgspec.Struct, frozen=True, kw_only=True):
@@ -253,8 +262,12 @@ def runs(
         without_too: whether to run everything a second time without recovery.
         robot: who does it.
         reality: in which.
+
+    Raises:
+        ConfigError: they are more than `MOST_RUNS`.
     """
     ways = (True, False) if without_too else (True,)
+    check_count(len(cases) * seeds * len(ways))
     profile = msgspec.UNSET if reality == IDEAL else reality
     return [
         Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile)

@@ -1,5 +1,7 @@
 """Exams: tasks with what should be true at their end, homes, and results of before."""
 
+import json
+
 from tests.hostile.cases import Case, Expect
 from tests.hostile.exam import exam
 
@@ -39,6 +41,26 @@ CASES = [
             says=("is no regular expression",),
         )
         for name, pattern in PATTERNS.items()
+    ),
+    *(
+        Case(
+            name=f"resume-{name}",
+            argv=("eval", "--resume", "r"),
+            files={
+                "r/results.jsonl": '{"code":"0123456789abcdef"}\n',
+                "r/asked.json": json.dumps(asked),
+                "e.tasks.yaml": WORLD + task("{said: x}") * 900,
+            },
+            says=("at most 100000", "asked.json", "cases are called"),
+        )
+        for name, asked in {
+            "runs": {"tasks": ["e.tasks.yaml"], "seeds": 10_000},
+            "twice": {"tasks": ["e.tasks.yaml"] * 5, "seeds": 10_000, "no_recovery": True},
+            "many": {"tasks": ["e.tasks.yaml"] * 50_000},
+            "faults": {"faults": "a.yaml," * 50_000},
+            "homes": {"homes": "flat:1," * 50_000},
+            "missions": {"missions": ["wave"] * 1000, "seeds": 10_000},
+        }.items()
     ),
     *(
         Case(
