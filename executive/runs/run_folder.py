@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import re
 import stat
@@ -15,7 +14,7 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
-from executive.journal import places
+from executive.journal import holding, places
 from executive.journal.journal import FILE
 from executive.runs import provenance
 from executive.runs.provenance import Origin
@@ -218,12 +217,14 @@ def _lock(folder: Path, opened: int) -> None:
         os.close(opened)
         return
     try:
-        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        held = holding.hold(folder, opened)
     except BlockingIOError:
         raise _taken(folder, "is used by another run just now") from None
     except OSError:  # a file system without locks: good enough to write to
-        pass
-    _claimed[identity] = opened
+        _claimed[identity] = opened
+        return
+    os.close(opened)
+    _claimed[identity] = held
 
 
 def _taken(folder: Path, why: str) -> ConfigError:

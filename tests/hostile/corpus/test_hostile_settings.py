@@ -164,6 +164,16 @@ PRUNED = [
     )
 ]  # fmt: skip
 
+PRUNED += [
+    Case(
+        name="prune-link",
+        argv=("runs", "prune", "--keep", "0", "--yes"),
+        files={"x/a/journal.jsonl": "", "runs": link("x")},
+        expect=Expect.ENDS,
+        says=("through a link",),
+    )
+]
+
 test_hostile_settings = exam(
     "settings", [*WRITTEN, *REACHING, *ODD_FILES, *PLACES, *NAMES, *INDEXES, *PRUNED]
 )
