@@ -51,11 +51,14 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
     with Screen(err=True).status(f"writing {kind}"):
         if kind == "mcap":
             refuse_inputs([place], records_of(folder))
-            data = foxglove.recorded(
+            data, left_out = foxglove.recorded(
                 run, _events(folder), _moments(folder), scene=scene, motors=motors,
                 began_s=min(max(past_runs.began_s(folder) - run.begin_s, 0.0), LAST_S),
             )  # fmt: skip
             write(place, data, run=folder)
+            if left_out:
+                text = f"more than {foxglove.MOST_THINGS} things: of the others"
+                say(f"{text} {left_out} sightings are left out", err=True)
         else:
             for table in tables(run, _events(folder), lambda: _moments(folder), motors=motors):
                 path = place / f"{table.name}.{kind}"

@@ -196,6 +196,24 @@ def test_a_world_that_cannot_be_read_leaves_its_shapes_out_and_is_not_told_of(
     assert [float(row["q_0"]) for row in rows] == [moment.q[0] for moment in moves]
 
 
+def test_things_beyond_those_that_have_a_topic_are_left_out_and_said(
+    run, tmp_path, capfd, monkeypatch
+):
+    monkeypatch.setattr("executive.frontends.dump.foxglove.MOST_THINGS", 5)
+    folder, moves = run
+    with (folder / motion.FILE).open("ab") as file:
+        things = {f"thing_{number}": CUP for number in range(9)}
+        for t_s in (9.0, 9.5):
+            line = {"t_s": t_s, "base": [0, 0, 0, 1, 0, 0, 0], "q": [], "objects": things}
+            file.write(msgspec.json.encode(line) + b"\n")
+    path = tmp_path / "a.mcap"
+    assert dump(Asked(run=str(folder), kind="mcap", output=path)) == 0
+    found, _ = _messages(path)
+    assert sum(topic.startswith("/things/") for topic in found) == 5
+    assert len(found["/joint_states"]) == len(moves) + 2
+    assert "more than 5 things: of the others 10 sightings are left out" in capfd.readouterr().err
+
+
 NONSENSE = (
     b'{"t_s":4.0,"base":[0,0,0,0,0,0,0],"q":[]}',
     b'{"t_s":5.0,"base":[1e308,0,1e308,1e308,1e308,0,0],"q":[1e308]}',
