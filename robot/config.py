@@ -31,6 +31,14 @@ def load(path: Path | str, kind: type[T]) -> T:
     return convert(yaml_nodes.read(path), kind)
 
 
+def names_file(text: str) -> bool:
+    """Whether a text names a file rather than what is shipped: by its suffix, as paths have it.
+
+    `a.yaml/` and `a.yaml/.` do, too: they are opened like any other.
+    """
+    return Path(text).suffix in (".yaml", ".yml")
+
+
 def convert(node: Node, kind: type[T]) -> T:
     """Turn a node into a msgspec type; raises ConfigError as `load` does."""
     data = node.plain_data

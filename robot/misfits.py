@@ -228,6 +228,9 @@ def _of_word(
                 yield _wrong(data, path, "a text", cure="put it into quotes")
             elif len(data) < (kind.min_length or 0):
                 yield Misfit(path, f"{dotted(path)} is empty", "say something, or leave it out")
+            elif kind.max_length is not None and len(data) > kind.max_length:
+                text = f"{len(data)} letters, at most {kind.max_length} are taken"
+                yield Misfit(path, f"{dotted(path)} has {text}")
             elif kind.pattern is not None and not re.search(kind.pattern, data):
                 yield _wrong(data, path, "one line of text")  # the pattern of `quantities.Line`
         case inspect.BoolType():

@@ -6,6 +6,7 @@ a link would lead it out of the folder it was told to stay in; a writer likewise
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import secrets
@@ -110,6 +111,28 @@ def open_to_append(path: Path | str) -> int:
     _check_place(path, anew=False)
     flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     return os.open(path, flags, 0o644)
+
+
+def make_below(base: Path | str, folder: Path | str) -> None:
+    """Make a folder and those between it and `base`, or take them as they are, but for links.
+
+    Args:
+        base: made as well; it may be reached through links.
+        folder: `base` itself, or below it by its name.
+
+    Raises:
+        OSError: something on the way is a link or no folder, or it cannot be made.
+    """
+    place = Path(base)
+    place.mkdir(parents=True, exist_ok=True)
+    for part in Path(os.path.relpath(folder, base)).parts:
+        place /= part
+        with contextlib.suppress(FileExistsError):
+            place.mkdir()
+        mode = place.lstat().st_mode
+        if part == ".." or not stat.S_ISDIR(mode):
+            what = "a link, which is not followed" if stat.S_ISLNK(mode) else "no folder below it"
+            raise OSError(errno.ENOTDIR, f"{place} is {what}", str(place))
 
 
 def is_within(folder: Path | str, path: Path | str) -> bool:

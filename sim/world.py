@@ -22,13 +22,12 @@ def load(name_or_path: str) -> World:
     Raises:
         ConfigError: with everything that is wrong, by file and line, and the nearest valid name.
     """
-    path = Path(name_or_path)
-    if path.suffix not in (".yaml", ".yml"):
-        path = _folder() / f"{name_or_path}.yaml"
-        if not path.exists():
-            hint = config.nearest(name_or_path, available())
-            raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
-    return world_reading.read(path)
+    if config.names_file(name_or_path):
+        return world_reading.read(Path(name_or_path))
+    if name_or_path not in available():
+        hint = config.nearest(name_or_path, available())
+        raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
+    return world_reading.read(_folder() / f"{name_or_path}.yaml")
 
 
 def empty() -> World:

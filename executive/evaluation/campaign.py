@@ -10,9 +10,10 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
+from msgspec import Meta
 
 from executive.evaluation import roles
 from executive.meaning import request
@@ -33,6 +34,10 @@ LIMIT_S = 420.0
 """Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
 IDEAL = "ideal"
 """The reality where nobody says otherwise."""
+MOST_CASES = 1000
+"""Of a file: each is checked as if it were to be done, which takes milliseconds."""
+MOST_RUNS = 100_000
+"""Of one evaluation: ten weeks on one core, and half of what a file of results holds."""
 BENCH, JUNO = "bench", "juno"
 """Where a sentence is done, and by whom, if nothing else is said."""
 
@@ -88,7 +93,7 @@ class Case(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 class Campaign(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A file of cases; `roles` say what plays the roles that they name (`evaluation.roles`)."""
 
-    cases: tuple[Case, ...]
+    cases: Annotated[tuple[Case, ...], Meta(max_length=MOST_CASES)]
     roles: dict[str, Any] = {}
 
 
@@ -135,10 +140,11 @@ def load(path: Path | str, reality: Reality, *, robot: str = "") -> tuple[Case, 
         for index, case in enumerate(cases)
         for text in problems_of(case, settings)
     ]
+    first = {case.name: index for index, case in reversed([*enumerate(cases)])}
     problems += [
         config.place(node, f"$.cases[{index}]").problem(f"there are two cases {case.name!r}")
         for index, case in enumerate(cases)
-        if case.name in {other.name for other in cases[:index]}
+        if first[case.name] != index
     ]
     if not cases:
         problems.append(node.problem("there are no cases in it", "see docs/evaluation.md"))
@@ -162,7 +168,14 @@ def check_names(cases: Sequence[Case]) -> None:
         if count > 1
     ]
     if problems:
-        raise ConfigError(problems)
+        raise ConfigError(problems[: config.MOST_PROBLEMS])
+
+
+def check_count(runs: int) -> None:
+    """Refuse more runs than an evaluation has, before they are made. Raises ConfigError."""
+    if runs > MOST_RUNS:
+        text = f"{runs} runs; one evaluation has at most {MOST_RUNS}"
+        raise ConfigError([Problem(text, suggestion="fewer seeds, cases or homes")])
 
 
 class Meant(msgspec.Struct, frozen=True, kw_only=True):
@@ -249,8 +262,12 @@ def runs(
         without_too: whether to run everything a second time without recovery.
         robot: who does it.
         reality: in which.
+
+    Raises:
+        ConfigError: they are more than `MOST_RUNS`.
     """
     ways = (True, False) if without_too else (True,)
+    check_count(len(cases) * seeds * len(ways))
     profile = msgspec.UNSET if reality == IDEAL else reality
     return [
         Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile)

@@ -114,8 +114,11 @@ def moved(
     """
     cases: list[Case] = []
     skipped: list[Skipped] = []
+    read = 0
     for path in files:
         at_home = campaign.load(path, settings.reality, robot=settings.robot)
+        read += len(at_home)
+        campaign.check_count(read * len(names))
         node = yaml_nodes.read(path).get("cases")
         written = list(zip(at_home, node.items if node else (), strict=True))
         for name in names:

@@ -73,7 +73,7 @@ def load(path: Path, settings: Settings) -> tuple[Case, ...]:
     node = yaml_nodes.read(path)
     exam = config.convert(node, Exam)
     world = exam.world
-    if world.endswith((".yaml", ".yml")):
+    if config.names_file(world):
         world = str(path.parent / world)
     world_map = settings.of(world).world_map
     wrong = (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
 from collections.abc import Iterable
@@ -13,6 +12,7 @@ import msgspec
 from msgspec import Meta
 
 from executive.evaluation.campaign import Run, key_of
+from executive.journal import holding
 from robot.closing import Closing
 from robot.config import nearest
 from robot.errors import ConfigError, Problem
@@ -103,7 +103,7 @@ class Results(Closing):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._file = os.fdopen(open_to_append(self.path), "ab")
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            self._held = os.fdopen(holding.hold(folder), "rb")
             self.records, self.stale, torn, begun = _read(self.path, fingerprint)
         except BlockingIOError:
             cure = "wait for it, or leave --resume out"
@@ -139,6 +139,7 @@ class Results(Closing):
     def close(self) -> None:
         """Let others write into the file."""
         self._file.close()
+        self._held.close()
 
     def _write(self, data: bytes) -> None:
         try:

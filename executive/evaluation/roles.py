@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 from robot.config import nearest
 from robot.errors import ConfigError
-from robot.yaml_nodes import Node, of_data, text_node
+from robot.yaml_nodes import MAX_BYTES, MAX_NODES, MAX_TEXT, Node, of_data, text_node
 
 _ROLE = re.compile(r"\{([a-z]\w*)\}")
 
@@ -33,7 +33,8 @@ def filled(node: Node, roles: Mapping[str, Any]) -> Node:
     """A piece of a file with its roles played; every part stays where it stands in the file.
 
     Raises:
-        ConfigError: a role is named that nobody plays, with the nearest that somebody does.
+        ConfigError: a role is named that nobody plays, with the nearest that somebody does; or more
+            comes of it than a file may hold.
     """
     if not roles:
         return node
@@ -45,7 +46,7 @@ def filled(node: Node, roles: Mapping[str, Any]) -> Node:
     ]
     if problems:
         raise ConfigError(problems)
-    return _filled(node, roles)
+    return _Stage(roles).filled(node)
 
 
 def _texts(node: Node) -> list[Node]:
@@ -53,14 +54,62 @@ def _texts(node: Node) -> list[Node]:
     return [node] if node.kind == "text" else [text for one in inner for text in _texts(one)]
 
 
-def _filled(node: Node, roles: Mapping[str, Any]) -> Node:
-    if node.kind == "text":
-        alone = _ROLE.fullmatch(node.text)
-        if alone:
-            return of_data(roles[alone[1]], node)
-        words = _ROLE.sub(lambda found: str(roles[found[1]]).replace("_", " "), node.text)
+class _Stage:
+    """Plays roles, and counts what comes of it: no more than one file may hold in so many words.
+
+    A role may be a list of thousands, and be named thousands of times.
+    """
+
+    def __init__(self, roles: Mapping[str, Any]) -> None:
+        self._roles = roles
+        self._sizes: dict[str, int] = {}
+        self._words: dict[str, str] = {}
+        self._values = 0
+        self._characters = 0
+
+    def filled(self, node: Node) -> Node:
+        if node.kind == "text":
+            alone = _ROLE.fullmatch(node.text)
+            return self._played(alone[1], node) if alone else self._told(node)
+        self._count(node, values=1)
+        made = Node(node.kind, node.file, node.line, node.column)
+        made.items = [self.filled(item) for item in node.items]
+        made.entries = {key: (k, self.filled(value)) for key, (k, value) in node.entries.items()}
+        return made
+
+    def _played(self, role: str, node: Node) -> Node:
+        if role not in self._sizes:
+            self._sizes[role] = _size(self._roles[role])
+        self._count(node, values=self._sizes[role], characters=len(self._words_for(role)))
+        return of_data(self._roles[role], node)
+
+    def _told(self, node: Node) -> Node:
+        named = _ROLE.findall(node.text)
+        characters = len(node.text) + sum(len(self._words_for(role)) for role in named)
+        if named and characters > MAX_TEXT:
+            text = f"a text of {characters} characters with its roles, at most {MAX_TEXT} are taken"
+            raise ConfigError([node.problem(text, "make it shorter")])
+        self._count(node, values=1, characters=characters)
+        words = _ROLE.sub(lambda found: self._words_for(found[1]), node.text)
         return text_node(words, node, plain=node.plain)
-    made = Node(node.kind, node.file, node.line, node.column)
-    made.items = [_filled(item, roles) for item in node.items]
-    made.entries = {key: (k, _filled(value, roles)) for key, (k, value) in node.entries.items()}
-    return made
+
+    def _words_for(self, role: str) -> str:
+        if role not in self._words:
+            self._words[role] = str(self._roles[role]).replace("_", " ")
+        return self._words[role]
+
+    def _count(self, node: Node, *, values: int, characters: int = 0) -> None:
+        self._values += values
+        self._characters += characters
+        if self._values > MAX_NODES or self._characters > MAX_BYTES:
+            text = (
+                f"with its roles the file has more than {MAX_NODES} values or {MAX_BYTES} letters"
+            )
+            raise ConfigError([node.problem(text, "split it up")])
+
+
+def _size(data: object) -> int:
+    """How many values plain data are, the lists and mappings in it included."""
+    if isinstance(data, dict):
+        return 1 + sum(map(_size, cast("dict[str, object]", data).values()))
+    return 1 + sum(map(_size, cast("list[object]", data))) if isinstance(data, list) else 1

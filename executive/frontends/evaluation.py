@@ -138,6 +138,7 @@ def chosen(options: Eval) -> tuple[Case, ...]:
     cases = _named(options)
     if options.missions:
         every: list[Case | None] = [*cases] or [None]
+        campaign.check_count(len(options.missions) * len(every))
         cases = [_own(mission, case, options) for mission in options.missions for case in every]
         problems = [
             Problem(f"{case.name}: {text}")
@@ -161,7 +162,10 @@ def _tasks(options: Eval, paths: list[Path], settings: campaign.Settings) -> tup
     ]
     if problems:
         raise ConfigError(problems)
-    cases = [case for path in paths for case in exam.load(path, settings)]
+    cases: list[Case] = []
+    for path in paths:
+        cases += exam.load(path, settings)
+        campaign.check_count(len(cases))
     campaign.check_names(cases)
     return tuple(cases)
 
@@ -201,6 +205,7 @@ def _named(options: Eval) -> list[Case]:
     for word in words:
         if _is_file(word):
             found += campaign.load(word, REALITY, robot=options.robot)
+            campaign.check_count(len(found))
         elif word in shipped:
             found.append(shipped[word])
         else:

@@ -15,15 +15,18 @@ from robot.plain_data import fitted, from_json
 
 FILE = "asked.json"
 LIMIT = 1_000_000
+MOST_WORDS, MOST_LETTERS = 1000, 20_000
+"""Of files and sentences, and of all names: a stranger's folder may ask for any number."""
+_Words = Annotated[tuple[str, ...], msgspec.Meta(max_length=MOST_WORDS)]
 
 
 class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The options that say which runs there are; as of `Eval`."""
 
-    missions: tuple[str, ...] = ()
-    tasks: tuple[str, ...] = ()
-    faults: str = ""
-    homes: str = ""
+    missions: _Words = ()
+    tasks: _Words = ()
+    faults: Annotated[str, msgspec.Meta(max_length=MOST_LETTERS)] = ""
+    homes: Annotated[str, msgspec.Meta(max_length=MOST_LETTERS)] = ""
     world: str = ""
     robot: str = ""
     reality: str = "ideal"

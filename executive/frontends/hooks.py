@@ -124,7 +124,10 @@ def do(hook: str | tuple[str, ...], told: dict[str, Any]) -> None:
 
 
 def _run(command: list[str], data: bytes) -> None:
-    """Run a command in a session of its own, all of which ends when its time is over."""
+    """Run a command in a session of its own, all of which ends when its time is over.
+
+    What leaves that session, or stays behind after an end in time, is the user's own affair.
+    """
     with subprocess.Popen(
         command,
         stdin=subprocess.PIPE,

@@ -9,7 +9,7 @@ from pathlib import Path
 from executive.frontends.output import say
 from executive.journal import journal, motion
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import write_ordinary
+from robot.ordinary_files import make_below, write_ordinary
 
 
 def refuse_taken(path: Path) -> None:
@@ -59,14 +59,22 @@ def records_of(folder: Path) -> list[Path]:
     return [folder / name for name in names]
 
 
-def write(path: Path, data: bytes) -> None:
+def write(path: Path, data: bytes, *, run: Path) -> None:
     """Write a file, whatever is there, and the folders above it.
+
+    Args:
+        path: where to.
+        data: what it is to hold.
+        run: the folder of a run, which may be a stranger's: no link in it is followed.
 
     Raises:
         ConfigError: it cannot be written.
     """
+    place = Path(os.path.abspath(path.parent))  # noqa: PTH100 - links stay
+    whole = Path(os.path.abspath(run))  # noqa: PTH100
+    base = whole if place.is_relative_to(whole) else place
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_below(base, place)
         write_ordinary(path, data)
     except OSError as error:
         raise ConfigError(f"{path} cannot be written: {error.strerror}") from None

@@ -22,6 +22,7 @@ from typing import Any
 
 import msgspec
 
+from executive.journal import holding
 from executive.journal.files import BackgroundFile, LineFile, Lines, is_open
 from robot.closing import Closing
 from robot.errors import ConfigError, Problem
@@ -235,5 +236,6 @@ def check_size(path: Path) -> None:
 
 
 def is_written(folder: Path) -> bool:
-    """Whether a run is under way: a process has its journal open."""
-    return is_open(folder / FILE)
+    """Whether a run is under way: a process holds its folder, or has its journal open."""
+    held = holding.is_held(folder)
+    return is_open(folder / FILE) if held is None else held

@@ -10,6 +10,7 @@ import msgspec
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord, ParameterRecord
+from robot import config
 from robot.yaml_nodes import Node, parse, read_text, text_node
 
 SUFFIX = ".yaml"
@@ -31,7 +32,7 @@ class Mission(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     def beside(self, name: str) -> str:
         """A name of a file beside this one as a path, other names as they are."""
-        if Path(name).suffix not in (".yaml", ".yml"):
+        if not config.names_file(name):
             return name
         return str(self.path.parent / name)
 
@@ -42,8 +43,7 @@ def find(name: str) -> Path:
     # Unlike `Path.exists` this raises nothing where a folder on the way may not be entered.
     if path.suffix or os.access(path, os.F_OK):
         return path
-    shipped = FOLDER / f"{name}{SUFFIX}"
-    return shipped if os.access(shipped, os.F_OK) else path
+    return next((one for one in shipped() if one.stem == name), path)
 
 
 def shipped() -> list[Path]:

@@ -16,7 +16,7 @@ from executive.missions.names import Names
 from executive.missions.problems import Problems
 from executive.missions.schema import ParameterRecord, ParameterType
 from robot.config import nearest
-from robot.yaml_nodes import Node, Scalar, text_node
+from robot.yaml_nodes import MAX_TEXT, Node, Scalar, text_node
 
 PLACEHOLDER = re.compile(r"\{\{ *([^{}]*?) *\}\}")
 SINGLE = re.compile(r"(?<!\{)\{ *(\w+) *\}(?!\})")
@@ -83,20 +83,27 @@ class Scope:
         return False
 
     def _inserted(self, node: Node, *, words: bool) -> Node | None:
-        bad = False
+        bad, room = False, MAX_TEXT
 
         def insert(match: re.Match[str]) -> str:
-            nonlocal bad
+            nonlocal bad, room
+            if room <= 0:  # a mission that calls others doubles a text with each
+                return ""
             found = self._find(match[1], node)
             if found is None or not self._fits(match[1], found, node, words=words):
                 bad = True
                 return ""
-            return _spoken(found)
+            room -= len(spoken := _spoken(found))
+            return spoken
 
         if "{{" in PLACEHOLDER.sub("", node.text):
             self._problems.add(node, "this {{ is not closed", "a parameter is {{name}}")
             return None
         text = PLACEHOLDER.sub(insert, node.text)
+        if room <= 0 or len(text) > MAX_TEXT:
+            said = f"a text of more than {MAX_TEXT} characters with its parameters"
+            self._problems.add(node, said, "make it shorter")
+            return None
         return None if bad else text_node(text, node)
 
     def _find(self, name: str, node: Node) -> Bound | None:

@@ -22,7 +22,7 @@ from executive.missions.fault_plans import FaultPlan
 from executive.runs.run_folder import MISSIONS
 from executive.runs.task_run import Assignment
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import is_within, read_ordinary, write_ordinary
+from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
 from robot.yaml_nodes import MAX_BYTES
 
 
@@ -90,7 +90,7 @@ def keep(checked: Checked, folder: Path) -> Path:
     try:
         for path, below in zip(checked.files, _below(checked.files), strict=True):
             copy = base / below
-            copy.parent.mkdir(parents=True, exist_ok=True)
+            make_below(folder, copy.parent)
             write_ordinary(copy, read_ordinary(path, limit=MAX_BYTES))
     except OSError:
         return checked.mission.path

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import re
 import stat
@@ -15,17 +14,20 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
-from executive.journal import places
+from executive.journal import holding, places
 from executive.journal.journal import FILE
 from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import is_within, read_ordinary, write_ordinary
+from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
 from robot.yaml_nodes import MAX_BYTES
 
 MISSIONS = "missions"
 """Folder in that of a run: the mission files that its jobs are made from."""
+
+LOGS = "logs"
+"""Folder in that of a run: what the processes of a live one write."""
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -70,7 +72,7 @@ def carry_missions_over(left_by: Path, folder: Path) -> None:
             if path.is_file() and is_within(left_by, path):
                 data = read_ordinary(path, limit=MAX_BYTES)
                 copy = folder / path.relative_to(left_by)
-                copy.parent.mkdir(parents=True, exist_ok=True)
+                make_below(folder, copy.parent)
                 write_ordinary(copy, data)
 
 
@@ -207,17 +209,22 @@ def _lock(folder: Path, opened: int) -> None:
     found = os.fstat(opened)
     if found.st_uid != os.geteuid():
         raise _taken(folder, "belongs to another user")
+    for name in (LOGS, MISSIONS):
+        if (folder / name).is_symlink():
+            raise _taken(folder, f"has a link, {name}, in place of a folder")
     identity = (found.st_dev, found.st_ino)
     if identity in _claimed:
         os.close(opened)
         return
     try:
-        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        held = holding.hold(folder, opened)
     except BlockingIOError:
         raise _taken(folder, "is used by another run just now") from None
     except OSError:  # a file system without locks: good enough to write to
-        pass
-    _claimed[identity] = opened
+        _claimed[identity] = opened
+        return
+    os.close(opened)
+    _claimed[identity] = held
 
 
 def _taken(folder: Path, why: str) -> ConfigError:

@@ -50,7 +50,7 @@ class Child:
         self._clock = clock
         self._starts_s: list[float] = []
         self._process: subprocess.Popen[bytes] | None = None
-        self._spare: subprocess.Popen[bytes] | None = None
+        self._spares: list[subprocess.Popen[bytes]] = []
 
     @property
     def pid(self) -> int | None:
@@ -68,9 +68,9 @@ class Child:
         return self._clock.now_s() - self._starts_s[-1]
 
     @property
-    def has_spare(self) -> bool:
-        """Whether a second one is loaded, or about to be."""
-        return self._spare is not None
+    def spares(self) -> int:
+        """How many more are loaded, or about to be."""
+        return len(self._spares)
 
     @property
     def may_start_again(self) -> bool:
@@ -79,20 +79,24 @@ class Child:
 
     def start(self) -> None:
         """Start it, or let its spare be the one. Raises OSError if it cannot be started."""
-        spare, self._spare = self._spare, None
-        ready = spare is not None and spare.poll() is None
-        self._process = spare if spare and ready else self._spawn()
+        ready = [spare for spare in self._spares if spare.poll() is None]
+        self._process = ready.pop(0) if ready else self._spawn()
+        self._spares = ready
+        self._let_the_first_go_on()
         self._starts_s.append(self._clock.now_s())
 
     def prepare(self) -> None:
         """Have a spare loaded where the row wants one, if it is time and it may be needed."""
         after_s = self.row.spare_after_s
-        if after_s is None or self._spare is not None:
+        if after_s is None:
             return
-        if len(self._starts_s) > 1:
+        self._let_the_first_go_on()
+        if len(self._starts_s) > 1 and not self._spares:
             after_s = min(after_s, NEXT_SPARE_S)
-        if self.age_s > after_s and self.may_start_again:
-            self._spare = self._spawn()
+        left = self.row.restarts_left(self._starts_s, self._clock.now_s())
+        wanted = len(self._spares) < min(self.row.spares, left)
+        if wanted and self.age_s > after_s * (1 + len(self._spares)):
+            self._spares.append(self._spawn(behind=bool(self._spares)))
 
     def signal(self, number: signal.Signals) -> None:
         """Signal it, and what it started; one that is gone hears nothing."""
@@ -101,9 +105,10 @@ class Child:
 
     def stop(self) -> None:
         """Ask it to stop; kill it if it does not in time. Nothing is left, the spare included."""
-        if self._spare is not None:  # first, lest its turn comes
-            self._send(self._spare, signal.SIGKILL)
-            self._spare.wait()
+        for spare in reversed(self._spares):  # first, lest their turn comes
+            self._send(spare, signal.SIGKILL)
+            spare.wait()
+            _end_input(spare)
         if self._process is None:
             return
         self._send(self._process, signal.SIGTERM)
@@ -113,7 +118,14 @@ class Child:
         self._send(self._process, signal.SIGKILL)
         self._process.wait()
 
-    def _spawn(self) -> subprocess.Popen[bytes]:
+    def _let_the_first_go_on(self) -> None:
+        """Of those that wait, one waits for the death alone: they take turns as they are listed."""
+        first = next((spare for spare in self._spares if spare.poll() is None), None)
+        if first is not None:
+            _end_input(first)
+
+    def _spawn(self, *, behind: bool = False) -> subprocess.Popen[bytes]:
+        """Start one; `behind` another spare it waits until its standard input ends."""
         command = [sys.executable, "-P", "-m", self.row.module, str(self._file), str(os.getpid())]
         if self._log is None:
             number = str(len(self._starts_s))  # by which a spare knows its turn
@@ -122,7 +134,7 @@ class Child:
         with os.fdopen(open_to_append(self._log), "ab") as output:
             return subprocess.Popen(
                 command,
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.PIPE if behind else subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 env=_environment(),
@@ -136,6 +148,12 @@ class Child:
             return
         with suppress(ProcessLookupError):
             os.killpg(process.pid, number)
+
+
+def _end_input(process: subprocess.Popen[bytes]) -> None:
+    """Tell it by that that nobody is before it any more."""
+    if process.stdin is not None:
+        process.stdin.close()
 
 
 def describe_exit(status: int) -> str:

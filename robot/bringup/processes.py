@@ -22,7 +22,9 @@ class Process:
         restarts: how often it may be started again within `RESTART_WINDOW_S`.
         is_vital: whether a run ends when it is not restarted any more.
         spare_after_s: how long after the first start a second one is loaded, which waits for its
-            turn; not at once, as it would compete for the processor. None: never.
+            turn, and as long after it the next; not at once, as they would compete for the
+            processor. None: never.
+        spares: how many are kept, as long as it may be started again so often.
         stop_s: how long it may take to stop before it is killed.
     """
 
@@ -33,12 +35,17 @@ class Process:
     restarts: int = 0
     is_vital: bool = True
     spare_after_s: float | None = None
+    spares: int = 1
     stop_s: float = 3.0
 
     def may_start_again(self, starts_s: Sequence[float], now_s: float) -> bool:
         """Whether it may, after the starts at these times (the first of them was no restart)."""
+        return self.restarts_left(starts_s, now_s) > 0
+
+    def restarts_left(self, starts_s: Sequence[float], now_s: float) -> int:
+        """How often it may."""
         recent = [start_s for start_s in starts_s[1:] if start_s > now_s - RESTART_WINDOW_S]
-        return len(recent) < self.restarts
+        return self.restarts - len(recent)
 
     def needed(self, *, simulated: bool, pictures: bool = False) -> bool:
         """Whether it is run, where reality is simulated or not, and looked at or not."""
@@ -48,9 +55,11 @@ class Process:
 
 CONTROLLER = Process(
     "controller", "robot.control.main", "always",
-    death="controller_lost", restarts=2, spare_after_s=4.0,
+    death="controller_lost", restarts=2, spare_after_s=4.0, spares=2,
 )  # fmt: skip
-"""When it dies the spare holds the robot up; the third death in a minute is the last."""
+"""When it dies a spare holds the robot up; the third death in a minute is the last. There is a
+spare for each death: what is loaded after one takes a second, on a busy machine several, and a
+robot that nobody holds up meanwhile falls."""
 
 PROCESSES: tuple[Process, ...] = (
     Process("plant", "sim.main", "simulation", death="plant_lost"),

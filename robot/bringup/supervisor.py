@@ -13,7 +13,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.errors import ProcessError
 from robot.failures import Failure, failure
-from robot.ordinary_files import open_ordinary, write_ordinary
+from robot.ordinary_files import make_below, open_ordinary, write_ordinary
 
 LOG_TAIL_BYTES = 4096
 
@@ -57,8 +57,8 @@ class Supervisor(Closing):
 
     def __enter__(self) -> Self:
         """Start every process. Raises ProcessError if one cannot be started."""
-        self._logs.mkdir(parents=True, exist_ok=True)
         try:
+            make_below(self._logs.parent, self._logs)
             for child in self._children.values():
                 self._start(child)
         except OSError as error:

@@ -1,11 +1,13 @@
 """The controller as a process: motors in, motors out, at the bus's 500 Hz.
 
-A second one is a spare: it waits, loaded and rehearsed, until the motors are nobody's.
+Others are spares, one behind the other: they wait, loaded and rehearsed, until the motors are
+nobody's.
 """
 
 from __future__ import annotations
 
 import gc
+import select
 import sys
 
 from robot.bus import run, topics
@@ -22,6 +24,8 @@ from robot.model import description
 
 STATE_TICKS, TIMING_TICKS, PAUSE_S = 10, 250, 0.3
 TURN_POLL_S = 0.001
+NEXT_POLL_S = 1.0
+"""How long a spare behind another one waits before it looks whether it is to stop."""
 
 
 def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop: Stop) -> None:
@@ -48,6 +52,14 @@ def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop:
     bus.publish(topics.CONTROLLER_TIMING, lateness.report(stamp_s, clock.now_s()))
 
 
+def is_next(patience_s: float) -> bool:
+    """Whether no other spare is before this one: its standard input has ended then.
+
+    The supervisor so keeps the order in which they take over, and knows which it is.
+    """
+    return bool(select.select([sys.stdin.fileno()], [], [], patience_s)[0])
+
+
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
@@ -58,11 +70,13 @@ def main(run_file: str, parent_pid: str) -> None:
         plant = SharedPlant(robot, config.memory, clock=clock)  # opened by a simulated driver
         wiring = Wiring(robot=robot, clock=clock, bus=bus, plant=plant)
         with BodyDevices(wiring, needs=NEEDS) as body:
-            if not body.claim():
+            if not is_next(0.0) or not body.claim():
                 ControlLoop(robot).tick(body.read())  # the first tick of a process is a slow one
             states = bus.subscribe(topics.BODY_STATE)  # of the controller that this one replaces
             ask_for_real_time()
             gc.freeze()  # what start-up made stays: the collector need not look at it every period
+            while not stop and not is_next(NEXT_POLL_S):
+                pass
             while not stop and not body.claim():
                 clock.sleep_until(clock.now_s() + TURN_POLL_S)
             loop.recall(states.latest)

@@ -304,11 +304,11 @@ def load(name_or_path: str = "juno") -> RobotDescription:
             published model that it names is not on this machine.
     """
     path = Path(name_or_path)
-    if path.suffix not in (".yaml", ".yml"):
-        path = SHIPPED / name_or_path / f"{name_or_path}.yaml"
-        if not path.exists():
+    if not config.names_file(name_or_path):
+        if name_or_path not in shipped():
             hint = config.nearest(name_or_path, shipped())
             raise ConfigError([Problem(f"unknown robot {name_or_path!r}", suggestion=hint)])
+        path = SHIPPED / name_or_path / f"{name_or_path}.yaml"
     description = config.load(path, RobotDescription)
     published, mjcf_folder = description.published, path.parent
     if published is not None:

@@ -21,7 +21,7 @@ import msgspec
 import robot
 from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.output import say
-from robot.ordinary_files import open_to_append, read_secret
+from robot.ordinary_files import make_below, open_to_append, read_secret
 
 FILE = "console.json"
 MAX_BYTES = 4096
@@ -68,7 +68,7 @@ def _started(folder: Path) -> tuple[subprocess.Popen[bytes], Address]:
         address = before if before and same else Address(port=port, token=secrets.token_urlsafe(18))
         _keep(folder, address)
         logs = folder / "logs"
-        logs.mkdir(parents=True, exist_ok=True)
+        make_below(folder, logs)
         log = open_to_append(logs / "console.log")
         number = listening.fileno()
         command = [sys.executable, "-P", "-m", MODULE, str(folder), str(os.getpid()), str(number)]

@@ -76,7 +76,7 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         return 0
     path = asked.output or folder / f"dump.{FORMATS[kind][0]}"
     refuse_inputs([path], records_of(folder))
-    write(path, data)
+    write(path, data, run=folder)
     say(f"Done: {path}")
     if asked.opened:
         browse(path.resolve().as_uri())

@@ -51,16 +51,19 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
     with Screen(err=True).status(f"writing {kind}"):
         if kind == "mcap":
             refuse_inputs([place], records_of(folder))
-            data = foxglove.recorded(
+            data, left_out = foxglove.recorded(
                 run, _events(folder), _moments(folder), scene=scene, motors=motors,
                 began_s=min(max(past_runs.began_s(folder) - run.begin_s, 0.0), LAST_S),
             )  # fmt: skip
-            write(place, data)
+            write(place, data, run=folder)
+            if left_out:
+                text = f"more than {foxglove.MOST_THINGS} things: of the others"
+                say(f"{text} {left_out} sightings are left out", err=True)
         else:
             for table in tables(run, _events(folder), lambda: _moments(folder), motors=motors):
                 path = place / f"{table.name}.{kind}"
                 refuse_inputs([path], records_of(folder))
-                write(path, TABLES[kind](table))
+                write(path, TABLES[kind](table), run=folder)
     if scene is None:
         lost = "there are no shapes in it" if kind == "mcap" else "joints have numbers for names"
         say(f"what the robot and its world look like is not known here: {lost}", err=True)

@@ -21,6 +21,8 @@ from robot.reality.visual_scene import Geom, Rgba, VisualBody, VisualScene
 from robot.se3 import SE3
 
 WORLD = "world"
+MOST_THINGS = 10_000
+"""Each has a topic of its own, of which a file has at most 65,535."""
 LEVELS = {
     "failure": "Error", "no recovery": "Error", "recovery": "Warning", "warning": "Warning",
     "fault": "Warning", "stop": "Warning", "abort": "Warning", "hold": "Warning",
@@ -36,8 +38,8 @@ def recorded(
     scene: VisualScene | None,
     motors: tuple[str, ...],
     began_s: float,
-) -> bytes:
-    """The bytes of the file.
+) -> tuple[bytes, int]:
+    """The bytes of the file, and how often something beyond the first `MOST_THINGS` was left out.
 
     Args:
         run: for what is told in words and for the tree.
@@ -62,7 +64,7 @@ def recorded(
             writer.event(event)
         for moment in moments:
             writer.moment(moment, scene, motors)
-    return file.getvalue()
+    return file.getvalue(), writer.left_out
 
 
 class _Writer:
@@ -80,6 +82,7 @@ class _Writer:
         self._events = Channel("/events", message_encoding="json", context=context)
         self._state = Channel("/state", message_encoding="json", context=context)
         self._things: dict[str, Any] = {}
+        self.left_out = 0
         self._context = context
         self._bodies: dict[str, VisualBody] = {}
 
@@ -180,6 +183,9 @@ class _Writer:
         from foxglove.messages import SceneEntityDeletion, SceneUpdate
 
         channel = self._things.get(name)
+        if channel is None and len(self._things) >= MOST_THINGS:
+            self.left_out += 1
+            return
         if channel is None:
             channel = self._things[name] = channels.SceneUpdateChannel(
                 f"/things/{name}", context=self._context

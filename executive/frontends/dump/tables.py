@@ -14,7 +14,10 @@ import msgspec
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
+from robot.printable import printable, printable_json
 
+FORMULAS = frozenset("=+-@＝＋－＠")
+"""A cell that begins with one is worked out by spreadsheets; the wide ones by some."""
 POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
 
 
@@ -51,8 +54,12 @@ def tables(
     yield Table(name="tree", columns=columns, rows=sorted(_changes(run)))
     said = ((line.t_s, line.kind, line.text) for line in run.log)
     yield Table(name="log", columns=("t_s", "kind", "text"), rows=said)
-    told = ((one.n, one.t_s, one.event, msgspec.json.encode(one.data).decode()) for one in events)
+    told = ((one.n, one.t_s, one.event, _json(one.data)) for one in events)
     yield Table(name="events", columns=("n", "t_s", "event", "data"), rows=told)
+
+
+def _json(data: object) -> str:
+    return printable_json(msgspec.json.encode(data).decode())
 
 
 def _stood(moments: Iterable[Moment], motors: int) -> Iterator[Sequence[Any]]:
@@ -76,12 +83,27 @@ def _changes(run: Run) -> Iterator[tuple[Any, ...]]:
 
 
 def as_csv(table: Table) -> bytes:
-    """A table with a line of its columns' names; what is not known is empty."""
+    """A table with a line of its columns' names; what is not known is empty.
+
+    Texts may be a stranger's, and are fit for a terminal and for a spreadsheet.
+    """
     file = io.StringIO(newline="")
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(table.columns)
-    writer.writerows(table.rows)
+    writer.writerow(map(_cell, table.columns))
+    writer.writerows(map(_cell, row) for row in table.rows)
     return file.getvalue().encode()
+
+
+def _cell(value: Any) -> Any:
+    """Numbers as they are; before what a spreadsheet would work out stands an apostrophe.
+
+    See https://owasp.org/www-community/attacks/CSV_Injection.
+    """
+    if not isinstance(value, str):
+        return value
+    text = printable(value)
+    first = text.lstrip()[:1]
+    return f"'{text}" if first in FORMULAS or text[:1] in ("\t", "\n") else text
 
 
 def as_parquet(table: Table) -> bytes:

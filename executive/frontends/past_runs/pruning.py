@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import stat
@@ -14,7 +13,7 @@ from itertools import islice
 from pathlib import Path
 
 from executive.frontends.output import ask, say
-from executive.journal import journal, past_runs, places
+from executive.journal import holding, journal, past_runs, places
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
@@ -105,31 +104,35 @@ def _why_not(folder: Path) -> str:
         return "is gone"
     if not stat.S_ISDIR(found.st_mode):
         return "is a link"
+    if folder.parent.is_symlink():
+        return f"is reached through a link, {folder.parent}"
     if found.st_uid != os.geteuid():
         return "belongs to another user"
-    if journal.is_written(folder):
-        return "is under way"
-    with _held(folder) as free:
-        return "" if free else "is under way"
+    return "is under way" if journal.is_written(folder) else ""
 
 
 @contextmanager
 def _held(folder: Path) -> Generator[bool]:
     """Keep runs out of a folder inside the block; whether that could be done."""
+    if folder.parent.is_symlink():
+        yield False
+        return
     try:
         opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
     except OSError:
         yield False
         return
     try:
-        try:
-            fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            free = os.path.samestat(os.fstat(opened), folder.lstat())
-        except OSError:
-            free = False
-        yield free
+        held = holding.hold(folder, opened)
+    except OSError:
+        yield False
+        return
     finally:
         os.close(opened)
+    try:
+        yield True
+    finally:
+        os.close(held)
 
 
 def _tell_kept(folders: list[Path]) -> None:

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from executive.journal.files import BackgroundFile
+from robot.ordinary_files import make_below
 from robot.printable import printable_line
 
 LOG = "service.log"
@@ -26,7 +27,7 @@ class Log:
         """Write into the folder of a run, if that can be."""
         folder = run / "logs"
         try:
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            make_below(run, folder)
             self._room = MOST_LOG_BYTES - file_size(folder / LOG)
         except OSError:
             self._room = 0

@@ -32,7 +32,7 @@ from msgspec import Meta
 
 from executive.frontends import keys
 from executive.frontends.options import MOST_SEED
-from robot import plain_data
+from robot import config, plain_data
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import is_within, open_ordinary
 
@@ -214,7 +214,7 @@ def _located(name: str, value: Any, path: Path) -> Any:
         ConfigError: a folder's file names one outside its folder.
     """
     names_file = name in ("model", "voice_model") or (
-        name in ("world", "robot") and value.endswith((".yaml", ".yml"))
+        name in ("world", "robot") and config.names_file(value)
     )
     if not names_file:
         return value

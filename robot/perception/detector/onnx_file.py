@@ -26,6 +26,10 @@ HOLDS: dict[str, dict[int, str]] = {
 _VARINT, _FIXED_64, _BYTES, _FIXED_32 = 0, 1, 2, 5
 _MOST_DIGITS = 10
 """Of a number, seven bits each."""
+MOST_FIELDS, MOST_DEPTH = 1_000_000, 100
+"""Large detectors have some 50,000 fields, in messages seven deep."""
+_KEY_BITS = 32
+"""Readers in C++ forget those above: a field would be another one to them."""
 
 
 def is_whole(data: bytes) -> bool:
@@ -34,14 +38,21 @@ def is_whole(data: bytes) -> bool:
     Raises:
         ValueError: this is no network in ONNX.
     """
-    waiting = [("model", 0, len(data))]
-    while waiting:
-        kind, begin, end = waiting.pop()
-        for field, value, size in _fields(data, begin, end):
+    seen = 0
+    inside = [("model", _fields(data, 0, len(data)))]
+    while inside:
+        kind, fields = inside[-1]
+        for field, value, size in fields:
+            seen += 1
+            if seen > MOST_FIELDS or len(inside) > MOST_DEPTH:
+                raise ValueError("more fields, or deeper, than any network has")
             if kind == TENSOR and (field == EXTERNAL_DATA or (field == DATA_LOCATION and value)):
                 return False
             if size >= 0 and field in HOLDS[kind]:
-                waiting.append((HOLDS[kind][field], value, value + size))
+                inside.append((HOLDS[kind][field], _fields(data, value, value + size)))
+                break
+        else:
+            inside.pop()
     return True
 
 
@@ -50,6 +61,8 @@ def _fields(data: bytes, at: int, end: int) -> Iterator[tuple[int, int, int]]:
     while at < end:
         key, at = _varint(data, at, end)
         field, wire = key >> 3, key & 7
+        if not field or key >> _KEY_BITS:
+            raise ValueError("no field has that number")
         value, size = 0, -1
         if wire == _VARINT:
             value, at = _varint(data, at, end)

@@ -1,5 +1,7 @@
 """Exams: tasks with what should be true at their end, homes, and results of before."""
 
+import json
+
 from tests.hostile.cases import Case, Expect
 from tests.hostile.exam import exam
 
@@ -39,6 +41,56 @@ CASES = [
             says=("is no regular expression",),
         )
         for name, pattern in PATTERNS.items()
+    ),
+    *(
+        Case(
+            name=f"resume-{name}",
+            argv=("eval", "--resume", "r"),
+            files={
+                "r/results.jsonl": '{"code":"0123456789abcdef"}\n',
+                "r/asked.json": json.dumps(asked),
+                "e.tasks.yaml": WORLD + task("{said: x}") * 900,
+            },
+            says=("at most 100000", "asked.json", "cases are called"),
+        )
+        for name, asked in {
+            "runs": {"tasks": ["e.tasks.yaml"], "seeds": 10_000},
+            "twice": {"tasks": ["e.tasks.yaml"] * 5, "seeds": 10_000, "no_recovery": True},
+            "many": {"tasks": ["e.tasks.yaml"] * 50_000},
+            "faults": {"faults": "a.yaml," * 50_000},
+            "homes": {"homes": "flat:1," * 50_000},
+            "missions": {"missions": ["wave"] * 1000, "seeds": 10_000},
+        }.items()
+    ),
+    *(
+        Case(
+            name=f"roles-{name}",
+            argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+            files={"c.yaml": f"roles: {roles}\ncases:\n" + f"  - {{name: a, {case}}}\n" * 150},
+            says=("with its roles",),
+            memory_mb=400,
+        )
+        for name, roles, case in (
+            ("list", "{x: [" + "1," * 60_000 + "]}", 'mission: wave, faults: "{x}"'),
+            ("words", "{x: [" + "1," * 60_000 + "]}", f"mission: '{'{x}' * 3000}'"),
+            ("text", "{x: " + "a" * 9000 + "}", 'mission: wave, why: "{x}", world: "{x}"'),
+            ("letters", "{x: " + "a" * 9900 + "}", 'mission: wave, why: "{x}", world: "b {x}"'),
+        )
+    ),
+    Case(
+        name="many-cases",
+        argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+        files={
+            "c.yaml": "cases:\n"
+            + "".join(f"  - {{name: a{number}, mission: wave}}\n" for number in range(12_000))
+        },
+        says=("cases",),
+    ),
+    Case(
+        name="many-of-one-name",
+        argv=("eval", "--faults", "c.yaml", "--seeds", "1"),
+        files={"c.yaml": "cases:\n" + "  - {name: a, mission: wave}\n" * 1000},
+        says=("there are two cases",),
     ),
     Case(
         name="many-unknown-names",

@@ -280,9 +280,19 @@ def _doubling(count: int) -> dict[str, str | bytes | Make]:
     return {"m.yaml": _step({"mission": "m0.yaml"}), **files, f"m{count}.yaml": _mission()}
 
 
+def _growing(count: int) -> dict[str, str | bytes | Make]:
+    """Each mission hands the next one a text that is a thousand times as long."""
+    head = "name: m\nworld: empty\nparameters: {x: {type: text, default: ab}}\nsteps:\n"
+    call = "  - {mission: m%d.yaml, with: {x: '" + "{{x}}" * 1000 + "'}}\n"
+    files = {f"m{i}.yaml": head + call % (i + 1) for i in range(count)}
+    last = {f"m{count}.yaml": head + "  - say: '{{x}}'\n"}
+    return {"m.yaml": head + call % 0, **files, **last}
+
+
 FAMILIES: dict[str, dict[str, str | bytes | Make]] = {
     "chain-30": _chain(30),
     "doubling-10": _doubling(10),
+    "growing-5": _growing(5),
     "circle": {"m.yaml": _step({"mission": "n.yaml"}), "n.yaml": _step({"mission": "m.yaml"})},
     "link-to-itself": {"m.yaml": _step({"mission": "n.yaml"}), "n.yaml": link("m.yaml")},
     "link-outside": {"m.yaml": _step({"mission": "n.yaml"}), "n.yaml": link(f"{OUTSIDE}/secret.txt")},

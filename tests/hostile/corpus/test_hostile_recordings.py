@@ -135,6 +135,9 @@ DETECT = ("detect", "--json", "--labels", "n.txt", "--model", "m.onnx")
 NETWORKS: dict[str, str | bytes | Make] = {
     "empty": b"", "text": "no network", "fifo": fifo, "zeros": link("/dev/zero"),
     "folder": folder, "sparse-10-GB": sparse(10 << 30), "binary": bytes(range(256)) * 64,
+    "fields": b"\x3a\x00" * 20_000_000, "sparse-950-MB": sparse(950 << 20), "nulls": bytes(4096),
+    "sparse-290-MB": sparse(290_000_000), "key": b"\xba\x80\x80\x80\x10\x00",
+    "nested": b"".join(b"\x0a" + bytes([size]) for size in range(126, 0, -2)),
     "deep": b"\x3a\xff\xff\xff\xff\x07" + b"\x0a" * 1000,
 }  # fmt: skip
 

@@ -73,6 +73,12 @@ def _more(text: str | bytes, at: int, folder: Path) -> None:
     (folder / "journal.jsonl").write_bytes(b"\n".join(lines) + b"\n")
 
 
+def _through(place: str, count: int, folder: Path) -> None:
+    """A run, cut off, that keeps things in what is the folder of somebody else."""
+    _cut(count, folder)
+    _link(place, f"{OUTSIDE}/tree", folder)
+
+
 def _cut(count: int, folder: Path) -> None:
     """The run was cut off after so many events."""
     _write(folder, _lines(folder)[:count])
@@ -422,6 +428,21 @@ CASES = [
             "new": f"{OUTSIDE}/tree/new.txt",
             "loop": f"dump.{file}",
         }.items()
+    ),
+    *(
+        Case(
+            name=f"through-{place}-{count}",
+            argv=argv,
+            run="short",
+            mutate=partial(_through, place, count),
+            says=("link",),
+        )
+        for place, argv, count in (
+            ("csv", ("dump", "-f", "csv"), 100),
+            ("parquet", ("dump", "-f", "parquet"), 100),
+            ("logs", ("resume",), 3),
+            ("missions", ("resume",), 3),
+        )
     ),
     *(
         Case(

@@ -69,6 +69,9 @@ WRITTEN = [
 
 # what a folder's file may not say, and where it may not lead
 REACHES = {
+    "slash": 'world = "../outside/secret.yaml/"\n',
+    "dot": 'robot = "../outside/secret.yml/."\n',
+    "nul": 'world = "a\\u0000.yaml"\n',
     "model": 'model = "x.toml"\n',
     "hooks": '[hooks]\ndone = ["touch", "owned"]\n',
     "voice": 'voice_model = "x.onnx"\n',
@@ -160,6 +163,16 @@ PRUNED = [
          ("--keep", "0"))
     )
 ]  # fmt: skip
+
+PRUNED += [
+    Case(
+        name="prune-link",
+        argv=("runs", "prune", "--keep", "0", "--yes"),
+        files={"x/a/journal.jsonl": "", "runs": link("x")},
+        expect=Expect.ENDS,
+        says=("through a link",),
+    )
+]
 
 test_hostile_settings = exam(
     "settings", [*WRITTEN, *REACHING, *ODD_FILES, *PLACES, *NAMES, *INDEXES, *PRUNED]

@@ -1,6 +1,6 @@
 """What does not fit a type is told all at once, by name, with range, unit and cure."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import msgspec
 import pytest
@@ -20,7 +20,7 @@ class Leaf(msgspec.Struct, forbid_unknown_fields=True):
     sizes_m: tuple[quantities.Size, quantities.Size] | None = None
     several: quantities.Several[float] = ()
     on: bool = False
-    name: str = ""
+    name: Annotated[str, msgspec.Meta(max_length=9)] = ""
 
 
 class Tree(msgspec.Struct, forbid_unknown_fields=True):
@@ -37,6 +37,7 @@ class Tree(msgspec.Struct, forbid_unknown_fields=True):
         ({"torque_nm": None}, "leaves.a.torque_nm is nothing, and must be a number"),
         ({"torque_nm": [1]}, "leaves.a.torque_nm is a list, and must be a number"),
         ({"count": 1}, "leaves.a.torque_nm is missing"),
+        ({"torque_nm": 1, "name": "x" * 10}, "leaves.a.name has 10 letters, at most 9 are taken"),
         ({"torque_nm": 1, "count": 2.5}, "leaves.a.count is 2.5, and must be a whole number"),
         ({"torque_nm": 1, "count": 0}, "leaves.a.count is 0, and must be from 1 to 10000"),
         ({"torque_nm": 1, "side": "lefd"}, "leaves.a.side cannot be 'lefd'"),

@@ -8,6 +8,7 @@ import pytest
 
 from robot.ordinary_files import (
     is_within,
+    make_below,
     open_ordinary,
     open_to_append,
     read_ordinary,
@@ -21,6 +22,21 @@ def test_an_ordinary_file_is_read(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_bytes(b"x" * LIMIT)
     assert read_ordinary(file, limit=LIMIT) == b"x" * LIMIT
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, lambda path: path.symlink_to(path.parents[1])])
+@pytest.mark.parametrize("inner", ["a", "a/b"])
+def test_folders_are_made_below_another_and_not_through_a_link(tmp_path, make, inner):
+    base = tmp_path / "base"
+    make_below(base, base / "new" / "newer")
+    make_below(base, base / "new" / "newer")
+    make_below(base, base)
+    assert (base / "new" / "newer").is_dir()
+    make(base / "a")
+    with pytest.raises(OSError, match=r"a is (a link|no folder)"):
+        make_below(base, base / inner)
+    with pytest.raises(OSError, match=r"\.\. is no folder below it"):
+        make_below(base, tmp_path / "beside")
 
 
 def test_a_file_over_the_limit_is_refused_by_its_size(tmp_path: Path) -> None:

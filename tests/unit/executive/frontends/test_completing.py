@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import typer
 
 from executive.frontends import cli, completing
 
@@ -21,6 +22,46 @@ def test_what_cannot_be_found_out_is_left_out(monkeypatch):
         raise OSError
 
     assert completing.completes(broken)("x") == []
+
+
+@pytest.mark.parametrize("mark", "\n\t !\"#$&'()*,:;<=>?[\\]^`{|}~\x1b\u202e\u200b\ud800＄")
+def test_nothing_is_offered_of_which_a_shell_makes_more(mark, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert not completing.is_harmless(f"a{mark}b")
+    assert completing.completes(lambda: [f"a{mark}b", f"{mark}ab"])("") == []
+
+
+@pytest.mark.parametrize("name", ["", "-x", "--yes", "@a", "%1", "+x"])
+def test_no_name_is_offered_that_begins_as_something_else(name):
+    assert not completing.is_harmless(name)
+
+
+@pytest.mark.parametrize(
+    "name", ["kitchen", "a.b/c-d_e+f@g%h", "küche.yaml", "台所", "кухня", "हिंदी"]
+)
+def test_names_of_any_script_are_offered(name):
+    assert completing.is_harmless(name)
+
+
+def test_whatever_a_command_completes_is_harmless(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "x$(id).yaml").touch()
+    (tmp_path / "runs" / "x$(id)").mkdir(parents=True)
+    (tmp_path / "runs" / "x$(id)" / "journal.jsonl").touch()
+    asked = 0
+
+    def ask(command, context):
+        nonlocal asked
+        for parameter in command.params:
+            offered = [one.value for one in parameter.shell_complete(context, "")]
+            assert all(map(completing.is_harmless, offered)), (command.name, parameter.name)
+            asked += bool(offered)
+        for name, below in getattr(command, "commands", {}).items():
+            ask(below, type(context)(below, info_name=name, parent=context))
+
+    command = typer.main.get_command(cli.app)
+    ask(command, typer.Context(command, info_name="humanoid"))
+    assert asked > 5
 
 
 @pytest.mark.parametrize(

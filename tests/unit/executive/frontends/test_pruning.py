@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 from pathlib import Path
 
 import pytest
 
 from executive.frontends.past_runs import printing, pruning
-from executive.journal import past_runs, places
+from executive.journal import holding, past_runs, places
 from executive.journal.journal import FILE, WALL_FILE
 from robot.errors import ConfigError
 from robot.exit_status import ExitStatus
@@ -76,8 +75,7 @@ def test_nothing_goes_unless_it_is_said_which_and_by_whom(monkeypatch):
 
 def test_a_run_that_is_under_way_stays(capsys):
     folder = run("a")
-    lock = os.open(folder, os.O_RDONLY)
-    fcntl.flock(lock, fcntl.LOCK_EX)
+    lock = holding.hold(folder)
     assert prune(keep=0) == ExitStatus.DONE
     assert names() == ["a"]
     assert "under way" in capsys.readouterr().err
@@ -93,6 +91,13 @@ def test_a_link_is_neither_followed_nor_removed(tmp_path, capsys):
     assert prune(keep=0) == ExitStatus.DONE
     assert (elsewhere / FILE).exists()
     assert Path("runs/link").is_symlink()
+    Path("runs/link").unlink()
+    Path("runs").rmdir()
+    Path("runs").symlink_to(tmp_path)
+    assert prune(keep=0) == ExitStatus.DONE
+    assert (elsewhere / FILE).exists() and not pruning.removed(Path("runs/elsewhere"))
+    assert "through a link" in capsys.readouterr().err
+    Path("runs").unlink()
     inner = run("b")
     (inner / "kept").symlink_to(elsewhere)
     prune(keep=0)

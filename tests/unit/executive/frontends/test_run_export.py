@@ -17,6 +17,7 @@ from executive.journal.motion import Moment
 from robot.errors import ConfigError
 from robot.model import description
 from robot.model.body import BodyModel
+from robot.printable import is_printable
 from robot.se3 import SE3
 
 CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
@@ -142,6 +143,30 @@ def test_tables_hold_every_moment_and_event(run, tmp_path, kind):
     ]  # fmt: skip
 
 
+HOSTILE = (
+    "=cmd|' /C calc'!A0", "@SUM(1+1)", "+1", "-1", "\t=1", "\r=1", " =1", "\n=1", "＝1",
+    "\x1b]0;owned\x07", "a\u202eb", "a\u200bb", "\x9b31m",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_no_cell_of_a_csv_is_worked_out_or_obeyed(text, run, tmp_path):
+    folder, _ = run
+    event = {"n": 9, "t_s": 2.0, "event": text, "text": text, text: text}
+    moment = {"t_s": 9.0, "base": [0, 0, -1.5, 1, 0, 0, 0], "q": [], "objects": {text: CUP}}
+    for name, line in ((journal.FILE, event), (motion.FILE, moment)):
+        with (folder / name).open("ab") as file:
+            file.write(msgspec.json.encode(line) + b"\n")
+    dump(Asked(run=str(folder), kind="csv", output=tmp_path / "out"))
+    for path in (tmp_path / "out").iterdir():
+        assert is_printable(path.read_text())
+        for row in csv.reader(path.open(newline="")):
+            for cell in row:
+                assert cell[:1] not in "=+-@\t\r\n＝" or cell == "" or float(cell) < 0
+    assert _csv(tmp_path / "out" / "motion.csv")[-1]["base_z_m"] == "-1.5"
+    assert json.loads(_csv(tmp_path / "out" / "events.csv")[-1]["data"])[text] == text
+
+
 def _csv(path):
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
@@ -169,6 +194,24 @@ def test_a_world_that_cannot_be_read_leaves_its_shapes_out_and_is_not_told_of(
     dump(Asked(run=str(folder), kind="csv", output=tmp_path / "out"))
     rows = _csv(tmp_path / "out" / "motion.csv")
     assert [float(row["q_0"]) for row in rows] == [moment.q[0] for moment in moves]
+
+
+def test_things_beyond_those_that_have_a_topic_are_left_out_and_said(
+    run, tmp_path, capfd, monkeypatch
+):
+    monkeypatch.setattr("executive.frontends.dump.foxglove.MOST_THINGS", 5)
+    folder, moves = run
+    with (folder / motion.FILE).open("ab") as file:
+        things = {f"thing_{number}": CUP for number in range(9)}
+        for t_s in (9.0, 9.5):
+            line = {"t_s": t_s, "base": [0, 0, 0, 1, 0, 0, 0], "q": [], "objects": things}
+            file.write(msgspec.json.encode(line) + b"\n")
+    path = tmp_path / "a.mcap"
+    assert dump(Asked(run=str(folder), kind="mcap", output=path)) == 0
+    found, _ = _messages(path)
+    assert sum(topic.startswith("/things/") for topic in found) == 5
+    assert len(found["/joint_states"]) == len(moves) + 2
+    assert "more than 5 things: of the others 10 sightings are left out" in capfd.readouterr().err
 
 
 NONSENSE = (

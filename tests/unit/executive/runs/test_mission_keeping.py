@@ -54,6 +54,15 @@ def test_a_run_without_copies_takes_the_files_if_they_are_what_they_were(main, t
         names(made_from, folder)
 
 
+def test_nothing_is_kept_through_a_link_in_the_runs_folder(main, tmp_path):
+    folder, victim = tmp_path / "runs" / "one", tmp_path / "victim"
+    victim.mkdir()
+    (folder / "missions").mkdir(parents=True)
+    (folder / mission_assignment.kept(check(main))).parents[1].symlink_to(victim)
+    assert keep(check(main), folder) == main
+    assert not list(victim.iterdir())
+
+
 def test_a_copy_that_was_changed_is_refused(main: Path, tmp_path: Path):
     made_from = begun(main, tmp_path)
     (tmp_path / made_from["kept"]).write_text(MAIN.replace("wave", "bow"))

@@ -62,7 +62,10 @@ def test_what_is_run_or_sent_somewhere_is_the_users_alone(user, key):
         Defaults(Settings()).of("do")
 
 
-@pytest.mark.parametrize("path", ["../secret.yaml", "/etc/x.yaml", "~/x.yaml", "link/x.yaml"])
+@pytest.mark.parametrize(
+    "path",
+    ["../secret.yaml", "/etc/x.yaml", "~/x.yaml", "link/x.yaml", "/etc/x.yaml/", "../x.yml/."],
+)
 def test_a_folders_file_names_nothing_outside_the_folder(user, path):
     Path("link").symlink_to("/etc")
     Path("humanoid.toml").write_text(f'world = "{path}"\n')

@@ -269,6 +269,48 @@ def test_a_network_that_is_whole_is_taken_for_one(tmp_path):
             onnx_file.is_whole(broken)
 
 
+class Counted(bytes):
+    """A file that knows how often it was looked at."""
+
+    looks = 0
+
+    def __getitem__(self, at):
+        Counted.looks += 1
+        return super().__getitem__(at)
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"\x3a\x00" * 3_000_000, "more fields"),
+        (b"\x00" * 9, "no field"),
+        (b"\xba\x80\x80\x80\x10\x00", "no field"),
+    ],
+    ids=["many", "none", "beyond 32 bits"],
+)
+def test_a_file_of_a_strangers_fields_is_given_up_soon(data, says, monkeypatch):
+    monkeypatch.setattr(Counted, "looks", 0)
+    with pytest.raises(ValueError, match=says):
+        onnx_file.is_whole(Counted(data))
+    assert Counted.looks <= 2 * onnx_file.MOST_FIELDS + 10
+
+
+def holding(field, data):
+    """A field that holds a message."""
+    size, digits = len(data), b""
+    while size > 0x7F:
+        digits, size = digits + bytes([size & 0x7F | 0x80]), size >> 7
+    return bytes([field << 3 | 2]) + digits + bytes([size]) + data
+
+
+def test_messages_within_messages_end():
+    graph = b""
+    for _ in range(onnx_file.MOST_DEPTH):
+        graph = holding(1, holding(5, holding(6, graph)))  # node, its attribute, the graph of that
+    with pytest.raises(ValueError, match="deeper"):
+        onnx_file.is_whole(holding(7, graph))
+
+
 @pytest.mark.parametrize("odd", [np.nan, np.inf, -np.inf, 3e38])
 def test_what_is_no_number_is_no_box(odd):
     output = version_8(THINGS)
