@@ -20,6 +20,8 @@ from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.complements import connector_end
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_place
 from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.repeating import repeated
@@ -271,6 +273,7 @@ _OF_ALL = lexicon.phrases(
     "each of them,them,each and every one,the whole bunch,the whole bunch of them,"
     "the lot of them,all those,all of those"
 )
+_ALL = lexicon.phrases("all,everything")
 _BOTH = lexicon.phrases(
     "both of them,both,the pair of them,the pair,the two of them,them both,both of those"
 )
@@ -293,6 +296,30 @@ def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     counted = [_counted(goal, count) for goal in last]
     sentence.notes.passed.append((at, end))
     return (counted, end) if counted != last or all_end or both_end else None
+
+
+def from_there(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """A bun for Ada and a plum for me, *both from the bar*: there all of them are."""
+    text, before = sentence.text, sentence.before
+    both_end = text.phrase_end(_BOTH, at)
+    end = both_end or text.phrase_end(_OF_ALL | _ALL, at)
+    start = text.phrase_end(lexicon.SOURCEWARDS, end) if end else None
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.is_spot or not last:
+        return None
+    some = max(2, len(last)) if both_end else len(before)
+    at_ = to_place(phrase, sentence.scope)
+    found = [_found_at(goal, at_) for goal in before[-some:]]
+    del before[-some:]
+    return found, phrase.end
+
+
+def _found_at(goal: Goal, place: str) -> Goal:
+    """The goal with its thing at a place, unless it is said where that is."""
+    thing = getattr(goal, "object", None)
+    if not isinstance(thing, ObjectQuery) or thing.held or thing.at:
+        return goal
+    return substitute(goal, thing, replace(thing, at=place))
 
 
 def _counted(goal: Goal, count: int | Literal["all"]) -> Goal:

@@ -23,6 +23,7 @@ from intents.english.corrections import correction
 from intents.english.reading import Rules
 from intents.english.readings import (
     asides,
+    beneficiaries,
     conditionals,
     ellipsis,
     ends,
@@ -63,6 +64,8 @@ RULES = Rules(
         remarks.left_somewhere,
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
+        # Before a need of its own: "Ada needs it" tells for whom what was asked for is.
+        beneficiaries.meant_for,
         needs.needed,
         needs.required,
         needs.will_do,
@@ -133,6 +136,7 @@ RULES = Rules(
         afterthoughts.left_undone,
         exclusions.excluded,
         afterthoughts.not_now,
+        afterthoughts.from_there,
         afterthoughts.so_many,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,

@@ -132,6 +132,9 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         need(objects, "What shall I bring?")
         slots.done()
         return [_each(o, lambda q: put_at(q, beside)) for o in objects]
+    shared = _to_each(clause, slots)
+    if shared:
+        return [goal for one in shared for goal in bring(one, scope)]
     into = slots.peek("into")
     inside = into is not None and into.phrase.is_spot and not into.phrase.name("room")
     everyone = [c for c in slots.rest if c.phrases and c.phrase.said in EVERYONE]
@@ -161,6 +164,26 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         return [_each(replace(o, at=o.at or at), lambda q: put_at(q, put)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
+    ]
+
+
+def _to_each(clause: Clause, slots: Slots) -> list[Clause]:
+    """Bring *me the pen* and *the cup to Ada*: a clause for each receiver; else none."""
+    receiver, to = slots.peek(""), slots.peek("to")
+    things = next((c for c in slots.rest if c.role == "" and len(c.phrases) > 1), None)
+    if receiver is None or to is None or things is None or receiver is things:
+        return []
+    if not (is_person(receiver.phrase, slots.scope) and is_person(to.phrase, slots.scope)):
+        return []
+    first, last = (
+        dataclasses.replace(things, phrases=phrases)
+        for phrases in (things.phrases[:-1], things.phrases[-1:])
+    )
+    rest = [c for c in clause.complements if c not in (receiver, things, to)]
+    here = dataclasses.replace(receiver, role="to")
+    return [
+        dataclasses.replace(clause, complements=[first, *rest, here]),
+        dataclasses.replace(clause, complements=[last, *rest, to]),
     ]
 
 

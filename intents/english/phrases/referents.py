@@ -135,11 +135,18 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
             superlative = "leftmost" if place.how == "left" else "rightmost"
     if phrase.side and superlative is None:
         superlative = "leftmost" if phrase.side == "left" else "rightmost"
+    color, size = phrase.color, phrase.size
+    if phrase.noun == "one" and name:
+        other = scope.index.sibling(name, color=color, size=size)
+        if not other:
+            raise NotUnderstood(f"I know no {color or size} one besides the {name}")
+        if other != name:
+            name, color, size = other, None, None
     query = ObjectQuery(
         name=name or None,
         category=category or None,
-        color=phrase.color,
-        size=phrase.size,
+        color=color,
+        size=size,
         superlative=superlative,
         count=phrase.count or (1 if _is_any(phrase) else None),
         at=at,

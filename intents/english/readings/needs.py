@@ -26,7 +26,7 @@ _LOST = lexicon.phrases(
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
     "i am missing,we can not find"
 )
-_NEEDS = lexicon.phrases(
+NEEDS = lexicon.phrases(
     "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
     "is asking for,asks for,ordered,has ordered,is waiting for,requested,has requested,requires,"
     "is in need of,could use,fancies,is after,'s after,desires,craves,is wanting,is needing,"
@@ -81,7 +81,7 @@ def needed(sentence: Sentence, at: int) -> Found | None:
         return None
     going, needing = text.phrase_end(_NEEDS_TO_GO, phrase.end), None
     if going is None:
-        needing = text.phrase_end(_NEEDS, phrase.end)
+        needing = text.phrase_end(NEEDS, phrase.end)
     complements, end = read_complements(text, going or needing or phrase.end)
     if going:
         goal = first_with(complements, "to", "into")

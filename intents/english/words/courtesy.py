@@ -50,6 +50,11 @@ _CURSES = lexicon.words(
     "bloody fucking fuckin damn damned goddamn freaking frigging effing flipping blasted ruddy "
     "goddamned sodding"
 )
+_EXPLETIVES = lexicon.phrases(
+    "the hell,the heck,the fuck,the devil,the dickens,the blazes,the deuce,tf,on earth,"
+    "in the world,in heaven 's name,in god 's name"
+)
+"""What behind a question word only says how keen one is to know."""
 _TAILS = lexicon.phrases(
     "already,pronto,chop chop,sharpish,on the double,stat,quick smart,this instant,this minute,"
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
@@ -279,6 +284,8 @@ def _small_word(words: list[str], at: int) -> int | None:
     """*Exactly* three; the *bloody* cup; so *like* can you."""
     if words[at] in _CURSES:
         return at + 1
+    if _word(words, at - 1) in lexicon.WH and (end := _phrase_end(_EXPLETIVES, words, at)):
+        return end
     if words[at] in ("very", "really", "quite", "extra", "super", "ever") and (
         tuple(words[at + 1 : at + 2]) in lexicon.FILLERS
     ):
@@ -301,8 +308,12 @@ def _small_word(words: list[str], at: int) -> int | None:
         end = at + 2 + (_word(words, at + 2) == "then")
         urged = _word(words, end) == COMMA or end > at + 2
         return end if urged and _is_verb(words, end + (_word(words, end) == COMMA)) else None
-    for end in range(min(len(words), at + 3), at, -1):
-        counted = _word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit()
-        if tuple(words[at:end]) in _SMALL and counted:
-            return end
-    return None
+    end = _phrase_end(_SMALL, words, at)
+    counted = end and (_word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit())
+    return end if counted else None
+
+
+def _phrase_end(table: set[lexicon.Phrase], words: list[str], at: int) -> int | None:
+    """Where the longest phrase of a set at a word ends."""
+    ends = range(min(len(words), at + 4), at, -1)
+    return next((end for end in ends if tuple(words[at:end]) in table), None)

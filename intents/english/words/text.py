@@ -27,6 +27,7 @@ from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
 from intents.english.words.verbs import participle_base
+from intents.english.words.ways import in_order
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -114,7 +115,8 @@ class Text:
         corrected = _wished(plain_quantities(repaired(corrected)))
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
-        plain = _unfinished(unrepeated(_without_fillers(fluent(corrected), self.index)))
+        ordered = in_order(fluent(corrected), self.index)
+        plain = _unfinished(unrepeated(_without_fillers(ordered, self.index)))
         self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
@@ -235,18 +237,6 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
-def _said_first(tokens: list[Token]) -> list[Token]:
-    """Bring the cup, but close the door *first*: but first close the door."""
-    words = [t.text for t in tokens]
-    for at in range(len(words) - 1, 2, -1):
-        link = next((n for n in range(at - 1, 0, -1) if words[n] in ("but", COMMA, FULL_STOP)), 0)
-        last = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
-        if words[at] == "first" and last and words[link] == "but" and words[at - 1] != "but":
-            tokens.insert(link + 1, tokens.pop(at))
-            words.insert(link + 1, words.pop(at))
-    return tokens
-
-
 def _done_before(tokens: list[Token]) -> list[Token]:
     """*Having closed* the door: after you close the door."""
     for at in range(len(tokens) - 2, 0, -1):
@@ -272,7 +262,7 @@ def _wished(tokens: list[Token]) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
-    tokens = _done_before(_said_first(tokens))
+    tokens = _done_before(tokens)
     words = [t.text for t in tokens]
     wished = next((n for n in (6, 5, 4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
     if wished and words[wished : wished + 1] not in (["to"], ["you"], []):
