@@ -19,7 +19,7 @@ from intents.english.clauses.openings import (
 from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
-from intents.english.phrases.complements import connector_end
+from intents.english.phrases.complements import connector_end, told_later
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
 from intents.english.phrases.times import tells_when
@@ -42,6 +42,7 @@ from intents.goals import (
     If,
     ObjectQuery,
     Present,
+    Wait,
 )
 
 
@@ -255,6 +256,14 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     return last, end
 
 
+def later(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Switch the lamp off *in ten minutes*: to wait, and then do it."""
+    amount = told_later(sentence.text, at)
+    if amount is None or not last:
+        return None
+    return [Wait(duration_s=amount.value), *last], amount.end
+
+
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Stand on one leg for three seconds, *four times*."""
     text = sentence.text
@@ -289,7 +298,10 @@ def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     amount = None if all_end or both_end else number(text.words, begin)
     end = all_end or both_end or (amount.end if amount else at)
     end += 2 if amount and text.words[end : end + 2] == ["of", "them"] else 0
+    told = any(start < at - 3 and end in (at, at - 1) for start, end in sentence.notes.passed)
     apart = text.word(at - 1) == COMMA or (not amount and end > at + 1)
+    if told and amount:
+        return None  # where is the pear? We bought three, three!
     if end == at or not apart or (end < len(text) and text.word(end) not in (COMMA, FULL_STOP)):
         return None
     count = 2 if both_end else int(amount.value) if amount else "all"

@@ -98,7 +98,7 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
     )
     if there or "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
         return [_put_down(goal) for goal in bring(clause, scope)]
-    if "fetch" in clause.verb.split() and not _is_moved_on(clause):
+    if any(word.startswith("fetch") for word in clause.verb.split()) and not _is_moved_on(clause):
         return bring(clause, scope)
     return pick(clause, scope)
 

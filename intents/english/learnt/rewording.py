@@ -94,6 +94,8 @@ _FEW = 3
 """So many words are looked back to, and may be lost of what is said in a word or two."""
 _YOU = lexicon.words("you u ya ye you'd you'll yer")
 _OTHERS = lexicon.words("i we he she they who which it someone somebody colleague son man lad")
+_LINKS = lexicon.words("once until till")
+_SUBJECTS = lexicon.words("i i'm he he's she she's they they're we we're the my his her it it's")
 _BEING = lexicon.words("was were been")
 _WILL = lexicon.words("will would who'd he'd she'd they'd which'd gonna to'")
 _STATES = lexicon.words("belongs belonged owns")
@@ -175,6 +177,7 @@ def _harms(found: Meant, left: list[str], meant_: list[str], asked: list[int]) -
         "forgotten": _forgotten(found),
         "manner": any(word.endswith("ly") and word not in COMMENTING | _LIGHT for word in left),
         "either": _is_either(found),
+        "event": any(_is_event(words, n) for n, _ in _left(found)),
         "question": _is_question(found),
         "further": any(n > 0 and _opens(words, n) and _is_verb(words[n]) for n in asked)
         or any(_does_something(words, n) for n, _ in _left(found)),
@@ -186,6 +189,12 @@ def _harms(found: Meant, left: list[str], meant_: list[str], asked: list[int]) -
     }
     strange = (_strangeness(words, n) for n in asked)
     return frozenset([*(harm for harm, is_so in told.items() if is_so), *filter(None, strange)])
+
+
+def _is_event(words: list[Said], at: int) -> bool:
+    """Whether it hangs on what happens: "once I am done", "until he comes"."""
+    word, after = (words[n].raw.lower() if n < len(words) else "" for n in (at, at + 1))
+    return word == "whenever" or (word in _LINKS and (after in _SUBJECTS or after in _YOU))
 
 
 def _is_much(found: Meant, left: list[str]) -> bool:

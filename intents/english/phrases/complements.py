@@ -154,9 +154,20 @@ def ends_clause(text: Text, at: int) -> bool:
         return True
     if tells_when(text, at) or _orders_steps(text, at):
         return True
+    if told_later(text, at):
+        return True
     if word == "without" and text.word(at + 1).endswith("ing"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
+
+
+def told_later(text: Text, at: int) -> Measure | None:
+    """Switch it off *in ten minutes*: how long to wait before, at the end of a clause."""
+    amount = measure(text.words, at + 1) if text.word(at) == "in" and at else None
+    if amount is None or amount.kind != "time" or text.name_at(at + 1):
+        return None
+    closes = amount.end >= len(text) or text.word(amount.end) in (COMMA, FULL_STOP)
+    return amount if closes else None
 
 
 def _orders_steps(text: Text, at: int) -> bool:

@@ -54,6 +54,8 @@ _BIT = 0.25
 _LEAST_BIT_M, _LEAST_BIT_RAD, _LEAST_BIT_S = 0.1, 0.17, 1.0
 """Of what a robot does and people see; never more than the last amount."""
 _SIDES = lexicon.words("left right up down ahead behind")
+_TELLERS = lexicon.words("i we he she they")
+"""What begins a statement, and no second object: "come with me, *I am afraid*"."""
 _LINKING = ("and", "also", "then", "plus", "next", "about")
 
 
@@ -160,7 +162,7 @@ def _with_another(last: Goal, phrase: NounPhrase, scope: Scope) -> list[Goal]:
 def gapped(sentence: Sentence, at: int) -> Found | None:
     """Put the cup on the table and *the plate on the shelf*: the verb is the one before."""
     said = sentence.notes.verb
-    if said is None:
+    if said is None or sentence.text.word(at) in _TELLERS:
         return None
     complements, end = read_complements(sentence.text, at)
     again = bool(sentence.before) and _has_direction(sentence.before[-1])  # "left and then right"
@@ -179,7 +181,13 @@ def _to_the_same(sentence: Sentence, goals: list[Goal]) -> list[Goal]:
     if not isinstance(last, Bring | Give) or not isinstance(last.to, Person):
         return goals
     to = last.to
-    return [replace(g, to=to) if isinstance(g, Bring) and g.to == ME else g for g in goals]
+    return [_brought_to(goal, to) for goal in goals]
+
+
+def _brought_to(goal: Goal, to: Person) -> Goal:
+    if isinstance(goal, Pick):
+        return Bring(object=goal.object, to=to)
+    return replace(goal, to=to) if isinstance(goal, Bring) and goal.to == ME else goal
 
 
 def _has_direction(goal: Goal) -> bool:

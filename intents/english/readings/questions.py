@@ -4,14 +4,21 @@ from msgspec.structs import replace
 
 from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
+from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_object
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
-from intents.goals import Find
+from intents.goals import Count, Find, Tell
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
 
+_GOES = lexicon.phrases(
+    "go and have a look,go have a look,have a look,take a look,go and take a look,go look,"
+    "go and look,go and check,go check,go and see,go see,check,have a look for me,check for me,"
+    "go and find out,find out,look and see"
+)
+"""How one goes to see what was asked; nothing more is to be done."""
 _SEEN = lexicon.phrases(
     "has anyone seen,has anybody seen,did anyone see,anyone seen,do we have,do we still have,"
     "have we got,have we still got,is there still,are there still,do we happen to have"
@@ -54,6 +61,14 @@ def whether(sentence: Sentence, at: int) -> Found | None:
     counts = text.words[start : start + 2] == ["how", "many"]
     asked = counts or text.word(start) in ("if", "whether")
     return syntax.question(text, start, sentence.scope) if asked else None
+
+
+def went_to_see(sentence: Sentence, at: int) -> Found | None:
+    """I wonder whether Ada is in the hall, *could you go and have a look*."""
+    text, before = sentence.text, sentence.before
+    end = text.phrase_end(_GOES, at)
+    asked = bool(before) and isinstance(before[-1], Find | Count | Tell)
+    return ([], end) if end and asked and ends_clause(text, end) else None
 
 
 def _is_there(sentence: Sentence, at: int) -> Found | None:

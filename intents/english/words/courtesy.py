@@ -38,14 +38,15 @@ _MUCH = lexicon.words(
 ADDRESSES = lexicon.words(
     "love luv dear dearie darling sweetheart sweetie honey hun hon pet duck mate matey pal buddy "
     "bud bro dude man guv boss chief friend robot bot droid machine sir madam maam mister champ "
-    "sunshine babe doll chap fella lad lass mister buster genius tinman oi yo hey ahem"
+    "duck ducky duckie petal hinny treacle sunshine babe doll chap fella lad lass "
+    "mister buster genius tinman oi yo hey ahem"
 )
 """What the robot may be called."""
 _FAMILIAR = lexicon.words(
     "love luv dear darling sweetheart honey hun mate pal buddy bro dude robot bot sir champ"
 )
 """What needs no comma before it at the end."""
-_ADDRESSED = lexicon.words("my good old little dear you the clever")
+_ADDRESSED = lexicon.words("my me good old little dear you the clever")
 _CURSES = lexicon.words(
     "bloody fucking fuckin damn damned goddamn freaking frigging effing flipping blasted ruddy "
     "goddamned sodding"
@@ -86,13 +87,16 @@ _HEDGES = lexicon.words(
     "hoping ya do should be obliged indebted thankful delighted pleased glad happy honoured "
     "honored most ever esteem consider count a favour favor request suggest propose kindest "
     "gracious nice much so immensely eternally exceedingly deeply shall kindness goodness "
-    "courtesy have had the please"
+    "courtesy have had the please suppose supposing persuaded persuade convinced tempted prevail "
+    "upon see your way clear find heart in yourself manage what are chances odds getting honour "
+    "feel inclined disposed minded care consider considering dream"
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered inconvenience trouble bother chance mind possibly "
     "terribly awfully appreciate grateful perhaps happen hoping hope possible might maybe obliged "
     "indebted thankful delighted pleased honoured honored kindness goodness courtesy esteem "
-    "favour favor request suggest propose"
+    "favour favor request suggest propose persuaded persuade convinced tempted prevail way heart "
+    "chances odds honour inclined disposed minded consider considering"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
@@ -159,7 +163,8 @@ def _hedge(words: list[str], at: int) -> int | None:
     said = words[at:end]
     wished = said[-2:] == ["if", "you"] and "would" in said
     wished = wished or said[-2:] in (["as", "to"], ["enough", "to"])
-    hedged = (_HEDGED.intersection(said) or wished) and "you" in said and end > at + 2
+    addressed = "you" in said or "your" in said
+    hedged = (_HEDGED.intersection(said) or wished) and addressed and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
 
 
@@ -313,7 +318,7 @@ def _small_word(words: list[str], at: int) -> int | None:
     return end if counted else None
 
 
-def _phrase_end(table: set[lexicon.Phrase], words: list[str], at: int) -> int | None:
+def _phrase_end(table: frozenset[lexicon.Phrase], words: list[str], at: int) -> int | None:
     """Where the longest phrase of a set at a word ends."""
     ends = range(min(len(words), at + 4), at, -1)
     return next((end for end in ends if tuple(words[at:end]) in table), None)

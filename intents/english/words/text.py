@@ -39,6 +39,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
+_MODALS = words("might may can could would")
 _WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
@@ -253,6 +254,8 @@ def _done_before(tokens: list[Token]) -> list[Token]:
 def _wished(tokens: list[Token]) -> list[Token]:
     """Would it be nice if you *waved*: if you wave."""
     words = [t.text for t in tokens]
+    if words[1:2] == ["one"] and words[0] in _MODALS:
+        tokens[1] = Token("i", tokens[1].raw)  # might one trouble you for a pear
     for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):
         base = participle_base(words[at]) if words[at - 2 : at] == ["if", "you"] else None
         if base:

@@ -152,6 +152,8 @@ SPELLINGS: dict[str, str] = {
     "count": "count,count up,give me the number of,tell me the number of,enumerate",
     "look": (
         "look,look at,inspect,examine,check,watch,observe,have a look at,take a look at,"
+        "have a gander at,take a gander at,have a butchers at,have a peek at,take a peek at,"
+        "have a squint at,have a peep at,cast an eye over,"
         "check on,check out,look over,look into,glance at,stare at,gaze at,control,"
         "monitor,view,check up on,turn your head to,turn your head towards,turn your head,"
         "peek at,focus on,keep an eye on,see,scan"

@@ -19,6 +19,12 @@ _ON_THE_WAY = phrases(
 )
 _FIRST = phrases("first,first of all,beforehand")
 _ON_THE_WAY_TO = phrases("on the way to,on your way to,en route to")
+_AHEAD_OF = {
+    ("prior", "to"): ["before"], ("before", "to"): ["before", "you"],
+    ("previous", "to"): ["before"], ("subsequent", "to"): ["after"],
+    ("after", "to"): ["after", "you"],
+}  # fmt: skip
+"""Other words for "before" and "after" with what is done."""
 _LINKS = words("and but then so") | {COMMA, FULL_STOP}
 _TO = words("to into towards")
 _LONGEST = 4
@@ -27,6 +33,7 @@ _LONGEST = 4
 def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with what is done on the way said to be done first."""
     for at in range(len(tokens) - 1, -1, -1):
+        tokens = _ahead_of(tokens, at)
         said = [token.text for token in tokens]
         tokens = (
             _through(tokens, said, at, index)
@@ -35,6 +42,15 @@ def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
             or tokens
         )
     return tokens
+
+
+def _ahead_of(tokens: list[Token], at: int) -> list[Token]:
+    """*Prior to* opening it, *before to* open it: before opening it, before you open it."""
+    said = tuple(token.text for token in tokens[at : at + 3])
+    if said[:2] not in _AHEAD_OF or len(said) < len(_AHEAD_OF[said[:2]]):
+        return tokens
+    plain = [Token(word, tokens[at].raw) for word in _AHEAD_OF[said[:2]]]
+    return [*tokens[:at], *plain, *tokens[at + 2 :]]
 
 
 def _end(table: Collection[Phrase], said: list[str], at: int) -> int:
