@@ -107,6 +107,7 @@ RULES = Rules(
         # phrase: "find Emil at the sofa and Ada in the hall. Greet her" finds both.
         ellipsis.served,
         ellipsis.likewise,
+        ellipsis.counted_out,
         ellipsis.follow_up,
         ellipsis.gapped_after_and,
         fronted.out_of,

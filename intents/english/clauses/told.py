@@ -32,7 +32,7 @@ _WHENEVER = lexicon.phrases("whenever,each time,every time,any time,everytime,an
 _STATES = lexicon.words(
     "is are am was were 's has had have can could will would do does did may might keeps seems "
     "looks feels smells sounds needs wants likes loves hates says means thinks knows works hurts "
-    "rings comes goes gets makes takes belongs"
+    "rings comes goes gets makes takes belongs lives"
 )
 """What a subject is followed by, if no other verb of the third person or of the past."""
 _OBLIGES = lexicon.words("should must ought shall needs need")

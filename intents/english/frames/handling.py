@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
-from intents.english.phrases.complements import Clause, Complement, connector_end
+from intents.english.phrases.complements import Clause, Complement, connector_end, read_complements
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
@@ -36,6 +36,8 @@ _ON_THE_WAY = words(
     "schlep hump heft nip zip dash shuttle wheel dispatch hoof trundle relay smuggle sneak walk jog"
 )
 """Verbs that take a thing somewhere, and not to who speaks."""
+_IT = words("it they that those")
+_LIVES = words("lives live goes go belongs belong")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -331,6 +333,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("put what?")
     if spot is None and _throws(clause):
         spot = Target(in_=_trash(scope))
+    spot = spot or _home(clause, scope)
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and clause.verb == "leave":
         raise NotUnderstood("All right, I leave it as it is")
@@ -338,6 +341,16 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
+
+
+def _home(clause: Clause, scope: Scope) -> Target | None:
+    """Put it away, *it lives in the drawer*: where it belongs, told behind the order."""
+    text, at = clause.text, clause.end
+    at += text.word(at) in (COMMA, FULL_STOP)
+    if at >= len(text) or text.word(at) not in _IT or text.word(at + 1) not in _LIVES:
+        return None
+    complements, _ = read_complements(text, at + 2)
+    return destination(Slots(dataclasses.replace(clause, complements=complements), scope))
 
 
 def _is_kept_by_somebody(clause: Clause, slots: Slots) -> bool:

@@ -7,7 +7,18 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
 from intents.english.words.verbs import base_form
-from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, LookAt, Side, Wait
+from intents.goals import (
+    OPERATOR,
+    Balance,
+    BalanceMode,
+    Find,
+    Gesture,
+    Goal,
+    GoTo,
+    LookAt,
+    Side,
+    Wait,
+)
 
 _LEGS = ("leg", "legs", "foot", "feet")
 _FLOOR = ("floor", "ground")
@@ -43,6 +54,8 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
         if place:
             duration = slots.measure("time")
             slots.done()
+            if is_person(place.phrase, scope):
+                return [Find(person=to_person(place.phrase, scope))]
             must_be_to(place, clause)
             must_be_beside(place.phrase, clause, scope)
             pause: list[Goal] = [Wait(duration_s=duration)] if duration is not None else []

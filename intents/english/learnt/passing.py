@@ -76,9 +76,10 @@ _OPENERS = lexicon.words(
     "someone everybody everyone nobody"
 )
 _OPENING_SUBJECTS = lexicon.words(
-    "it it's its you you're you've there there's theres that that's thats this what what's which"
+    "it it's its you you're you've there there's theres that's thats this what's"
 )
 """These begin a clause where a verb of it follows."""
+_REFUSING = lexicon.words("not don't dont never")
 _WHITHER = lexicon.words("to into onto from of off")
 _EDGES = " ,.;:!?-–—…"
 
@@ -168,7 +169,7 @@ def _joined(seen: Sight, clauses: list[tuple[int, int]], gone: list[int]) -> lis
 def _limits(text: str, span: Passed) -> bool:
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
     heard = [word for word in words if word[0].isalnum()]
-    denied = "not" in heard[:2] or any(  # "but not before noon"
+    denied = not _REFUSING.isdisjoint(heard[:2]) or any(  # "but not before noon"
         one == "not" and two in TIMES for one, two in pairwise(heard)
     )
     return denied or (bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words))
@@ -234,7 +235,8 @@ def _picks_out(heard: list[str], *, short: bool) -> bool:
     counts = any(one in NUMBER_WORDS and two in _OF for one, two in pairwise(heard))
     just = heard[0] in ("just", "only") and short
     figures = short and any(one[0].isdigit() or one in _NUMBERS for one in heard)
-    return heard[0] in _PICKING or "ones" in heard or counts or just or figures
+    coloured = any(one in _PICKING and two == "one" for one, two in pairwise(heard))
+    return heard[0] in _PICKING or "ones" in heard or coloured or counts or just or figures
 
 
 def _leads_there(heard: list[str], index: NameIndex) -> bool:

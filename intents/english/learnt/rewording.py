@@ -183,6 +183,7 @@ def _harms(found: Meant, left: list[str], meant_: list[str], asked: list[int]) -
         or any(_does_something(words, n) for n, _ in _left(found)),
         "told": _is_told(found),
         "dangling": words[-1].raw.lower() in _LEADING,
+        "where": found.act in _ORDERS and "where" in left,
         "bare": found.act in _ORDERS and _is_much(found, left),
         "verb": _begins_otherwise(found, dict(_left(found))),
         "switch": found.act not in ("switch_on", "switch_off") and _switches(found),

@@ -10,7 +10,8 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
-from intents.english.words.lexer import FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.measures import number
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Balance,
@@ -157,6 +158,22 @@ def _with_another(last: Goal, phrase: NounPhrase, scope: Scope) -> list[Goal]:
     if isinstance(last, Pick | Place | Bring | Give | Find | LookAt):
         return [replace(last, object=to_object(phrase, scope))]
     return []
+
+
+def counted_out(sentence: Sentence, at: int) -> Found | None:
+    """A bun for Ada, *two for Leo*: so many of the same for somebody else."""
+    text, last = sentence.text, sentence.scope.last
+    amount = number(text.words, at)
+    linked = text.word(at - 1) in (COMMA, "and")
+    if amount is None or not linked or not isinstance(last, Bring | Give):
+        return None
+    phrase = noun_phrase(text, amount.end + 1) if text.word(amount.end) in ("for", "to") else None
+    if phrase is None or not (phrase.is_person or phrase.noun == "operator"):
+        return None
+    if amount.value != int(amount.value) or amount.value < 1 or last.object.held:
+        return None
+    some = replace(last.object, count=int(amount.value))
+    return [Bring(object=some, to=to_person(phrase, sentence.scope))], phrase.end
 
 
 def gapped(sentence: Sentence, at: int) -> Found | None:

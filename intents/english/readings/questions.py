@@ -21,7 +21,8 @@ _GOES = lexicon.phrases(
 """How one goes to see what was asked; nothing more is to be done."""
 _SEEN = lexicon.phrases(
     "has anyone seen,has anybody seen,did anyone see,anyone seen,do we have,do we still have,"
-    "have we got,have we still got,is there still,are there still,do we happen to have"
+    "have we got,have we still got,is there still,are there still,do we happen to have,"
+    "did i leave,did i put,did i forget,have i left,have i forgotten,did i drop,did we leave"
 )
 
 
@@ -59,7 +60,7 @@ def whether(sentence: Sentence, at: int) -> Found | None:
     if text.word(start) in ("if", "whether") and there:
         return there
     counts = text.words[start : start + 2] == ["how", "many"]
-    asked = counts or text.word(start) in ("if", "whether")
+    asked = counts or text.word(start) in ("if", "whether", "who", "what", "which")
     return syntax.question(text, start, sentence.scope) if asked else None
 
 
@@ -67,8 +68,12 @@ def went_to_see(sentence: Sentence, at: int) -> Found | None:
     """I wonder whether Ada is in the hall, *could you go and have a look*."""
     text, before = sentence.text, sentence.before
     end = text.phrase_end(_GOES, at)
-    asked = bool(before) and isinstance(before[-1], Find | Count | Tell)
-    return ([], end) if end and asked and ends_clause(text, end) else None
+    if end is None or not ends_clause(text, end):
+        return None
+    if before:
+        return ([], end) if isinstance(before[-1], Find | Count | Tell) else None
+    there = sentence.scope.object  # I think I left my cap in the hall, could you check
+    return ([Find(object=there)], end) if there is not None and there.at and at else None
 
 
 def _is_there(sentence: Sentence, at: int) -> Found | None:

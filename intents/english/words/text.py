@@ -305,6 +305,8 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         broken_off = token.raw in DASHES
         if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
+        if token.text in ("that", "this") and _points_there(words, at):
+            continue  # what is that on the bench
         if token.text == "left" and _remains(words, at):
             continue  # what have we got left
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
@@ -328,6 +330,11 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         else:
             kept.append(token)
     return kept
+
+
+def _points_there(words: list[str], at: int) -> bool:
+    asked = words[at - 2 : at] == ["what", "is"]
+    return asked and words[at + 1 : at + 2] in (["on"], ["in"], ["under"], ["at"], ["by"], ["over"])
 
 
 def _remains(words: list[str], at: int) -> bool:

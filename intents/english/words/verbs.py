@@ -99,7 +99,8 @@ SPELLINGS: dict[str, str] = {
         "might i trouble you for,might i bother you for,could i trouble you for,"
         "can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
-        "i am in need of,do you have,have you got,i like,i crave,me want,me need"
+        "i am in need of,i have need of,we have need of,i stand in need of,"
+        "do you have,have you got,i like,i crave,me want,me need"
     ),
     "follow": (
         "follow,go after,come after,go behind,come behind,go along with,go with,come with,"
