@@ -35,6 +35,7 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
+    Bring,
     Condition,
     Find,
     ForEach,
@@ -314,7 +315,8 @@ def from_there(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """A bun for Ada and a plum for me, *both from the bar*: there all of them are."""
     text, before = sentence.text, sentence.before
     both_end = text.phrase_end(_BOTH, at)
-    end = both_end or text.phrase_end(_OF_ALL | _ALL, at)
+    listed = text.word(at - 1) == COMMA and len(before) > 1 and all(map(_is_fetched, before))
+    end = both_end or text.phrase_end(_OF_ALL | _ALL, at) or (at if listed else None)
     start = text.phrase_end(lexicon.SOURCEWARDS, end) if end else None
     phrase = noun_phrase(text, start) if start else None
     if phrase is None or not phrase.is_spot or not last:
@@ -324,6 +326,10 @@ def from_there(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     found = [_found_at(goal, at_) for goal in before[-some:]]
     del before[-some:]
     return found, phrase.end
+
+
+def _is_fetched(goal: Goal) -> bool:
+    return isinstance(goal, Bring) and goal.object.at is None
 
 
 def _found_at(goal: Goal, place: str) -> Goal:

@@ -91,6 +91,8 @@ RULES = Rules(
         questions.went_to_see,
         questions.whether,
         questions.seen,
+        questions.which_room,
+        questions.inside,
         questions.any_left,
         without_verb.fist,
         without_verb.head,

@@ -55,6 +55,8 @@ _LIGHT = lexicon.FUNCTION_WORDS | lexicon.words(
     "quick robot mate pal love dear sir madam buddy"
 )
 """Words that say nothing of what is to be done with a thing."""
+_POLITELY = lexicon.words("don't couldn't can't won't wouldn't shouldn't")
+"""These deny nothing where somebody is only polite: "couldn't you", "I don't suppose"."""
 _POINTING = lexicon.words("them thae her me us these those")
 """Right before a name these say no more than "the"."""
 _MANY = re.compile(r"x?\d.*")
@@ -149,7 +151,8 @@ def reworded(
     strange = [word for word in left if word not in found.speaking]
     likely = [float(p) for p in idle] or [0.0] * len(found.words)
     meant_ = [word for n, word in lost if likely[n] < _TALK]
-    if _LIMITING.intersection(meant_) or CONDITIONS.intersection(left):
+    denied = any(word.endswith("n't") and word not in _POLITELY for word in meant_)
+    if denied or _LIMITING.intersection(meant_) or CONDITIONS.intersection(left):
         return None
     asked = [n for n, word in lost if likely[n] < _TALK and word in strange]
     if any(_opens(found.words, n) and is_unheard_verb(found.words[n].raw.lower()) for n in asked):

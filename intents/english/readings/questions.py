@@ -6,10 +6,10 @@ from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
 from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.referents import to_object
+from intents.english.phrases.referents import sought, to_object
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
-from intents.goals import Count, Find, Tell
+from intents.goals import Count, Find, ObjectQuery, Tell
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
 
@@ -19,6 +19,11 @@ _GOES = lexicon.phrases(
     "go and find out,find out,look and see"
 )
 """How one goes to see what was asked; nothing more is to be done."""
+_INSIDE = frozenset(
+    (*told.split(), *what.split())
+    for told in ("", "tell me", "see", "look", "say", "let me know", "report", "check")
+    for what in ("what is inside", "what is in it", "what is in there", "what is inside it")
+)
 _SEEN = lexicon.phrases(
     "has anyone seen,has anybody seen,did anyone see,anyone seen,do we have,do we still have,"
     "have we got,have we still got,is there still,are there still,do we happen to have,"
@@ -36,6 +41,27 @@ def question(sentence: Sentence, at: int) -> Found | None:
     if sentence.text.word(at) == "if":
         return None  # a condition, of which a part may not be understood
     return syntax.question(sentence.text, at, sentence.scope)
+
+
+def which_room(sentence: Sentence, at: int) -> Found | None:
+    """Which room is Ada in? What room are the keys in?"""
+    text = sentence.text
+    asked = text.word(at) in ("which", "what") and text.word(at + 1) in ("room", "place")
+    phrase = noun_phrase(text, at + 3) if asked and text.word(at + 2) in ("is", "are") else None
+    if phrase is None or not (phrase.name("object", "category") or phrase.is_person):
+        return None
+    end = phrase.end + (text.word(phrase.end) == "in")
+    return ([sought(phrase, sentence.scope)], end) if ends_clause(text, end) else None
+
+
+def inside(sentence: Sentence, at: int) -> Found | None:
+    """Open the cupboard and tell me *what is inside*."""
+    text, scope = sentence.text, sentence.scope
+    end = text.phrase_end(_INSIDE, at)
+    place = scope.device or scope.place
+    if end is None or place is None or not ends_clause(text, end):
+        return None
+    return [Tell(property="name", object=ObjectQuery(at=place))], end
 
 
 def any_left(sentence: Sentence, at: int) -> Found | None:

@@ -26,7 +26,7 @@ from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
-from intents.english.words.verbs import participle_base
+from intents.english.words.verbs import participle_base, verbs_at
 from intents.english.words.ways import in_order
 from intents.vocabulary import Vocabulary
 
@@ -339,13 +339,15 @@ def _points_there(words: list[str], at: int) -> bool:
 
 def _remains(words: list[str], at: int) -> bool:
     """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
+    if "if" in words[max(0, at - 7) : at] and "there" in words[max(0, at - 6) : at]:
+        return bool(verbs_at(words, at + 1)) or words[at + 1 : at + 2] in ([COMMA], [])
     owned = words[at - 1] == "got" or words[at - 2 : at] in (["we", "have"], ["you", "have"])
     return owned and _AFTER_LEFT.issuperset(words[at + 1 : at + 2])
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:
     """Is the cup *still* on the table? But: stand still."""
-    asked = words[0] in ("is", "are", "do", "does", "what", "where") and at + 1 < len(words)
+    asked = words[0] in ("is", "are", "do", "does", "what", "where", "how") and at + 1 < len(words)
     return at + 1 if asked and words[at] in ADVERBS else None
 
 
