@@ -110,6 +110,7 @@ RULES = Rules(
         ellipsis.served,
         ellipsis.likewise,
         ellipsis.counted_out,
+        ellipsis.also_for,
         ellipsis.follow_up,
         ellipsis.gapped_after_and,
         fronted.out_of,

@@ -305,6 +305,10 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     at = to_place(area.phrase, scope) if area else None
     slots.take_person("for")
     slots.done()
+    if area and len(area.phrases) > 1:
+        places = [to_place(phrase, scope) for phrase in area.phrases]
+        finds = tuple(_find(phrase, scope, spot) for phrase in sought.phrases for spot in places)
+        raise Partly("I look in one place after the other", finds)
     return [_find(phrase, scope, at) for phrase in sought.phrases]
 
 
@@ -331,6 +335,8 @@ def wait(clause: Clause, scope: Scope) -> list[Goal]:
     place = slots.take("at", "")
     slots.done()
     pause: list[Goal] = [Wait(duration_s=duration)]
+    if "outside" in clause.particles():
+        raise Partly("I cannot tell where outside is", tuple(pause))
     if place is None or place.phrase.noun in ("here", "there"):
         return pause
     return [GoTo(place=to_place(place.phrase, scope)), *pause]

@@ -210,13 +210,18 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
         "which": (NEVER if first in _RELATIVE or len(heard) < _TALK else CERTAIN) if which else 0.0,
         "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
         "how": NEVER if short and first in _HOW else 0.0,
-        "order": NEVER if _is_terse(heard) or _orders(heard) else 0.0,
+        "order": NEVER if _is_terse(heard) or _orders(heard) or _contrasts(heard) else 0.0,
         "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
         "quoted": NEVER if not _QUOTES.isdisjoint(text[span.start : span.end]) else 0.0,
     }
     return {harm: least for harm, least in found.items() if least}
+
+
+def _contrasts(heard: list[str]) -> bool:
+    """Whether an order is set against the one before: "but stay outside"."""
+    return heard[0] == "but" and heard[1:2] not in ([], ["mind"]) and bool(verbs_at(heard, 1))
 
 
 def _orders(heard: list[str]) -> bool:

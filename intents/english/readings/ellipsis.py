@@ -176,6 +176,23 @@ def counted_out(sentence: Sentence, at: int) -> Found | None:
     return [Bring(object=some, to=to_person(phrase, sentence.scope))], phrase.end
 
 
+def also_for(sentence: Sentence, at: int) -> Found | None:
+    """A bun to Ada *and Leo*: the same for another."""
+    text, last = sentence.text, sentence.before[-1] if sentence.before else None
+    goal = _inner(last) if last is not None else None
+    if not isinstance(goal, Bring | Give) or not isinstance(goal.to, Person):
+        return None
+    phrase = noun_phrase(text, at) if text.word(at - 1) in (COMMA, "and") else None
+    if phrase is None or not (phrase.name("person") or phrase.noun == "operator"):
+        return None
+    listed = text.word(phrase.end) == "and" and noun_phrase(text, phrase.end + 1)
+    if not (ends_clause(text, phrase.end) or listed) or text.word(phrase.end - 1) == "i":
+        return None
+    to = to_person(phrase, sentence.scope)
+    again = replace(goal, to=to)
+    return [replace(last, goals=(again,)) if isinstance(last, ForEach) else again], phrase.end
+
+
 def gapped(sentence: Sentence, at: int) -> Found | None:
     """Put the cup on the table and *the plate on the shelf*: the verb is the one before."""
     said = sentence.notes.verb

@@ -39,6 +39,7 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
+_ASKED_OF = words("you i me us we not")
 _MODALS = words("might may can could would")
 _WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
@@ -254,6 +255,9 @@ def _done_before(tokens: list[Token]) -> list[Token]:
 def _wished(tokens: list[Token]) -> list[Token]:
     """Would it be nice if you *waved*: if you wave."""
     words = [t.text for t in tokens]
+    asked = words.index("ask") if "ask" in words else len(words)
+    if words[asked + 2 : asked + 3] == ["to"] and words[asked + 1] not in _ASKED_OF:
+        tokens[asked] = Token("tell", tokens[asked].raw)  # ask Ada to come here
     if words[1:2] == ["one"] and words[0] in _MODALS:
         tokens[1] = Token("i", tokens[1].raw)  # might one trouble you for a pear
     for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.unit.intents.hotel_words import assert_means_the_same
+from intents.outcomes import Goals
+from tests.unit.intents.hotel_words import assert_means_the_same, heard
 
 
 @pytest.mark.parametrize(
@@ -25,3 +26,34 @@ from tests.unit.intents.hotel_words import assert_means_the_same
 )
 def test_it_means_the_same(said: str, plainly: str) -> None:
     assert_means_the_same(said, plainly)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("bring the torch to Hans and Olga", "bring the torch to Hans, bring the torch to Olga"),
+        ("a cola to Hans, Olga and me", "bring a cola to Hans, to Olga, then bring me a cola"),
+        ("ask Olga to come to the bar", "tell Olga to come to the bar"),
+        ("open the minibar and tell me what's inside", "open the minibar and tell me what is in the minibar"),
+        ("which room is Olga in", "find Olga"),
+        ("how many saucers are still on the bar", "how many saucers are on the bar"),
+        ("bring Olga her scissors, they are on the bar", "bring Olga the scissors from the bar"),
+        ("two peaches for Hans and one for Olga, from the bar",
+         "bring two peaches from the bar to Hans, then bring one peach from the bar to Olga"),
+    ],
+)  # fmt: skip
+def test_for_several_and_about_places(said: str, plainly: str) -> None:
+    assert_means_the_same(said, plainly)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "turn left at the bar",
+        "search the spa and the lobby for my cap",
+        "everything on the trolley that isn't a torch goes in the bin",
+        "follow Olga to the spa but stay outside",
+    ],
+)
+def test_what_no_goal_says_is_asked_about(said: str) -> None:
+    assert not isinstance(heard(said), Goals)
