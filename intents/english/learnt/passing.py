@@ -70,11 +70,15 @@ _ASIDES = lexicon.LISTED | ADDRESSES | INTERJECTIONS
 """What is said beside an order in a single word."""
 _MOST_CLAUSES = 4
 """So many clauses are left out at most."""
-_OPENERS = lexicon.words(
-    "i i'm i've i'd i'll im ive he he's he'd she she's they they're we we're we've because cos "
-    "cause coz once when whenever until till after before as since so but if while who somebody "
+_SUBJECTS_ALONE = lexicon.words(
+    "i i'm i've i'd i'll im ive he he's he'd she she's they they're we we're we've somebody "
     "someone everybody everyone nobody"
 )
+_LINKS = lexicon.words(
+    "because cos cause coz since so but and or if while when whenever once until till before after "
+    "as than that which who where what how why not"
+)
+_EVENTFUL = lexicon.words("once until till whenever before after as when")
 _OPENING_SUBJECTS = lexicon.words(
     "it it's its you you're you've there there's theres that's thats this what's"
 )
@@ -122,6 +126,9 @@ def parts(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
 
     Nothing is left out that holds a condition or a denial.
     """
+    plain = {word.raw.lower() for word in seen.words}
+    if plain & CONDITIONS and not plain & _POLITE:
+        return []  # what hangs on a condition is part of it
     clauses = _clauses(seen.words)
     idle = [sum(float(p) for p in seen.idle[a:b]) / (b - a) for a, b in clauses]
     order = sorted(range(len(clauses)), key=lambda n: -idle[n])
@@ -130,7 +137,7 @@ def parts(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
         spans = _joined(seen, clauses, sorted(order[:most]))
         if not all(any(map(str.isalnum, text[span.start : span.end])) for span in spans):
             continue
-        if any(_limits(text, span) for span in spans):
+        if any(_limits(text, span) or _says_when(text, span) for span in spans):
             break
         found.append(_left(text, spans, index))
     return [one for one in found if any(map(str.isalnum, one.text))]
@@ -138,18 +145,31 @@ def parts(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
 
 def _clauses(words: list[Said]) -> list[tuple[int, int]]:
     """From which word to which each clause goes, with the signs behind it."""
+    plain = [word.raw.lower().replace("’", "'") for word in words]
     starts = [0]
-    for n, word in enumerate(words[1:], 1):
-        said_ = word.raw.lower().replace("’", "'")
-        following = words[n + 1].raw.lower() if n + 1 < len(words) else ""
-        states = following in lexicon.AUXILIARIES or following.endswith("n't") or "'" in said_
-        opens = said_ in _OPENERS or (said_ in _OPENING_SUBJECTS and states)
-        after_sign = words[n - 1].is_sign and not word.is_sign
-        if after_sign or (opens and n - starts[-1] > 1):
+    for n in range(1, len(words)):
+        after_sign = words[n - 1].is_sign and not words[n].is_sign
+        if after_sign or (n - starts[-1] > 1 and _opens_clause(plain, n)):
             starts.append(n)
     if len(starts) > 1 and all(word.is_sign for word in words[: starts[1]]):
         del starts[1]
     return list(pairwise([*starts, len(words)]))
+
+
+def _opens_clause(plain: list[str], at: int) -> bool:
+    """Whether a clause begins at a word without a sign before it."""
+    if plain[at - 1] in _LINKS or plain[at - 1 : at + 1] == ["soon", "as"]:
+        return False
+    return _is_subject(plain, at + 1 if plain[at] in _LINKS else at)
+
+
+def _is_subject(plain: list[str], at: int) -> bool:
+    """Whether the subject of a statement stands at a word."""
+    if at >= len(plain):
+        return False
+    following = plain[at + 1] if at + 1 < len(plain) else ""
+    states = following in lexicon.AUXILIARIES or following.endswith("n't") or "'" in plain[at]
+    return plain[at] in _SUBJECTS_ALONE or (plain[at] in _OPENING_SUBJECTS and states)
 
 
 def _joined(seen: Sight, clauses: list[tuple[int, int]], gone: list[int]) -> list[Passed]:
@@ -164,6 +184,11 @@ def _joined(seen: Sight, clauses: list[tuple[int, int]], gone: list[int]) -> lis
         else:
             spans.append(Passed(start, end, sure))
     return spans
+
+
+def _says_when(text: str, span: Passed) -> bool:
+    first = next((w.raw.lower() for w in said(text[span.start :]) if not w.is_sign), "")
+    return first in _EVENTFUL
 
 
 def _limits(text: str, span: Passed) -> bool:

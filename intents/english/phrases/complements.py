@@ -417,7 +417,8 @@ def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
     if verbs_at(text.words, start) and not named:
         return None
     item = noun_phrase(text, start)
-    if item is not None and item.noun == "one" and last.name("object", "category"):
+    linked = text.word(start - 1) != COMMA  # a cup, the red one: that is which
+    if item is not None and item.noun == "one" and last.name("object", "category") and linked:
         return _likened(text, item, last)
     if item is None or item.noun not in ("name", "object", "unknown") or item.is_person:
         return None

@@ -6,7 +6,7 @@ from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
 from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.referents import sought, to_object
+from intents.english.phrases.referents import ME, sought, to_object
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.goals import Count, Find, ObjectQuery, Tell
@@ -61,7 +61,8 @@ def inside(sentence: Sentence, at: int) -> Found | None:
     place = scope.device or scope.place
     if end is None or place is None or not ends_clause(text, end):
         return None
-    return [Tell(property="name", object=ObjectQuery(at=place))], end
+    to = ME if "me" in text.words[at:end] else None
+    return [Tell(property="name", object=ObjectQuery(at=place), to=to)], end
 
 
 def any_left(sentence: Sentence, at: int) -> Found | None:
