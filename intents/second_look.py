@@ -101,7 +101,7 @@ class _Heard(NamedTuple):
     """A sentence, how the fields see it, and by what it is read."""
 
     text: str
-    index: NameIndex
+    names: NameIndex
     seen: Sight
     read: Grammar
     fields: Fields
@@ -198,7 +198,7 @@ def looks_at(
 
 def _plainly(rest: Remainder, heard: _Heard) -> list[Look]:
     """What is left of a sentence, in plain words."""
-    seen, index, fields = heard.seen, heard.index, heard.fields
+    seen, index, fields = heard.seen, heard.names, heard.fields
     idle = [
         float(likely)
         for word, likely in zip(seen.words, seen.idle, strict=True)
@@ -227,7 +227,7 @@ def _without_clauses(heard: _Heard, tried: set[str]) -> list[Look]:
     """
     found: list[Look] = []
     said_again = 0
-    for rest in parts(heard.text, heard.seen, heard.index):
+    for rest in parts(heard.text, heard.seen, heard.names):
         if rest.text in tried:
             continue
         attempt = heard.read(rest.text)

@@ -19,7 +19,7 @@ _ON_THE_WAY = phrases(
 )
 _FIRST = phrases("first,first of all,beforehand")
 _ON_THE_WAY_TO = phrases("on the way to,on your way to,en route to")
-_AHEAD_OF = {
+_AHEAD_OF: dict[Phrase, list[str]] = {
     ("prior", "to"): ["before"], ("before", "to"): ["before", "you"],
     ("previous", "to"): ["before"], ("subsequent", "to"): ["after"],
     ("after", "to"): ["after", "you"],
