@@ -17,7 +17,7 @@ from intents.english.learnt.rewording import reworded
 from intents.english.learnt.roles import SEVERAL
 from intents.english.learnt.several import several
 from intents.english.learnt.sight import Sight, sight
-from intents.english.learnt.trust import CERTAIN, SURE, Reading, is_known, trust
+from intents.english.learnt.trust import SURE, Reading, is_known, trust
 from intents.english.trouble import (
     NotUnderstood,
     Offered,
@@ -37,8 +37,6 @@ DOUBTFUL, RIVAL = 0.05, 0.3
 """What the grammar reads from every word is given up only where it is less likely than the first,
 and another reading, which passes no order over, is likelier than the second: words that are only
 unheard are no talk."""
-_HALF = 0.5
-"""So likely it is given up as well, for a reading that is certain."""
 _AS_LIKELY = 0.02
 """What differs by less is as likely; the words that are nearer to those that were said count."""
 _GUESS = 0.5
@@ -131,7 +129,6 @@ def second_look(
     if first.goals:
         alike = any(one.attempt.goals == first.goals for one in found[1:])
         hardly = sure[0] < DOUBTFUL and likely > RIVAL
-        hardly |= sure[0] < _HALF and likely >= CERTAIN and best.least <= likely
         hardly = hardly and not _passes_orders(text, best, read)
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
@@ -191,7 +188,7 @@ def looks_at(
     sayable = first.error is not None and type(first.error) not in (Unclear, NotUnderstood)
     for rest in (whole, *rests[-1:]) if sayable else ():
         found += _plainly(rest, heard)
-    if first.error is not None:
+    if first.error is not None and type(first.error) is not Partly:  # that says what is not kept
         found += _without_clauses(heard, {rest.text for rest in rests})
     return [one for one in found if one.attempt.goals and (rests or one.attempt is not first)]
 
