@@ -79,7 +79,7 @@ def test_other_ways_to_ask(said: str, plainly: str) -> None:
     ("said", "plainly"),
     [
         ("torch to Hans, Olga gets the cap", "bring the torch to Hans, then the cap to Olga"),
-        ("find Olga, she needs the torch", "find Olga, then bring her the torch"),
+        ("greet Olga, she wants a cola", "greet Olga, then bring her a cola"),
         ("get me the torch, and then the cap from the bar", "bring me the torch, bring me the cap "
                                                            "from the bar"),
     ],
