@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from intents.context import Context
 from intents.english.learnt.field import LEARNT, Fields
-from intents.english.learnt.passing import Remainder, remainders
+from intents.english.learnt.passing import Remainder, parts, remainders
 from intents.english.learnt.rewording import reworded
 from intents.english.learnt.roles import SEVERAL
 from intents.english.learnt.several import several
@@ -47,6 +47,8 @@ _PLAIN_WORDS = 8
 """So many words without a sign between them leave no room for background."""
 _FEWEST = 3
 """So few leave none at all."""
+_MOST_REWORDED = 2
+"""So many remainders without whole clauses are said in plain words: each takes a millisecond."""
 _LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
@@ -93,6 +95,16 @@ class Look(NamedTuple):
 Grammar = Callable[[str], Attempt]
 
 
+class _Heard(NamedTuple):
+    """A sentence, how the fields see it, and by what it is read."""
+
+    text: str
+    names: NameIndex
+    seen: Sight
+    read: Grammar
+    fields: Fields
+
+
 def second_look(
     text: str, index: NameIndex, first: Attempt, read: Grammar, *, fields: Fields = LEARNT
 ) -> Attempt:
@@ -116,7 +128,8 @@ def second_look(
     )
     if first.goals:
         alike = any(one.attempt.goals == first.goals for one in found[1:])
-        hardly = sure[0] < DOUBTFUL and likely > RIVAL and not _passes_orders(text, best, read)
+        hardly = sure[0] < DOUBTFUL and likely > RIVAL
+        hardly = hardly and not _passes_orders(text, best, read)
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
     if likely >= best.least:
@@ -170,26 +183,59 @@ def looks_at(
         passed = f"I pass over {rest.passed}"
         reading = Reading("rest", attempt.goals, rest.spans, harms=rest.harms)
         found.append(Look(attempt, reading, passed, passed, rest.least))
+    heard = _Heard(text, index, seen, read, fields)
     whole = Remainder(text, (), "", SURE)
     sayable = first.error is not None and type(first.error) not in (Unclear, NotUnderstood)
     for rest in (whole, *rests[-1:]) if sayable else ():
-        words, spans = rest.text, rest.spans
-        idle = [
-            float(likely)
-            for word, likely in zip(seen.words, seen.idle, strict=True)
-            if not any(start <= word.start < end for start, end in spans)
-        ]
-        plainly = [reworded(words, index, idle, fields=fields)]
-        if seen.acts.get(SEVERAL, 0.0) > _SEVERAL:
-            plainly.append(several(words, index, idle, fields))
-        for plain in filter(None, plainly):
-            attempt = read(plain.text)
-            harms = rest.harms | plain.harms
-            reading = Reading("plain", attempt.goals, rest.spans, plain.left, harms)
-            taken = f"I take that as “{plain.text}”"
-            least = max(rest.least, plain.least)
-            found.append(Look(attempt, reading, taken, "I did not get every word", least))
+        found += _plainly(rest, heard)
+    if first.error is not None and type(first.error) is not Partly:  # that says what is not kept
+        found += _without_clauses(heard, {rest.text for rest in rests})
     return [one for one in found if one.attempt.goals and (rests or one.attempt is not first)]
+
+
+def _plainly(rest: Remainder, heard: _Heard) -> list[Look]:
+    """What is left of a sentence, in plain words."""
+    seen, index, fields = heard.seen, heard.names, heard.fields
+    idle = [
+        float(likely)
+        for word, likely in zip(seen.words, seen.idle, strict=True)
+        if not any(start <= word.start < end for start, end in rest.spans)
+    ]
+    told = [reworded(rest.text, index, idle, fields=fields)]
+    if seen.acts.get(SEVERAL, 0.0) > _SEVERAL:
+        told.append(several(rest.text, index, idle, fields))
+    found: list[Look] = []
+    for plain in filter(None, told):
+        attempt = heard.read(plain.text)
+        harms = rest.harms | plain.harms
+        reading = Reading("plain", attempt.goals, rest.spans, plain.left, harms)
+        taken = f"I take that as “{plain.text}”"
+        least = max(rest.least, plain.least)
+        found.append(Look(attempt, reading, taken, "I did not get every word", least))
+    return found
+
+
+def _without_clauses(heard: _Heard, tried: set[str]) -> list[Look]:
+    """What a sentence can be read as without whole clauses.
+
+    Args:
+        heard: The sentence.
+        tried: What of it was read already.
+    """
+    found: list[Look] = []
+    said_again = 0
+    for rest in parts(heard.text, heard.seen, heard.names):
+        if rest.text in tried:
+            continue
+        attempt = heard.read(rest.text)
+        passed = f"I pass over {rest.passed}"
+        reading = Reading("part", attempt.goals, rest.spans, harms=rest.harms)
+        found.append(Look(attempt, reading, passed, passed, rest.least))
+        if attempt.goals or said_again >= _MOST_REWORDED:
+            continue
+        said_again += 1
+        found += _plainly(rest, heard)
+    return found
 
 
 def just_that(text: str, partly: Partly) -> Question:

@@ -66,6 +66,8 @@ def _goal(goal: Plain, before: list[Plain]) -> Plain:
     for key in ("on", "in", "place", "person", "at"):
         if key in plain and key in _SLOTS.get(kind, ()):
             plain["to"] = plain.pop(key)
+    if kind == "tell" and "person" in plain:
+        plain["of"] = plain.pop("person")
     if kind in ("bring", "give"):
         to = plain.setdefault("to", "operator")
         somewhere = isinstance(goal.get("to"), str) and to != "operator"

@@ -19,7 +19,9 @@ from intents.english.clauses.openings import (
 from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
-from intents.english.phrases.complements import connector_end
+from intents.english.phrases.complements import connector_end, told_later
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_place
 from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.repeating import repeated
@@ -33,6 +35,7 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
+    Bring,
     Condition,
     Find,
     ForEach,
@@ -40,6 +43,7 @@ from intents.goals import (
     If,
     ObjectQuery,
     Present,
+    Wait,
 )
 
 
@@ -253,6 +257,14 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     return last, end
 
 
+def later(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Switch the lamp off *in ten minutes*: to wait, and then do it."""
+    amount = told_later(sentence.text, at)
+    if amount is None or not last:
+        return None
+    return [Wait(duration_s=amount.value), *last], amount.end
+
+
 def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Stand on one leg for three seconds, *four times*."""
     text = sentence.text
@@ -271,6 +283,7 @@ _OF_ALL = lexicon.phrases(
     "each of them,them,each and every one,the whole bunch,the whole bunch of them,"
     "the lot of them,all those,all of those"
 )
+_ALL = lexicon.phrases("all,everything")
 _BOTH = lexicon.phrases(
     "both of them,both,the pair of them,the pair,the two of them,them both,both of those"
 )
@@ -286,13 +299,45 @@ def so_many(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     amount = None if all_end or both_end else number(text.words, begin)
     end = all_end or both_end or (amount.end if amount else at)
     end += 2 if amount and text.words[end : end + 2] == ["of", "them"] else 0
+    told = any(start < at - 3 and end in (at, at - 1) for start, end in sentence.notes.passed)
     apart = text.word(at - 1) == COMMA or (not amount and end > at + 1)
+    if told and amount:
+        return None  # where is the pear? We bought three, three!
     if end == at or not apart or (end < len(text) and text.word(end) not in (COMMA, FULL_STOP)):
         return None
     count = 2 if both_end else int(amount.value) if amount else "all"
     counted = [_counted(goal, count) for goal in last]
     sentence.notes.passed.append((at, end))
     return (counted, end) if counted != last or all_end or both_end else None
+
+
+def from_there(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """A bun for Ada and a plum for me, *both from the bar*: there all of them are."""
+    text, before = sentence.text, sentence.before
+    both_end = text.phrase_end(_BOTH, at)
+    listed = text.word(at - 1) == COMMA and len(before) > 1 and all(map(_is_fetched, before))
+    end = both_end or text.phrase_end(_OF_ALL | _ALL, at) or (at if listed else None)
+    start = text.phrase_end(lexicon.SOURCEWARDS, end) if end else None
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.is_spot or not last:
+        return None
+    some = max(2, len(last)) if both_end else len(before)
+    at_ = to_place(phrase, sentence.scope)
+    found = [_found_at(goal, at_) for goal in before[-some:]]
+    del before[-some:]
+    return found, phrase.end
+
+
+def _is_fetched(goal: Goal) -> bool:
+    return isinstance(goal, Bring) and goal.object.at is None
+
+
+def _found_at(goal: Goal, place: str) -> Goal:
+    """The goal with its thing at a place, unless it is said where that is."""
+    thing = getattr(goal, "object", None)
+    if not isinstance(thing, ObjectQuery) or thing.held or thing.at:
+        return goal
+    return substitute(goal, thing, replace(thing, at=place))
 
 
 def _counted(goal: Goal, count: int | Literal["all"]) -> Goal:

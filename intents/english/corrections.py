@@ -6,7 +6,7 @@ from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence, clause_by_itself
-from intents.english.substitution import substitute
+from intents.english.substitution import goes_to_somebody, redirected, substitute
 from intents.english.trouble import Misfit
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases, words
@@ -139,16 +139,13 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if verbs_at(text.words, end):
         scope.person_is_last = False  # "them" is what was to be fetched, not for whom
         return clause_by_itself(sentence, end)
+    whither = _redirected(sentence, end, last)
+    if whither:
+        return whither
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
     if phrase is None:
         return None
-    source = text.phrase_end(SOURCEWARDS, phrase.end + 1)
-    spot = noun_phrase(text, source) if source and text.word(phrase.end) == COMMA else None
-    source = source if spot else text.phrase_end(SOURCEWARDS, phrase.end)
-    spot = spot or (noun_phrase(text, source) if source else None)
-    if spot is not None and spot.is_spot and not phrase.is_spot:
-        phrase.places.append(Locative(None, spot))  # two gloves, from the cabinet
-        phrase.end = spot.end
+    _take_source(text, phrase)
     old = scope.person if is_person(phrase, scope) else scope.object
     if phrase.is_spot:
         old, new = scope.place, to_place(phrase, scope)
@@ -166,6 +163,35 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if reason is not None:
         sentence.notes.passed.append((end, reason))
     return [substitute(g, old, new) for g in last], reason or end
+
+
+def _redirected(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """No, *to Leo*: what was to go to somebody or somewhere else."""
+    text, scope = sentence.text, sentence.scope
+    start = text.phrase_end(GOALWARDS, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None:
+        return None
+    somebody = is_person(phrase, scope) or phrase.noun == "operator"
+    if not somebody and not (phrase.is_spot and any(map(goes_to_somebody, last))):
+        return None
+    to = to_person(phrase, scope) if somebody else to_place(phrase, scope)
+    goals = [redirected(goal, to) for goal in last]
+    if goals == last:
+        return None
+    scope.mention(to)
+    return goals, _past_marker(text, phrase.end)
+
+
+def _take_source(text: Text, phrase: NounPhrase) -> None:
+    """Two gloves, *from the cabinet*: that is where they are."""
+    source = text.phrase_end(SOURCEWARDS, phrase.end + 1)
+    spot = noun_phrase(text, source) if source and text.word(phrase.end) == COMMA else None
+    source = source if spot else text.phrase_end(SOURCEWARDS, phrase.end)
+    spot = spot or (noun_phrase(text, source) if source else None)
+    if spot is not None and spot.is_spot and not phrase.is_spot:
+        phrase.places.append(Locative(None, spot))
+        phrase.end = spot.end
 
 
 def _reason_end(text: Text, phrase: NounPhrase) -> int | None:
@@ -241,6 +267,8 @@ def _told_apart(text: Text, at: int, old: ObjectQuery | None) -> int | None:
     phrase = None if verbs_at(text.words, at) else noun_phrase(text, at)
     if phrase is None or phrase.noun != "one":
         return None
+    if text.index.sibling(old.name or "", color=phrase.color, size=phrase.size) != (old.name or ""):
+        return None  # the red mug. Now the blue one
     closed = phrase.end >= len(text) or text.word(phrase.end) == FULL_STOP
     told = (phrase.color and not old.color) or (phrase.size and not old.size)
     most = phrase.superlative and (

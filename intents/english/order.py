@@ -23,6 +23,7 @@ from intents.english.corrections import correction
 from intents.english.reading import Rules
 from intents.english.readings import (
     asides,
+    beneficiaries,
     conditionals,
     ellipsis,
     ends,
@@ -63,6 +64,8 @@ RULES = Rules(
         remarks.left_somewhere,
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
+        # Before a need of its own: "Ada needs it" tells for whom what was asked for is.
+        beneficiaries.meant_for,
         needs.needed,
         needs.required,
         needs.will_do,
@@ -85,8 +88,11 @@ RULES = Rules(
         movements.patrol,
         verb.tidied_by,
         trying.tried,
+        questions.went_to_see,
         questions.whether,
         questions.seen,
+        questions.which_room,
+        questions.inside,
         questions.any_left,
         without_verb.fist,
         without_verb.head,
@@ -103,6 +109,8 @@ RULES = Rules(
         # phrase: "find Emil at the sofa and Ada in the hall. Greet her" finds both.
         ellipsis.served,
         ellipsis.likewise,
+        ellipsis.counted_out,
+        ellipsis.also_for,
         ellipsis.follow_up,
         ellipsis.gapped_after_and,
         fronted.out_of,
@@ -133,10 +141,12 @@ RULES = Rules(
         afterthoughts.left_undone,
         exclusions.excluded,
         afterthoughts.not_now,
+        afterthoughts.from_there,
         afterthoughts.so_many,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,
+        afterthoughts.later,
         afterthoughts.so_often,
         afterthoughts.who_asks,
     ),

@@ -4,7 +4,7 @@ from typing import Any, cast
 
 import msgspec
 
-from intents.goals import Goal, ObjectQuery, Person
+from intents.goals import Bring, ForEach, Give, Goal, ObjectQuery, Person, Place
 
 
 def substitute(
@@ -12,6 +12,30 @@ def substitute(
 ) -> Goal:
     """A goal with one thing in place of another, wherever it stands."""
     return cast("Goal", _replaced(goal, old, new))
+
+
+def redirected(goal: Goal, to: Person | str) -> Goal:
+    """A goal that takes something to somebody or somewhere else; others as they are."""
+    match goal:
+        case ForEach(goals=inner):
+            return msgspec.structs.replace(goal, goals=tuple(redirected(g, to) for g in inner))
+        case Bring():
+            return msgspec.structs.replace(goal, to=to)
+        case Give() if isinstance(to, Person):
+            return msgspec.structs.replace(goal, to=to)
+        case Give() | Place(part=None, relation=None):
+            if isinstance(to, Person):
+                return Bring(object=goal.object, to=to)
+            return Place(object=goal.object, on=to)
+        case _:
+            return goal
+
+
+def goes_to_somebody(goal: Goal) -> bool:
+    """Whether a goal takes something to a person."""
+    if isinstance(goal, ForEach):
+        return any(map(goes_to_somebody, goal.goals))
+    return isinstance(goal, Give) or (isinstance(goal, Bring) and isinstance(goal.to, Person))
 
 
 def _same(value: object, old: ObjectQuery | Person | str) -> bool:

@@ -32,10 +32,11 @@ from intents.goals import (
 )
 
 IF = phrases(
-    "if,in case,when,whenever,unless,only if,only when,as long as,provided that,once,as soon as"
+    "if,in case,when,whenever,each time,every time,any time,unless,only if,only when,"
+    "as long as,provided that,once,as soon as"
 )
 """How a condition begins."""
-_WHEN = phrases("when,once,as soon as,whenever")
+_WHEN = phrases("when,once,as soon as,whenever,each time,every time,any time")
 _EMPTY_HANDED = phrases(
     "your hands are empty,your hand is empty,your gripper is empty,you hold nothing,"
     "you are holding nothing,you have nothing in your hands,you have nothing in your hand,"

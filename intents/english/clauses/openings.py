@@ -92,8 +92,9 @@ def _opening_end(text: Text, at: int) -> int | None:
         return None  # mind the step
     if text.words[at : at + 2] == ["no", "need"] or text.words[at : at + 3] == _NEED_NOT:
         return None  # no need to come; you need not come
-    if text.words[at:end] == ["no"] and is_content(text, end) and not verbs_at(text.words, end):
-        return None  # no milk for Emil
+    bidden = verbs_at(text.words, end) and not text.word(end).endswith("ing")
+    if text.words[at:end] == ["no"] and is_content(text, end) and not bidden:
+        return None  # no milk for Emil; no running in the hall
     if text.words[at:end] == ["do"] and not (verbs_at(text.words, end) or text.word(end) == "be"):
         return None  # do fetch it; but: do three squats
     open_ended = text.word(end - 1) in ("to", "there", "you", "next", "and", "me")

@@ -111,6 +111,8 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
     if text.word(at) == QUOTE:
         return _quotes(text, at, scope)
+    if text.word(at) == COMMA and text.word(at - 1).endswith("ing"):
+        raise Misfit("that is to say nothing")  # we are not speaking, though we nod
     itself = about_robot(text, at) if text.word(at - 1) in ("state", "declare") else None
     if itself:
         return itself  # state your position

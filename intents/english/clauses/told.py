@@ -27,10 +27,12 @@ _SUBJECTLESS = lexicon.phrases(
     "trying to,been"
 )
 """How a statement begins whose subject goes without saying: "can't talk, ..."."""
+_WHENEVER = lexicon.phrases("whenever,each time,every time,any time,everytime,anytime")
+"""What follows is no background: it says when, and how often."""
 _STATES = lexicon.words(
     "is are am was were 's has had have can could will would do does did may might keeps seems "
     "looks feels smells sounds needs wants likes loves hates says means thinks knows works hurts "
-    "rings comes goes gets makes takes belongs"
+    "rings comes goes gets makes takes belongs lives"
 )
 """What a subject is followed by, if no other verb of the third person or of the past."""
 _OBLIGES = lexicon.words("should must ought shall needs need")
@@ -56,6 +58,8 @@ _REACH = 6
 
 def told_end(text: Text, at: int) -> int | None:
     """Where a clause ends that only tells something, if one begins at a word."""
+    if text.phrase_end(_WHENEVER, at):
+        return None
     subjectless = text.phrase_end(_SUBJECTLESS, at)
     if subjectless and text.word(subjectless) not in ("you", "we"):
         return _end(text, subjectless, past=False, being=False)

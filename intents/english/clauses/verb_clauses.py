@@ -6,6 +6,7 @@ from intents.english.clauses.pieces import behind_commas
 from intents.english.clauses.questions import counted
 from intents.english.clauses.saying import answer, describe, inform, say, tell
 from intents.english.frames import FRAMES
+from intents.english.frames.mission import is_stopover
 from intents.english.phrases.complements import (
     Clause,
     Complement,
@@ -111,7 +112,7 @@ def _in_sense(
     given_up = sense == "cancel" and text.word(first).endswith("ing")
     if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
         raise Misfit("that is not to be moved")
-    if sense == "stop" or given_up:
+    if (sense == "stop" and not is_stopover(complements, scope)) or given_up:
         complements = []  # what is to be stopped or given up is all that is going on
         while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
             end += 1

@@ -21,6 +21,7 @@ _SWITCHABLE = words(
     "vacuum kettle microwave dishwasher socket plug screen monitor projector hob boiler washer "
     "dryer toaster device chandelier"
 )
+_ONLY_SWITCHED = words("light lamp tv television telly fan heater radio stereo speaker projector")
 _APPLIANCES = _SWITCHABLE | words("radio stereo speaker printer blender mixer console")
 """What is a device where a world has it; not all of them are in every home."""
 
@@ -81,12 +82,19 @@ def is_device(goal: Goal) -> bool:
 
 def open_(clause: Clause, scope: Scope) -> list[Goal]:
     """Open the fridge; open your hand."""
-    return [Open(what=w) for w in _opened(clause, scope, "open")]
+    names = _opened(clause, scope, "open")
+    return [Switch(what=w, on=True) if _only_switched(w) else Open(what=w) for w in names]
 
 
 def close(clause: Clause, scope: Scope) -> list[Goal]:
     """Close the drawer."""
-    return [Close(what=w) for w in _opened(clause, scope, "close")]
+    names = _opened(clause, scope, "close")
+    return [Switch(what=w, on=False) if _only_switched(w) else Close(what=w) for w in names]
+
+
+def _only_switched(name: str) -> bool:
+    """Close *the radio*; open *the lamp*: what has no lid or door is switched, as learners say."""
+    return singular(name.rsplit(maxsplit=1)[-1].lower()) in _ONLY_SWITCHED
 
 
 def _opened(clause: Clause, scope: Scope, act: str) -> list[str]:

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from intents.english.frames import motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
-from intents.english.phrases.complements import Clause, Complement, connector_end
+from intents.english.phrases.complements import Clause, Complement, connector_end, read_complements
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
@@ -36,6 +36,8 @@ _ON_THE_WAY = words(
     "schlep hump heft nip zip dash shuttle wheel dispatch hoof trundle relay smuggle sneak walk jog"
 )
 """Verbs that take a thing somewhere, and not to who speaks."""
+_IT = words("it they that those")
+_LIVES = words("lives live goes go belongs belong")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -98,7 +100,7 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
     )
     if there or "to" in roles or "into" in roles or (has_receiver and len(roles) > 1):
         return [_put_down(goal) for goal in bring(clause, scope)]
-    if "fetch" in clause.verb.split() and not _is_moved_on(clause):
+    if any(word.startswith("fetch") for word in clause.verb.split()) and not _is_moved_on(clause):
         return bring(clause, scope)
     return pick(clause, scope)
 
@@ -132,6 +134,9 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         need(objects, "What shall I bring?")
         slots.done()
         return [_each(o, lambda q: put_at(q, beside)) for o in objects]
+    shared = _to_each(clause, slots)
+    if shared:
+        return [goal for one in shared for goal in bring(one, scope)]
     into = slots.peek("into")
     inside = into is not None and into.phrase.is_spot and not into.phrase.name("room")
     everyone = [c for c in slots.rest if c.phrases and c.phrase.said in EVERYONE]
@@ -161,6 +166,26 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         return [_each(replace(o, at=o.at or at), lambda q: put_at(q, put)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
+    ]
+
+
+def _to_each(clause: Clause, slots: Slots) -> list[Clause]:
+    """Bring *me the pen* and *the cup to Ada*: a clause for each receiver; else none."""
+    receiver, to = slots.peek(""), slots.peek("to")
+    things = next((c for c in slots.rest if c.role == "" and len(c.phrases) > 1), None)
+    if receiver is None or to is None or things is None or receiver is things:
+        return []
+    if not (is_person(receiver.phrase, slots.scope) and is_person(to.phrase, slots.scope)):
+        return []
+    first, last = (
+        dataclasses.replace(things, phrases=phrases)
+        for phrases in (things.phrases[:-1], things.phrases[-1:])
+    )
+    rest = [c for c in clause.complements if c not in (receiver, things, to)]
+    here = dataclasses.replace(receiver, role="to")
+    return [
+        dataclasses.replace(clause, complements=[first, *rest, here]),
+        dataclasses.replace(clause, complements=[last, *rest, to]),
     ]
 
 
@@ -308,6 +333,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("put what?")
     if spot is None and _throws(clause):
         spot = Target(in_=_trash(scope))
+    spot = spot or _home(clause, scope)
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and clause.verb == "leave":
         raise NotUnderstood("All right, I leave it as it is")
@@ -315,6 +341,16 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
+
+
+def _home(clause: Clause, scope: Scope) -> Target | None:
+    """Put it away, *it lives in the drawer*: where it belongs, told behind the order."""
+    text, at = clause.text, clause.end
+    at += text.word(at) in (COMMA, FULL_STOP)
+    if at >= len(text) or text.word(at) not in _IT or text.word(at + 1) not in _LIVES:
+        return None
+    complements, _ = read_complements(text, at + 2)
+    return destination(Slots(dataclasses.replace(clause, complements=complements), scope))
 
 
 def _is_kept_by_somebody(clause: Clause, slots: Slots) -> bool:

@@ -1,17 +1,41 @@
 """Stopping, pausing and reporting: about the mission and the robot, not about the world."""
 
 from intents.english.frames.slots import Slots
-from intents.english.phrases.complements import Clause
-from intents.english.phrases.referents import ME, Scope
+from intents.english.phrases.complements import Clause, Complement, first_with
+from intents.english.phrases.referents import ME, Scope, to_place
 from intents.english.trouble import Misfit
 from intents.english.words.lexicon import words
-from intents.goals import Cancel, Goal, Pause, Report, ReportTopic, Resume, Stop, Wait
+from intents.goals import (
+    Bring,
+    Cancel,
+    Goal,
+    GoTo,
+    Pause,
+    Pick,
+    Place,
+    Report,
+    ReportTopic,
+    Resume,
+    Stop,
+    Wait,
+)
 
 
 def stop(clause: Clause, scope: Scope) -> list[Goal]:
-    """Stop, with whatever is said after it."""
-    del clause, scope
-    return [Stop()]
+    """Stop, with whatever is said after it; on the way somewhere, stop at the table."""
+    if not is_stopover(clause.complements, scope):
+        return [Stop()]
+    slots = Slots(clause, scope)
+    there = slots.take("at")
+    slots.done()
+    return [GoTo(place=to_place(there.phrase, scope))] if there else [Stop()]
+
+
+def is_stopover(complements: list[Complement], scope: Scope) -> bool:
+    """Whether to stop is to go somewhere in between: "go to the hall, and stop at the bar"."""
+    there = first_with(complements, "at")
+    spot = there is not None and there.phrase.is_spot and there.how in (None, "near")
+    return spot and isinstance(scope.last, GoTo | Place | Bring | Pick)
 
 
 def pause(clause: Clause, scope: Scope) -> list[Goal]:

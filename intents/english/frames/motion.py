@@ -233,7 +233,8 @@ def turn(clause: Clause, scope: Scope) -> list[Goal]:
     second = slots.direction("left", "right", "cw", "ccw")
     target = slots.take("to", "at") or slots.take("")
     slots.done()
-    if target:
+    spot = target is not None and target.role == "at" and target.phrase.is_spot
+    if target and not (spot and direction in ("left", "right")):
         return [_look(target.phrase, scope)]
     if clause.verb.endswith(("around", "round")):
         direction = direction or "around"
@@ -246,7 +247,11 @@ def turn(clause: Clause, scope: Scope) -> list[Goal]:
         whole = clause.verb.startswith("spin") or not direction
         angle = _FULL_TURN if whole else pi if half else pi / 2
     sign = -1.0 if "right" in (direction, second) or "cw" in (direction, second) else 1.0
-    return [GoTo(by=Displacement(turn_rad=round(sign * angle, 6)))]
+    turned = GoTo(by=Displacement(turn_rad=round(sign * angle, 6)))
+    if target is None:
+        return [turned]
+    there = GoTo(place=to_place(target.phrase, scope))  # turn left at the sofa
+    raise Partly("I do one thing after the other", (there, turned))
 
 
 def look(clause: Clause, scope: Scope) -> list[Goal]:
@@ -300,6 +305,10 @@ def find(clause: Clause, scope: Scope) -> list[Goal]:
     at = to_place(area.phrase, scope) if area else None
     slots.take_person("for")
     slots.done()
+    if area and len(area.phrases) > 1:
+        places = [to_place(phrase, scope) for phrase in area.phrases]
+        finds = tuple(_find(phrase, scope, spot) for phrase in sought.phrases for spot in places)
+        raise Partly("I look in one place after the other", finds)
     return [_find(phrase, scope, at) for phrase in sought.phrases]
 
 
@@ -326,6 +335,8 @@ def wait(clause: Clause, scope: Scope) -> list[Goal]:
     place = slots.take("at", "")
     slots.done()
     pause: list[Goal] = [Wait(duration_s=duration)]
+    if "outside" in clause.particles():
+        raise Partly("I cannot tell where outside is", tuple(pause))
     if place is None or place.phrase.noun in ("here", "there"):
         return pause
     return [GoTo(place=to_place(place.phrase, scope)), *pause]

@@ -7,7 +7,18 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
 from intents.english.words.verbs import base_form
-from intents.goals import OPERATOR, Balance, BalanceMode, Gesture, Goal, GoTo, LookAt, Side
+from intents.goals import (
+    OPERATOR,
+    Balance,
+    BalanceMode,
+    Find,
+    Gesture,
+    Goal,
+    GoTo,
+    LookAt,
+    Side,
+    Wait,
+)
 
 _LEGS = ("leg", "legs", "foot", "feet")
 _FLOOR = ("floor", "ground")
@@ -41,10 +52,14 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
     if limb is None:
         place = slots.take("at")
         if place:
+            duration = slots.measure("time")
             slots.done()
+            if is_person(place.phrase, scope):
+                return [Find(person=to_person(place.phrase, scope))]
             must_be_to(place, clause)
             must_be_beside(place.phrase, clause, scope)
-            return [GoTo(place=to_place(place.phrase, scope))]
+            pause: list[Goal] = [Wait(duration_s=duration)] if duration is not None else []
+            return [GoTo(place=to_place(place.phrase, scope)), *pause]
         return _balance(slots, "stand")
     if limb.said not in _LEGS:
         raise NotUnderstood(f"I can stand on one leg or on both, not on my {limb.said}")

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from intents.english.clauses.parentheses import INTERJECTIONS
 from intents.english.faithfulness import CARRYING
 from intents.english.learnt.background import Passed, background
-from intents.english.learnt.looks import said
+from intents.english.learnt.looks import Said, said
 from intents.english.learnt.rewording import is_unheard_verb
 from intents.english.learnt.sight import Sight
 from intents.english.learnt.trust import CERTAIN, NEVER, SURE
@@ -58,14 +58,33 @@ _TELLING = lexicon.words(
 )
 """Ahead of an order these make of it what somebody does, did or said."""
 _EVENTS = ("as soon as ", "every time ", "each time ", "the moment ", "the minute ", "save for ",
-           "apart from ", "other than ")  # fmt: skip
+           "apart from ", "other than ", "whenever ", "any time ", "once i ", "once he ",
+           "once she ", "once they ", "once we ", "once the ", "once it ", "until ")  # fmt: skip
 """What begins so says when something is to be done, or what with it is not."""
 _PICKING = (frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES)) - lexicon.words("little light")
+_NUMBERS = NUMBER_WORDS - lexicon.words("one a an second")
 _OF = lexicon.words("of o") | MEASURES
 _QUOTES = frozenset('"“”')
 _FURTHER = lexicon.words("and plus with also")
 _ASIDES = lexicon.LISTED | ADDRESSES | INTERJECTIONS
 """What is said beside an order in a single word."""
+_MOST_CLAUSES = 4
+"""So many clauses are left out at most."""
+_SUBJECTS_ALONE = lexicon.words(
+    "i i'm i've i'd i'll im ive he he's he'd she she's they they're we we're we've somebody "
+    "someone everybody everyone nobody"
+)
+_LINKS = lexicon.words(
+    "because cos cause coz since so but and or if while when whenever once until till before after "
+    "as than that which who where what how why not"
+)
+_EVENTFUL = lexicon.words("once until till whenever before after as when")
+_OPENING_SUBJECTS = lexicon.words(
+    "it it's its you you're you've there there's theres that's thats this what's"
+)
+"""These begin a clause where a verb of it follows."""
+_REFUSING = lexicon.words("not don't dont never")
+_WHITHER = lexicon.words("to into onto from of off")
 _EDGES = " ,.;:!?-–—…"
 
 
@@ -102,10 +121,80 @@ def remainders(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
     return found
 
 
+def parts(text: str, seen: Sight, index: NameIndex) -> list[Remainder]:
+    """What is left without whole clauses, the likeliest talk first: one of them, two, ...
+
+    Nothing is left out that holds a condition or a denial.
+    """
+    plain = {word.raw.lower() for word in seen.words}
+    if plain & CONDITIONS and not plain & _POLITE:
+        return []  # what hangs on a condition is part of it
+    clauses = _clauses(seen.words)
+    idle = [sum(float(p) for p in seen.idle[a:b]) / (b - a) for a, b in clauses]
+    order = sorted(range(len(clauses)), key=lambda n: -idle[n])
+    found: list[Remainder] = []
+    for most in range(1, min(len(clauses), _MOST_CLAUSES + 1)):
+        spans = _joined(seen, clauses, sorted(order[:most]))
+        if not all(any(map(str.isalnum, text[span.start : span.end])) for span in spans):
+            continue
+        if any(_limits(text, span) or _says_when(text, span) for span in spans):
+            break
+        found.append(_left(text, spans, index))
+    return [one for one in found if any(map(str.isalnum, one.text))]
+
+
+def _clauses(words: list[Said]) -> list[tuple[int, int]]:
+    """From which word to which each clause goes, with the signs behind it."""
+    plain = [word.raw.lower().replace("’", "'") for word in words]
+    starts = [0]
+    for n in range(1, len(words)):
+        after_sign = words[n - 1].is_sign and not words[n].is_sign
+        if after_sign or (n - starts[-1] > 1 and _opens_clause(plain, n)):
+            starts.append(n)
+    if len(starts) > 1 and all(word.is_sign for word in words[: starts[1]]):
+        del starts[1]
+    return list(pairwise([*starts, len(words)]))
+
+
+def _opens_clause(plain: list[str], at: int) -> bool:
+    """Whether a clause begins at a word without a sign before it."""
+    if plain[at - 1] in _LINKS or plain[at - 1 : at + 1] == ["soon", "as"]:
+        return False
+    return _is_subject(plain, at + 1 if plain[at] in _LINKS else at)
+
+
+def _is_subject(plain: list[str], at: int) -> bool:
+    """Whether the subject of a statement stands at a word."""
+    if at >= len(plain):
+        return False
+    following = plain[at + 1] if at + 1 < len(plain) else ""
+    states = following in lexicon.AUXILIARIES or following.endswith("n't") or "'" in plain[at]
+    return plain[at] in _SUBJECTS_ALONE or (plain[at] in _OPENING_SUBJECTS and states)
+
+
+def _joined(seen: Sight, clauses: list[tuple[int, int]], gone: list[int]) -> list[Passed]:
+    """The clauses that are left out, those beside one another as one."""
+    spans: list[Passed] = []
+    for n in gone:
+        first, last = clauses[n]
+        start, end = seen.words[first].start, seen.words[last - 1].end
+        sure = min(float(p) for p in seen.idle[first:last])
+        if spans and n - 1 in gone:
+            spans[-1] = Passed(spans[-1].start, end, min(sure, spans[-1].sure))
+        else:
+            spans.append(Passed(start, end, sure))
+    return spans
+
+
+def _says_when(text: str, span: Passed) -> bool:
+    first = next((w.raw.lower() for w in said(text[span.start :]) if not w.is_sign), "")
+    return first in _EVENTFUL
+
+
 def _limits(text: str, span: Passed) -> bool:
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
     heard = [word for word in words if word[0].isalnum()]
-    denied = "not" in heard[:2] or any(  # "but not before noon"
+    denied = not _REFUSING.isdisjoint(heard[:2]) or any(  # "but not before noon"
         one == "not" and two in TIMES for one, two in pairwise(heard)
     )
     return denied or (bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words))
@@ -141,18 +230,23 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
     found = {
         "manner": NEVER if not others and first.endswith("ly") else 0.0,
         "thing": (NEVER if first in _ARTICLES | _FURTHER else CERTAIN) if thing else 0.0,
-        "where": NEVER if first == "where" else 0.0,  # "where the red one is"
+        "where": NEVER if first == "where" or _leads_there(heard, index) else 0.0,
         "asks": NEVER if first in _ASKING and goes_on else 0.0,  # "how would you ..."
         "which": (NEVER if first in _RELATIVE or len(heard) < _TALK else CERTAIN) if which else 0.0,
         "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
         "how": NEVER if short and first in _HOW else 0.0,
-        "order": NEVER if _is_terse(heard) or _orders(heard) else 0.0,
+        "order": NEVER if _is_terse(heard) or _orders(heard) or _contrasts(heard) else 0.0,
         "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
         "quoted": NEVER if not _QUOTES.isdisjoint(text[span.start : span.end]) else 0.0,
     }
     return {harm: least for harm, least in found.items() if least}
+
+
+def _contrasts(heard: list[str]) -> bool:
+    """Whether an order is set against the one before: "but stay outside"."""
+    return heard[0] == "but" and heard[1:2] not in ([], ["mind"]) and bool(verbs_at(heard, 1))
 
 
 def _orders(heard: list[str]) -> bool:
@@ -170,7 +264,22 @@ def _picks_out(heard: list[str], *, short: bool) -> bool:
     """Whether it may say which or how many: "blue, the ones from last week", "four of them"."""
     counts = any(one in NUMBER_WORDS and two in _OF for one, two in pairwise(heard))
     just = heard[0] in ("just", "only") and short
-    return heard[0] in _PICKING or "ones" in heard or counts or just
+    figures = short and any(one[0].isdigit() or one in _NUMBERS for one in heard)
+    coloured = any(one in _PICKING and two == "one" for one, two in pairwise(heard))
+    return heard[0] in _PICKING or "ones" in heard or coloured or counts or just or figures
+
+
+def _leads_there(heard: list[str], index: NameIndex) -> bool:
+    """Whether it begins or ends with where from or to: "out of the shed", "... to the hall"."""
+    for at, word in enumerate(heard[:-1]):
+        if word not in _WHITHER or (at > 1 and verbs_at(heard, at - 1)):
+            continue
+        name = at + 1 + (heard[at + 1] in lexicon.DETERMINERS and at + 2 < len(heard))
+        match = index.match(heard, name)
+        spot = match is not None and match.of("place", "room")
+        if match is not None and spot and (at <= 1 or match.end == len(heard)):
+            return True
+    return False
 
 
 def _is_terse(heard: list[str]) -> bool:

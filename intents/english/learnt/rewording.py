@@ -55,6 +55,8 @@ _LIGHT = lexicon.FUNCTION_WORDS | lexicon.words(
     "quick robot mate pal love dear sir madam buddy"
 )
 """Words that say nothing of what is to be done with a thing."""
+_POLITELY = lexicon.words("don't couldn't can't won't wouldn't shouldn't")
+"""These deny nothing where somebody is only polite: "couldn't you", "I don't suppose"."""
 _POINTING = lexicon.words("them thae her me us these those")
 """Right before a name these say no more than "the"."""
 _MANY = re.compile(r"x?\d.*")
@@ -94,6 +96,8 @@ _FEW = 3
 """So many words are looked back to, and may be lost of what is said in a word or two."""
 _YOU = lexicon.words("you u ya ye you'd you'll yer")
 _OTHERS = lexicon.words("i we he she they who which it someone somebody colleague son man lad")
+_LINKS = lexicon.words("once until till")
+_SUBJECTS = lexicon.words("i i'm he he's she she's they they're we we're the my his her it it's")
 _BEING = lexicon.words("was were been")
 _WILL = lexicon.words("will would who'd he'd she'd they'd which'd gonna to'")
 _STATES = lexicon.words("belongs belonged owns")
@@ -147,7 +151,8 @@ def reworded(
     strange = [word for word in left if word not in found.speaking]
     likely = [float(p) for p in idle] or [0.0] * len(found.words)
     meant_ = [word for n, word in lost if likely[n] < _TALK]
-    if _LIMITING.intersection(meant_) or CONDITIONS.intersection(left):
+    denied = any(word.endswith("n't") and word not in _POLITELY for word in meant_)
+    if denied or _LIMITING.intersection(meant_) or CONDITIONS.intersection(left):
         return None
     asked = [n for n, word in lost if likely[n] < _TALK and word in strange]
     if any(_opens(found.words, n) and is_unheard_verb(found.words[n].raw.lower()) for n in asked):
@@ -175,17 +180,25 @@ def _harms(found: Meant, left: list[str], meant_: list[str], asked: list[int]) -
         "forgotten": _forgotten(found),
         "manner": any(word.endswith("ly") and word not in COMMENTING | _LIGHT for word in left),
         "either": _is_either(found),
+        "event": any(_is_event(words, n) for n, _ in _left(found)),
         "question": _is_question(found),
         "further": any(n > 0 and _opens(words, n) and _is_verb(words[n]) for n in asked)
         or any(_does_something(words, n) for n, _ in _left(found)),
         "told": _is_told(found),
         "dangling": words[-1].raw.lower() in _LEADING,
+        "where": found.act in _ORDERS and "where" in left,
         "bare": found.act in _ORDERS and _is_much(found, left),
         "verb": _begins_otherwise(found, dict(_left(found))),
         "switch": found.act not in ("switch_on", "switch_off") and _switches(found),
     }
     strange = (_strangeness(words, n) for n in asked)
     return frozenset([*(harm for harm, is_so in told.items() if is_so), *filter(None, strange)])
+
+
+def _is_event(words: list[Said], at: int) -> bool:
+    """Whether it hangs on what happens: "once I am done", "until he comes"."""
+    word, after = (words[n].raw.lower() if n < len(words) else "" for n in (at, at + 1))
+    return word == "whenever" or (word in _LINKS and (after in _SUBJECTS or after in _YOU))
 
 
 def _is_much(found: Meant, left: list[str]) -> bool:

@@ -21,8 +21,8 @@ RIGHT, WRONG = "right", "wrong"
 SURE, CERTAIN, NEVER = 0.85, 0.9, 2.0
 """How likely a reading has to be to be acted on: where nothing is lost that may change what is
 asked; where something is that seldom does; where something is that mostly does."""
-Source = Literal["whole", "rest", "plain"]
-"""A sentence as it stands, without its background, or in plain words."""
+Source = Literal["whole", "rest", "part", "plain"]
+"""A sentence as it stands, without its background, without whole clauses, or in plain words."""
 _Plain = dict[str, Any]
 _HANDLING = frozenset({"bring", "place", "pick", "find"})
 """Acts of which one may stand for another: fetching is finding, taking and bringing."""

@@ -152,11 +152,31 @@ def ends_clause(text: Text, at: int) -> bool:
         return text.word(at + 2) not in _ON_IT
     if word in _SPEAKERS and _tells_something(text, at + 1):
         return True
-    if tells_when(text, at):
+    if tells_when(text, at) or _orders_steps(text, at):
+        return True
+    if told_later(text, at):
         return True
     if word == "without" and text.word(at + 1).endswith("ing"):
         return True
     return text.words[at : at + 2] in _LINKS or bool(connector_end(text, at))
+
+
+def told_later(text: Text, at: int) -> Measure | None:
+    """Switch it off *in ten minutes*: how long to wait before, at the end of a clause."""
+    amount = measure(text.words, at + 1) if text.word(at) == "in" and at else None
+    if amount is None or amount.kind != "time" or text.name_at(at + 1):
+        return None
+    closes = amount.end >= len(text) or text.word(amount.end) in (COMMA, FULL_STOP)
+    return amount if closes else None
+
+
+def _orders_steps(text: Text, at: int) -> bool:
+    """Whether "before" or "after" stands before another step: "before *you go*, after *waving*"."""
+    if text.word(at) not in ("before", "after"):
+        return False
+    doing = text.word(at + 1).endswith("ing") and not text.name_at(at + 1)
+    start = at + 1 + (text.word(at + 1) == "you")
+    return (doing or start > at + 1) and bool(verbs_at(text.words, start))
 
 
 def _tells_something(text: Text, at: int) -> bool:
@@ -369,6 +389,23 @@ def read_list(text: Text, at: int) -> tuple[list[NounPhrase], int]:
         end = following.end
 
 
+def _likened(text: Text, item: NounPhrase, last: NounPhrase) -> NounPhrase | None:
+    """The red cup and *the blue one*: another of what stands before it."""
+    told = item.color or item.size
+    closed = ends_clause(text, item.end) or _preposition(text, item.end)[0]
+    known = last.name("object", "category")
+    other = text.index.sibling(known, color=item.color, size=item.size)
+    if not told or item.other or not closed:
+        return None
+    if not other:
+        item.noun, item.said = "unknown", f"{told} one"
+        return item
+    item.noun, item.said, item.exact, item.names = "name", last.said, last.exact, last.names
+    if other != known:
+        item.said, item.names, item.color, item.size = other, text.index.exact(other), None, None
+    return item
+
+
 def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
     """The noun phrase after "and" - not the beginning of another clause."""
     start = at + (text.word(at) == COMMA)
@@ -380,6 +417,9 @@ def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
     if verbs_at(text.words, start) and not named:
         return None
     item = noun_phrase(text, start)
+    linked = text.word(start - 1) != COMMA  # a cup, the red one: that is which
+    if item is not None and item.noun == "one" and last.name("object", "category") and linked:
+        return _likened(text, item, last)
     if item is None or item.noun not in ("name", "object", "unknown") or item.is_person:
         return None
     if item.noun == "unknown" and not item.determiner:

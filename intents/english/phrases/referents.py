@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.pronouns import HELD
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
+from intents.english.words.lexer import singular
 from intents.english.words.names import NameIndex
 from intents.goals import (
     OPERATOR,
@@ -103,9 +104,17 @@ def is_person(phrase: NounPhrase, scope: Scope) -> bool:
         if phrase.said in ("him", "her", "he", "she"):
             return True
         if phrase.said in ("them", "they") and scope.person_is_last:
-            return True
+            return not _is_many(scope.object)
         return scope.person is not None and scope.object is None
     return phrase.is_person
+
+
+def _is_many(thing: ObjectQuery | None) -> bool:
+    """Whether things are meant rather than one: two cups; her glasses."""
+    if thing is None:
+        return False
+    last = (thing.name or thing.category or "").split()[-1:]
+    return thing.count not in (None, 1) or any(singular(word) != word for word in last)
 
 
 def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> ObjectQuery:
@@ -135,11 +144,18 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
             superlative = "leftmost" if place.how == "left" else "rightmost"
     if phrase.side and superlative is None:
         superlative = "leftmost" if phrase.side == "left" else "rightmost"
+    color, size = phrase.color, phrase.size
+    if phrase.noun == "one" and name:
+        other = scope.index.sibling(name, color=color, size=size)
+        if not other:
+            raise NotUnderstood(f"I know no {color or size} one besides the {name}")
+        if other != name:
+            name, color, size = other, None, None
     query = ObjectQuery(
         name=name or None,
         category=category or None,
-        color=phrase.color,
-        size=phrase.size,
+        color=color,
+        size=size,
         superlative=superlative,
         count=phrase.count or (1 if _is_any(phrase) else None),
         at=at,

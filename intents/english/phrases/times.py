@@ -7,10 +7,13 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
 
 _TIMES = lexicon.words("dinner lunch breakfast supper tea noon midnight bedtime tonight tomorrow")
+_SUBJECTS = lexicon.words("i we he she they")
 
 
 def tells_when(text: Text, at: int) -> bool:
     """Whether "before" or "until" stands before a clause: "before *Anna gets home*"."""
+    if text.word(at) == "once":
+        return text.word(at + 1) in _SUBJECTS and text.word(at + 2)[0].isalpha()
     if text.word(at) not in ("before", "after", "until"):
         return False
     if text.word(at + 1) in _TIMES:

@@ -231,6 +231,9 @@ _KIN = lexicon.words(
 )
 
 
+_TAKES_BACK = lexicon.words("no nah nope sorry wait rather oops actually pardon")
+
+
 def somebody_else(text: Text) -> str:
     """Who is spoken to by name and is not the robot; empty if nobody is.
 
@@ -251,4 +254,6 @@ def somebody_else(text: Text) -> str:
     person = listed and _names(text, last - 2, last - 1) and (
         _names(text, last - 2, last - 1)[0].kind == "person"
     )  # fmt: skip
-    return text.raw(last, len(text)) if named and not person and verbs_at(text.words, 0) else ""
+    taken_back = text.word(last - 2) in _TAKES_BACK  # to Leo, no, Mia
+    addressed = named and not person and not taken_back and verbs_at(text.words, 0)
+    return text.raw(last, len(text)) if addressed else ""

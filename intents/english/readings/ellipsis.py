@@ -10,7 +10,8 @@ from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
-from intents.english.words.lexer import FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.measures import number
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Balance,
@@ -54,6 +55,8 @@ _BIT = 0.25
 _LEAST_BIT_M, _LEAST_BIT_RAD, _LEAST_BIT_S = 0.1, 0.17, 1.0
 """Of what a robot does and people see; never more than the last amount."""
 _SIDES = lexicon.words("left right up down ahead behind")
+_TELLERS = lexicon.words("i we he she they")
+"""What begins a statement, and no second object: "come with me, *I am afraid*"."""
 _LINKING = ("and", "also", "then", "plus", "next", "about")
 
 
@@ -157,10 +160,43 @@ def _with_another(last: Goal, phrase: NounPhrase, scope: Scope) -> list[Goal]:
     return []
 
 
+def counted_out(sentence: Sentence, at: int) -> Found | None:
+    """A bun for Ada, *two for Leo*: so many of the same for somebody else."""
+    text, last = sentence.text, sentence.scope.last
+    amount = number(text.words, at)
+    linked = text.word(at - 1) in (COMMA, "and")
+    if amount is None or not linked or not isinstance(last, Bring | Give):
+        return None
+    phrase = noun_phrase(text, amount.end + 1) if text.word(amount.end) in ("for", "to") else None
+    if phrase is None or not (phrase.is_person or phrase.noun == "operator"):
+        return None
+    if amount.value != int(amount.value) or amount.value < 1 or last.object.held:
+        return None
+    some = replace(last.object, count=int(amount.value))
+    return [Bring(object=some, to=to_person(phrase, sentence.scope))], phrase.end
+
+
+def also_for(sentence: Sentence, at: int) -> Found | None:
+    """A bun to Ada *and Leo*: the same for another."""
+    text, last = sentence.text, sentence.before[-1] if sentence.before else None
+    goal = _inner(last) if last is not None else None
+    if not isinstance(goal, Bring | Give) or not isinstance(goal.to, Person):
+        return None
+    phrase = noun_phrase(text, at) if text.word(at - 1) in (COMMA, "and") else None
+    if phrase is None or not (phrase.name("person") or phrase.noun == "operator"):
+        return None
+    listed = text.word(phrase.end) == "and" and noun_phrase(text, phrase.end + 1)
+    if not (ends_clause(text, phrase.end) or listed) or text.word(phrase.end - 1) == "i":
+        return None
+    to = to_person(phrase, sentence.scope)
+    again = replace(goal, to=to)
+    return [replace(last, goals=(again,)) if isinstance(last, ForEach) else again], phrase.end
+
+
 def gapped(sentence: Sentence, at: int) -> Found | None:
     """Put the cup on the table and *the plate on the shelf*: the verb is the one before."""
     said = sentence.notes.verb
-    if said is None:
+    if said is None or sentence.text.word(at) in _TELLERS:
         return None
     complements, end = read_complements(sentence.text, at)
     again = bool(sentence.before) and _has_direction(sentence.before[-1])  # "left and then right"
@@ -179,7 +215,13 @@ def _to_the_same(sentence: Sentence, goals: list[Goal]) -> list[Goal]:
     if not isinstance(last, Bring | Give) or not isinstance(last.to, Person):
         return goals
     to = last.to
-    return [replace(g, to=to) if isinstance(g, Bring) and g.to == ME else g for g in goals]
+    return [_brought_to(goal, to) for goal in goals]
+
+
+def _brought_to(goal: Goal, to: Person) -> Goal:
+    if isinstance(goal, Pick):
+        return Bring(object=goal.object, to=to)
+    return replace(goal, to=to) if isinstance(goal, Bring) and goal.to == ME else goal
 
 
 def _has_direction(goal: Goal) -> bool:

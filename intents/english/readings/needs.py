@@ -26,13 +26,16 @@ _LOST = lexicon.phrases(
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
     "i am missing,we can not find"
 )
-_NEEDS = lexicon.phrases(
+NEEDS = lexicon.phrases(
     "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
     "is asking for,asks for,ordered,has ordered,is waiting for,requested,has requested,requires,"
     "is in need of,could use,fancies,is after,'s after,desires,craves,is wanting,is needing,"
     "is dying for,is gasping for,keeps asking for,has been asking for,could do with,"
-    "would appreciate,would fancy,would not mind,'d like,wishes for,wishes to have"
+    "would appreciate,would fancy,would not mind,'d like,wishes for,wishes to have,is to get,"
+    "is to have,should get,should have,shall have,can have"
 )
+_GETS = lexicon.phrases("gets,gets to have,receives")
+"""The same where it goes on from an order: "the pen to Ada, and Leo *gets* the cup"."""
 _NEEDS_TO_GO = lexicon.phrases(
     "needs to get,needs to go,wants to go,wants to get,would like to go,would like to get,"
     "has to go,has to get,must go,must get,needs to be brought,needs to be taken,"
@@ -77,11 +80,14 @@ def needed(sentence: Sentence, at: int) -> Found | None:
     if verbs_at(text.words, at) and not text.name_at(at):
         return None
     phrase = noun_phrase(text, at)
-    if phrase is None or not phrase.is_person or phrase.noun == "operator":
+    known = phrase is not None and phrase.said in ("he", "she") and scope.person is not None
+    if phrase is None or not (phrase.is_person or known) or phrase.noun == "operator":
         return None
     going, needing = text.phrase_end(_NEEDS_TO_GO, phrase.end), None
     if going is None:
-        needing = text.phrase_end(_NEEDS, phrase.end)
+        needing = text.phrase_end(NEEDS, phrase.end)
+        if needing is None and sentence.before:
+            needing = text.phrase_end(_GETS, phrase.end)
     complements, end = read_complements(text, going or needing or phrase.end)
     if going:
         goal = first_with(complements, "to", "into")

@@ -4,17 +4,30 @@ from msgspec.structs import replace
 
 from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
+from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.referents import to_object
+from intents.english.phrases.referents import ME, sought, to_object
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
-from intents.goals import Find
+from intents.goals import Count, Find, ObjectQuery, Tell
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
 
+_GOES = lexicon.phrases(
+    "go and have a look,go have a look,have a look,take a look,go and take a look,go look,"
+    "go and look,go and check,go check,go and see,go see,check,have a look for me,check for me,"
+    "go and find out,find out,look and see"
+)
+"""How one goes to see what was asked; nothing more is to be done."""
+_INSIDE = frozenset(
+    (*told.split(), *what.split())
+    for told in ("", "tell me", "see", "look", "say", "let me know", "report", "check")
+    for what in ("what is inside", "what is in it", "what is in there", "what is inside it")
+)
 _SEEN = lexicon.phrases(
     "has anyone seen,has anybody seen,did anyone see,anyone seen,do we have,do we still have,"
-    "have we got,have we still got,is there still,are there still,do we happen to have"
+    "have we got,have we still got,is there still,are there still,do we happen to have,"
+    "did i leave,did i put,did i forget,have i left,have i forgotten,did i drop,did we leave"
 )
 
 
@@ -28,6 +41,28 @@ def question(sentence: Sentence, at: int) -> Found | None:
     if sentence.text.word(at) == "if":
         return None  # a condition, of which a part may not be understood
     return syntax.question(sentence.text, at, sentence.scope)
+
+
+def which_room(sentence: Sentence, at: int) -> Found | None:
+    """Which room is Ada in? What room are the keys in?"""
+    text = sentence.text
+    asked = text.word(at) in ("which", "what") and text.word(at + 1) in ("room", "place")
+    phrase = noun_phrase(text, at + 3) if asked and text.word(at + 2) in ("is", "are") else None
+    if phrase is None or not (phrase.name("object", "category") or phrase.is_person):
+        return None
+    end = phrase.end + (text.word(phrase.end) == "in")
+    return ([sought(phrase, sentence.scope)], end) if ends_clause(text, end) else None
+
+
+def inside(sentence: Sentence, at: int) -> Found | None:
+    """Open the cupboard and tell me *what is inside*."""
+    text, scope = sentence.text, sentence.scope
+    end = text.phrase_end(_INSIDE, at)
+    place = scope.device or scope.place
+    if end is None or place is None or not ends_clause(text, end):
+        return None
+    to = ME if "me" in text.words[at:end] else None
+    return [Tell(property="name", object=ObjectQuery(at=place), to=to)], end
 
 
 def any_left(sentence: Sentence, at: int) -> Found | None:
@@ -52,8 +87,20 @@ def whether(sentence: Sentence, at: int) -> Found | None:
     if text.word(start) in ("if", "whether") and there:
         return there
     counts = text.words[start : start + 2] == ["how", "many"]
-    asked = counts or text.word(start) in ("if", "whether")
+    asked = counts or text.word(start) in ("if", "whether", "who", "what", "which")
     return syntax.question(text, start, sentence.scope) if asked else None
+
+
+def went_to_see(sentence: Sentence, at: int) -> Found | None:
+    """I wonder whether Ada is in the hall, *could you go and have a look*."""
+    text, before = sentence.text, sentence.before
+    end = text.phrase_end(_GOES, at)
+    if end is None or not ends_clause(text, end):
+        return None
+    if before:
+        return ([], end) if isinstance(before[-1], Find | Count | Tell) else None
+    there = sentence.scope.object  # I think I left my cap in the hall, could you check
+    return ([Find(object=there)], end) if there is not None and there.at and at else None
 
 
 def _is_there(sentence: Sentence, at: int) -> Found | None:

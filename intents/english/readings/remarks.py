@@ -4,7 +4,7 @@
 """
 
 from intents.english.clauses.statements import IS, mention_phrase, stated
-from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.reading import Found, Sentence
 from intents.english.substitution import substitute
@@ -17,10 +17,12 @@ _KNOWN = lexicon.phrases(
     "i left,i put,i placed,i forgot,i saw,i dropped,i have left,i have put,i have forgotten,"
     "i have seen,i just saw,i just put,we left,we put,we have left,you left,you put,i keep,we keep,"
     "we have,i have,i must have left,i might have left,i may have left,i think i left,"
-    "i have dropped,she left,he left,they left,he forgot,she forgot,somebody left,someone left"
+    "i have dropped,i set,i laid,i stuck,i parked,i popped,i stowed,i stashed,i tucked,i hung,"
+    "she left,he left,they left,he forgot,she forgot,somebody left,someone left"
 )
 _TAKEN_UP = lexicon.words("it them one ones that those")
 _SOMEWHERE = lexicon.words("somewhere here there yesterday earlier today just now around again")
+_ABOUT = lexicon.words("down back away up out off")
 _SHORT = 4
 """What is said of somebody in so many words is a remark."""
 
@@ -31,6 +33,9 @@ def left_somewhere(sentence: Sentence, at: int) -> Found | None:
     phrase = noun_phrase(sentence.text, start) if start else None
     if phrase is None:
         return None
+    if sentence.text.word(phrase.end) in _ABOUT and not phrase.places:
+        phrase.end += 1  # I set it down on the bench
+        read_postmodifiers(sentence.text, phrase)
     if phrase.said in ("it", "them") and phrase.places:
         _told_of_last(sentence, phrase)
     elif phrase.name("object", "category"):

@@ -38,18 +38,24 @@ _MUCH = lexicon.words(
 ADDRESSES = lexicon.words(
     "love luv dear dearie darling sweetheart sweetie honey hun hon pet duck mate matey pal buddy "
     "bud bro dude man guv boss chief friend robot bot droid machine sir madam maam mister champ "
-    "sunshine babe doll chap fella lad lass mister buster genius tinman oi yo hey ahem"
+    "duck ducky duckie petal hinny treacle sunshine babe doll chap fella lad lass "
+    "mister buster genius tinman oi yo hey ahem"
 )
 """What the robot may be called."""
 _FAMILIAR = lexicon.words(
     "love luv dear darling sweetheart honey hun mate pal buddy bro dude robot bot sir champ"
 )
 """What needs no comma before it at the end."""
-_ADDRESSED = lexicon.words("my good old little dear you the clever")
+_ADDRESSED = lexicon.words("my me good old little dear you the clever")
 _CURSES = lexicon.words(
     "bloody fucking fuckin damn damned goddamn freaking frigging effing flipping blasted ruddy "
     "goddamned sodding"
 )
+_EXPLETIVES = lexicon.phrases(
+    "the hell,the heck,the fuck,the devil,the dickens,the blazes,the deuce,tf,on earth,"
+    "in the world,in heaven 's name,in god 's name"
+)
+"""What behind a question word only says how keen one is to know."""
 _TAILS = lexicon.phrases(
     "already,pronto,chop chop,sharpish,on the double,stat,quick smart,this instant,this minute,"
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
@@ -81,13 +87,16 @@ _HEDGES = lexicon.words(
     "hoping ya do should be obliged indebted thankful delighted pleased glad happy honoured "
     "honored most ever esteem consider count a favour favor request suggest propose kindest "
     "gracious nice much so immensely eternally exceedingly deeply shall kindness goodness "
-    "courtesy have had the please"
+    "courtesy have had the please suppose supposing persuaded persuade convinced tempted prevail "
+    "upon see your way clear find heart in yourself manage what are chances odds getting honour "
+    "feel inclined disposed minded care consider considering dream"
 )
 _HEDGED = lexicon.words(
     "kill hurt wondering wonder wondered inconvenience trouble bother chance mind possibly "
     "terribly awfully appreciate grateful perhaps happen hoping hope possible might maybe obliged "
     "indebted thankful delighted pleased honoured honored kindness goodness courtesy esteem "
-    "favour favor request suggest propose"
+    "favour favor request suggest propose persuaded persuade convinced tempted prevail way heart "
+    "chances odds honour inclined disposed minded consider considering"
 )
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
@@ -154,7 +163,8 @@ def _hedge(words: list[str], at: int) -> int | None:
     said = words[at:end]
     wished = said[-2:] == ["if", "you"] and "would" in said
     wished = wished or said[-2:] in (["as", "to"], ["enough", "to"])
-    hedged = (_HEDGED.intersection(said) or wished) and "you" in said and end > at + 2
+    addressed = "you" in said or "your" in said
+    hedged = (_HEDGED.intersection(said) or wished) and addressed and end > at + 2
     return end if hedged and _is_verb(words, end) and said[-1] != "for" else None
 
 
@@ -279,6 +289,8 @@ def _small_word(words: list[str], at: int) -> int | None:
     """*Exactly* three; the *bloody* cup; so *like* can you."""
     if words[at] in _CURSES:
         return at + 1
+    if _word(words, at - 1) in lexicon.WH and (end := _phrase_end(_EXPLETIVES, words, at)):
+        return end
     if words[at] in ("very", "really", "quite", "extra", "super", "ever") and (
         tuple(words[at + 1 : at + 2]) in lexicon.FILLERS
     ):
@@ -301,8 +313,12 @@ def _small_word(words: list[str], at: int) -> int | None:
         end = at + 2 + (_word(words, at + 2) == "then")
         urged = _word(words, end) == COMMA or end > at + 2
         return end if urged and _is_verb(words, end + (_word(words, end) == COMMA)) else None
-    for end in range(min(len(words), at + 3), at, -1):
-        counted = _word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit()
-        if tuple(words[at:end]) in _SMALL and counted:
-            return end
-    return None
+    end = _phrase_end(_SMALL, words, at)
+    counted = end and (_word(words, end) in NUMBER_WORDS or _word(words, end)[0].isdigit())
+    return end if counted else None
+
+
+def _phrase_end(table: frozenset[lexicon.Phrase], words: list[str], at: int) -> int | None:
+    """Where the longest phrase of a set at a word ends."""
+    ends = range(min(len(words), at + 4), at, -1)
+    return next((end for end in ends if tuple(words[at:end]) in table), None)

@@ -95,8 +95,10 @@ COMPARATIVES: dict[str, Superlative] = {
 GENDERS: dict[str, Literal["male", "female"]] = {
     "man": "male", "boy": "male", "guy": "male", "gentleman": "male", "male": "male",
     "men": "male", "boys": "male", "guys": "male", "gentlemen": "male", "males": "male",
-    "lad": "male", "dude": "male", "woman": "female", "girl": "female", "lady": "female",
-    "female": "female", "women": "female", "girls": "female", "ladies": "female",
+    "lad": "male", "dude": "male", "fella": "male", "fellow": "male", "bloke": "male",
+    "chap": "male", "gent": "male", "lads": "male", "blokes": "male", "lass": "female",
+    "lassie": "female", "gal": "female", "senora": "female", "woman": "female", "girl": "female",
+    "lady": "female", "female": "female", "women": "female", "girls": "female", "ladies": "female",
     "females": "female",
 }  # fmt: skip
 PERSON_NOUNS = words(

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 from rapidfuzz import fuzz, process
 
 from intents.english.words.lexer import singular, tokenize
-from intents.english.words.lexicon import COLORS
+from intents.english.words.lexicon import COLORS, SIZES
 from intents.english.words.measures import number
 from intents.english.words.synonyms import AKIN, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
@@ -140,6 +140,21 @@ class NameIndex:
     def variants(self, name: str) -> tuple[str, ...]:
         """What tells the things of a name apart, where each has a colour or size of its own."""
         return self._variants.get(name, ())
+
+    def sibling(self, name: str, *, color: str | None = None, size: str | None = None) -> str:
+        """The name that tells another colour or size: "blue mug" for "red mug" and blue.
+
+        The name itself where it tells none; empty where no other is known.
+        """
+        words = _split(name)
+        for meant, marks in ((color, self.colors), (size, SIZES)):
+            at = next((n for n, word in enumerate(words[:-1]) if word in marks), None)
+            if meant is None or at is None:
+                continue
+            alike = [said for said, mark in marks.items() if mark == meant]
+            spelled = (" ".join([*words[:at], said, *words[at + 1 :]]) for said in alike)
+            return next((n.name for said in spelled for n in self.exact(said)), "")
+        return name
 
     def exact(self, spelling: str) -> tuple[Name, ...]:
         """The names that a spelling stands for."""

@@ -26,7 +26,8 @@ from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
-from intents.english.words.verbs import participle_base
+from intents.english.words.verbs import participle_base, verbs_at
+from intents.english.words.ways import in_order
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -38,6 +39,8 @@ _BEFORE_VERBS = words(", . and then to please you")
 _CALLS = words("hey hi hello ok okay dear yo")
 _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
+_ASKED_OF = words("you i me us we not")
+_MODALS = words("might may can could would")
 _WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
@@ -114,7 +117,8 @@ class Text:
         corrected = _wished(plain_quantities(repaired(corrected)))
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
-        plain = _unfinished(unrepeated(_without_fillers(fluent(corrected), self.index)))
+        ordered = in_order(fluent(corrected), self.index)
+        plain = _unfinished(unrepeated(_without_fillers(ordered, self.index)))
         self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
@@ -235,18 +239,6 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     return kept
 
 
-def _said_first(tokens: list[Token]) -> list[Token]:
-    """Bring the cup, but close the door *first*: but first close the door."""
-    words = [t.text for t in tokens]
-    for at in range(len(words) - 1, 2, -1):
-        link = next((n for n in range(at - 1, 0, -1) if words[n] in ("but", COMMA, FULL_STOP)), 0)
-        last = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
-        if words[at] == "first" and last and words[link] == "but" and words[at - 1] != "but":
-            tokens.insert(link + 1, tokens.pop(at))
-            words.insert(link + 1, words.pop(at))
-    return tokens
-
-
 def _done_before(tokens: list[Token]) -> list[Token]:
     """*Having closed* the door: after you close the door."""
     for at in range(len(tokens) - 2, 0, -1):
@@ -263,6 +255,11 @@ def _done_before(tokens: list[Token]) -> list[Token]:
 def _wished(tokens: list[Token]) -> list[Token]:
     """Would it be nice if you *waved*: if you wave."""
     words = [t.text for t in tokens]
+    asked = words.index("ask") if "ask" in words else len(words)
+    if words[asked + 2 : asked + 3] == ["to"] and words[asked + 1] not in _ASKED_OF:
+        tokens[asked] = Token("tell", tokens[asked].raw)  # ask Ada to come here
+    if words[1:2] == ["one"] and words[0] in _MODALS:
+        tokens[1] = Token("i", tokens[1].raw)  # might one trouble you for a pear
     for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):
         base = participle_base(words[at]) if words[at - 2 : at] == ["if", "you"] else None
         if base:
@@ -272,7 +269,7 @@ def _wished(tokens: list[Token]) -> list[Token]:
 
 def _unfinished(tokens: list[Token]) -> list[Token]:
     """Once you *have picked* it up: you pick it up; *need* a screwdriver here: I need one."""
-    tokens = _done_before(_said_first(tokens))
+    tokens = _done_before(tokens)
     words = [t.text for t in tokens]
     wished = next((n for n in (6, 5, 4, 3, 2, 1) if tuple(words[:n]) in _WISHES), 0)
     if wished and words[wished : wished + 1] not in (["to"], ["you"], []):
@@ -312,6 +309,8 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
         broken_off = token.raw in DASHES
         if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
             continue  # the, um, the stapler
+        if token.text in ("that", "this") and _points_there(words, at):
+            continue  # what is that on the bench
         if token.text == "left" and _remains(words, at):
             continue  # what have we got left
         if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
@@ -337,15 +336,22 @@ def _colloquial(tokens: list[Token]) -> list[Token]:
     return kept
 
 
+def _points_there(words: list[str], at: int) -> bool:
+    asked = words[at - 2 : at] == ["what", "is"]
+    return asked and words[at + 1 : at + 2] in (["on"], ["in"], ["under"], ["at"], ["by"], ["over"])
+
+
 def _remains(words: list[str], at: int) -> bool:
     """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
+    if "if" in words[max(0, at - 7) : at] and "there" in words[max(0, at - 6) : at]:
+        return bool(verbs_at(words, at + 1)) or words[at + 1 : at + 2] in ([COMMA], [])
     owned = words[at - 1] == "got" or words[at - 2 : at] in (["we", "have"], ["you", "have"])
     return owned and _AFTER_LEFT.issuperset(words[at + 1 : at + 2])
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:
     """Is the cup *still* on the table? But: stand still."""
-    asked = words[0] in ("is", "are", "do", "does", "what", "where") and at + 1 < len(words)
+    asked = words[0] in ("is", "are", "do", "does", "what", "where", "how") and at + 1 < len(words)
     return at + 1 if asked and words[at] in ADVERBS else None
 
 

@@ -99,7 +99,8 @@ SPELLINGS: dict[str, str] = {
         "might i trouble you for,might i bother you for,could i trouble you for,"
         "can i trouble you for,may i trouble you for,"
         "could i bother you for,i would appreciate,let me have,i feel like,"
-        "i am in need of,do you have,have you got,i like,i crave,me want,me need"
+        "i am in need of,i have need of,we have need of,i stand in need of,"
+        "do you have,have you got,i like,i crave,me want,me need"
     ),
     "follow": (
         "follow,go after,come after,go behind,come behind,go along with,go with,come with,"
@@ -152,6 +153,8 @@ SPELLINGS: dict[str, str] = {
     "count": "count,count up,give me the number of,tell me the number of,enumerate",
     "look": (
         "look,look at,inspect,examine,check,watch,observe,have a look at,take a look at,"
+        "have a gander at,take a gander at,have a butchers at,have a peek at,take a peek at,"
+        "have a squint at,have a peep at,cast an eye over,"
         "check on,check out,look over,look into,glance at,stare at,gaze at,control,"
         "monitor,view,check up on,turn your head to,turn your head towards,turn your head,"
         "peek at,focus on,keep an eye on,see,scan"

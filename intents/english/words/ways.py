@@ -1,0 +1,122 @@
+"""What is done on the way somewhere is done before: "go to the hall, stopping at the bar"."""
+
+from collections.abc import Collection
+
+from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.lexicon import DETERMINERS, Phrase, phrases, words
+from intents.english.words.names import NameIndex
+from intents.english.words.verbs import verbs_at
+
+_THROUGH = phrases(
+    "via,by way of,stopping at,stopping by,stopping off at,stopping in at,calling at,calling in at,"
+    "calling by,calling in on,dropping by,swinging by,passing by,passing through,going via,"
+    "going by way of,with a stop at,with a stopover at,with a quick stop at"
+)
+"""What leads to a place that is gone to first."""
+_ON_THE_WAY = phrases(
+    "on the way,on your way,on the way there,on your way there,along the way,en route,"
+    "on the way over,on your way over,as you go,while on your way"
+)
+_FIRST = phrases("first,first of all,beforehand")
+_ON_THE_WAY_TO = phrases("on the way to,on your way to,en route to")
+_AHEAD_OF: dict[Phrase, list[str]] = {
+    ("prior", "to"): ["before"], ("before", "to"): ["before", "you"],
+    ("previous", "to"): ["before"], ("subsequent", "to"): ["after"],
+    ("after", "to"): ["after", "you"],
+}  # fmt: skip
+"""Other words for "before" and "after" with what is done."""
+_LINKS = words("and but then so") | {COMMA, FULL_STOP}
+_TO = words("to into towards")
+_LONGEST = 4
+
+
+def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """The tokens with what is done on the way said to be done first."""
+    for at in range(len(tokens) - 1, -1, -1):
+        tokens = _ahead_of(tokens, at)
+        said = [token.text for token in tokens]
+        tokens = (
+            _through(tokens, said, at, index)
+            or _before_going(tokens, said, at, index)
+            or _on_the_way(tokens, said, at)
+            or tokens
+        )
+    return tokens
+
+
+def _ahead_of(tokens: list[Token], at: int) -> list[Token]:
+    """*Prior to* opening it, *before to* open it: before opening it, before you open it."""
+    said = tuple(token.text for token in tokens[at : at + 3])
+    if said[:2] not in _AHEAD_OF or len(said) < len(_AHEAD_OF[said[:2]]):
+        return tokens
+    plain = [Token(word, tokens[at].raw) for word in _AHEAD_OF[said[:2]]]
+    return [*tokens[:at], *plain, *tokens[at + 2 :]]
+
+
+def _end(table: Collection[Phrase], said: list[str], at: int) -> int:
+    """Where the longest phrase of a table ends; 0 if none begins here."""
+    ends = range(min(len(said), at + _LONGEST), at, -1)
+    return next((end for end in ends if tuple(said[at:end]) in table), 0)
+
+
+def _closes(said: list[str], at: int) -> bool:
+    return at >= len(said) or said[at] in (COMMA, FULL_STOP)
+
+
+def _spot_end(said: list[str], at: int, index: NameIndex) -> int:
+    """Where the name of a place ends; 0 if none begins here."""
+    at += at < len(said) and said[at] in DETERMINERS
+    match = index.match(said, at) if at < len(said) else None
+    return match.end if match is not None and match.of("place", "room") else 0
+
+
+def _first(*words_: str) -> list[Token]:
+    return [Token(COMMA, ""), *(Token(word, "") for word in ("but", "first", *words_))]
+
+
+def _through(tokens: list[Token], said: list[str], at: int, index: NameIndex) -> list[Token] | None:
+    """Go to the hall *via the bar*; go *via the bar* to the hall."""
+    start = _end(_THROUGH, said, at) if at else 0
+    end = _spot_end(said, start, index) if start else 0
+    if not end:
+        return None
+    closing = next((n for n in range(end, len(said)) if _closes(said, n)), len(said))
+    rest = tokens[(_end(_ON_THE_WAY, said, end) or end) : closing]
+    if rest and rest[0].text not in _TO:
+        return None
+    before = tokens[: at - 1] if said[at - 1] == COMMA else tokens[:at]
+    return [*before, *rest, *_first("go", "to"), *tokens[start:end], *tokens[closing:]]
+
+
+def _before_going(
+    tokens: list[Token], said: list[str], at: int, index: NameIndex
+) -> list[Token] | None:
+    """*On your way to* the hall, take the cup: before you go there."""
+    start = _end(_ON_THE_WAY_TO, said, at)
+    if not (start and _spot_end(said, start, index)):
+        return None
+    before = [Token(word, "") for word in ("before", "you", "go", "to")]
+    return [*tokens[:at], *before, *tokens[start:]]
+
+
+def _on_the_way(tokens: list[Token], said: list[str], at: int) -> list[Token] | None:
+    """Go to the hall and take the cup *on the way*, or *first*: but first take the cup."""
+    end = _end(_ON_THE_WAY, said, at)
+    first = _end(_FIRST, said, at)
+    behind = bool(first) or said[at - 1] not in _LINKS
+    end = first or end
+    if not end or not at or (behind and not _closes(said, end)):
+        return None
+    link = at if not behind else next((n + 1 for n in range(at - 1, 0, -1) if said[n] in _LINKS), 0)
+    begin = link
+    while begin and said[begin - 1] in _LINKS:
+        begin -= 1
+    but = "but" in said[begin:link]
+    clause = tokens[link:at] if behind else []
+    if first and not begin and said[at - 1] not in DETERMINERS:
+        return [*tokens[:at], *tokens[end:]]  # wave first, then nod
+    ordered = _LINKS.issuperset(said[end:]) and verbs_at(said, link)
+    if not begin or (behind and not clause) or (first and not (but or ordered)):
+        return None
+    end += not behind and end < len(said) and said[end] == COMMA
+    return [*tokens[:begin], *_first(), *clause, *tokens[end:]]
