@@ -79,16 +79,18 @@ def snap(
     ] = "both",
     at: Annotated[
         str,
-        typer.Option("--at", help="Where it stands: X,Y,HEADING [m, deg] (default: the start)."),
+        typer.Option(
+            "--at", help="Where it stands: X,Y,HEADING in metres and degrees (default: the start)."
+        ),
     ] = "",
     head: Annotated[
         str,
         typer.Option(
-            "--head", help="How its head is turned: YAW,PITCH [deg]; left and down are +."
+            "--head", help="How its head is turned: YAW,PITCH in degrees; left and down are +."
         ),
     ] = "",
     size: Annotated[
-        str, typer.Option("--size", help="WIDTHxHEIGHT [px] (default: the robot's camera).")
+        str, typer.Option("--size", help="WIDTHxHEIGHT in pixels (default: the robot's camera).")
     ] = "",
     renderer: Annotated[
         Renderer,
@@ -96,7 +98,9 @@ def snap(
     ] = "auto",
     data: Annotated[
         Path | None,
-        typer.Option("--data", help="Write colours, depth_m [m] and matrix [px] as well (.npz)."),
+        typer.Option(
+            "--data", help="Write colours, depth_m (metres) and matrix (pixels) as well (.npz)."
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
