@@ -2,11 +2,11 @@
 
 from msgspec.structs import replace
 
+from intents.english.clauses.wishes import NEEDS
 from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import ME, to_person
 from intents.english.reading import Found, Sentence
-from intents.english.readings.needs import NEEDS
 from intents.english.words import lexicon
 from intents.goals import Bring, ForEach, Give, Goal, Person, Pick, Place
 

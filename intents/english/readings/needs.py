@@ -5,7 +5,7 @@ question"; "I need you in the cellar".
 """
 
 from intents.english.clauses.verb_clauses import framed
-from intents.english.clauses.wishes import WISHES, asks_end
+from intents.english.clauses.wishes import NEEDS, WISHES, asks_end
 from intents.english.phrases.complements import (
     Complement,
     ends_clause,
@@ -25,14 +25,6 @@ _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
     "i am missing,we can not find"
-)
-NEEDS = lexicon.phrases(
-    "needs,wants,would like,would like to have,wants to have,would love,asked for,has asked for,"
-    "is asking for,asks for,ordered,has ordered,is waiting for,requested,has requested,requires,"
-    "is in need of,could use,fancies,is after,'s after,desires,craves,is wanting,is needing,"
-    "is dying for,is gasping for,keeps asking for,has been asking for,could do with,"
-    "would appreciate,would fancy,would not mind,'d like,wishes for,wishes to have,is to get,"
-    "is to have,should get,should have,shall have,can have"
 )
 _GETS = lexicon.phrases("gets,gets to have,receives")
 """The same where it goes on from an order: "the pen to Ada, and Leo *gets* the cup"."""
