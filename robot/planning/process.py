@@ -51,6 +51,7 @@ class ProcessPlanner(Closing):
         self._running: int | None = None
         self._ready = False
         self._stillborn = 0
+        self._closed = False
         self._worker = WorkerProcess(description)
 
     def submit(self, request: PlanRequest, *, now_s: float) -> int:  # noqa: ARG002
@@ -82,8 +83,8 @@ class ProcessPlanner(Closing):
         self._worker.kill()
 
     def close(self) -> None:
-        """End the worker; safe to call twice."""
-        self._running = None
+        """End the worker; safe to call twice, and to forget requests after it."""
+        self._closed, self._running = True, None
         self._waiting.clear()
         self._worker.kill()
         self._worker.wait()
@@ -141,4 +142,7 @@ class ProcessPlanner(Closing):
     def _restart(self) -> None:
         self._running, self._ready = None, False
         self._worker.kill()
-        self._worker = WorkerProcess(self._description)
+        # What waits for a plan is cleared away as late as when the interpreter ends: a thread that
+        # is started then never begins, and who starts it would wait for ever.
+        if not self._closed:
+            self._worker = WorkerProcess(self._description)
