@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.free_floor import may_stand
+from executive.skills.motions.free_floor import may_stand, nearest_thing
 from executive.skills.motions.personal_space import CLEAR_M, ZONE_M, somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
@@ -40,11 +40,13 @@ def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
 def make_way(body: Body, person: PersonInfo) -> Script[None]:
     """Step back from who stands in the way and does not leave: they may have no room to.
 
-    As far as there is free floor for it, if it is not as far as they need.
+    As far as there is free floor for it, if it is not as far as they need, and room beside it for
+    arms that sway.
     """
+    room_m = body.description.body_radius_m + body.description.walking.room.beside_m
     for clear_m in WAY_OUT_M:
         X_WS_goal = _retreat(body, body.X_WS.p, person, clear_m=clear_m)
-        if X_WS_goal is not None:
+        if X_WS_goal is not None and nearest_thing(body, X_WS_goal.p)[1] >= room_m:
             yield from _step_back(body, person, X_WS_goal)
             return
 
