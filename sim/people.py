@@ -19,7 +19,7 @@ from robot.messages import Heard
 from robot.model.description import RobotDescription
 from sim import furniture
 from sim.somebody import PERIOD_S, Script, Somebody, floor
-from sim.standing_room import BACK_M, ROBOT_M, Around, free_spot, in_the_way
+from sim.standing_room import BACK_M, ROBOT_M, Around, in_the_way, way_out
 from sim.taking import Hold
 from sim.world_schema import Object, World
 
@@ -135,11 +135,10 @@ class People:
 
     def _make_room(self, one: Somebody, apart_m: float) -> Script:
         """Walk out of the robot's way, if there is somewhere to go."""
-        spot = free_spot(self._world, one.at, self._around(one), apart_m=apart_m)
-        if spot is None:
-            return False
-        yield from one.walk(spot)
-        return True
+        way = way_out(self._world, one.at, self._around(one), apart_m=apart_m)
+        for spot in way:
+            yield from one.walk(spot)
+        return bool(way)
 
     # --- taking ---
 

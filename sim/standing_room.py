@@ -1,4 +1,7 @@
-"""Where a simulated person can step to: free floor that they reach in a straight line."""
+"""Where a simulated person can step to: free floor that they reach straight, or around one corner.
+
+Who stands in a doorway steps back through it, and then aside.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,8 @@ from sim.placing import clear_of
 from sim.world_schema import World
 
 STEPS_M = (0.7, 0.9, 1.1, 1.4, 1.7)
+CORNERS_M = (0.5, 0.8, 1.1)
+"""How far off the corner of a way is."""
 DIRECTIONS = 16
 ROOM_M = 0.27
 """Of free floor around a person who stands or walks: shoulders are 0.46 m wide."""
@@ -35,11 +40,28 @@ class Around(msgspec.Struct, frozen=True):
     others: tuple[tuple[Point, float], ...] = ()
 
 
-def free_spot(world: World, at: Point, around: Around, *, apart_m: float = ROBOT_M) -> Point | None:
-    """The nearest spot out of the robot's way, that far from it; None where there is none."""
+def way_out(
+    world: World, at: Point, around: Around, *, apart_m: float = ROBOT_M
+) -> tuple[Point, ...]:
+    """The way to the nearest spot out of the robot's way, that far from it; empty: there is none.
+
+    Straight if possible, else around one corner.
+    """
     bare = msgspec.structs.replace(world, people=())
+    spot = _free_spot(bare, at, around, apart_m)
+    if spot is not None:
+        return (spot,)
+    for corner in _candidates(at, around, CORNERS_M):
+        if _is_free_way(bare, at, corner, around):
+            spot = _free_spot(bare, corner, around, apart_m)
+            if spot is not None:
+                return (corner, spot)
+    return ()
+
+
+def _free_spot(world: World, at: Point, around: Around, apart_m: float) -> Point | None:
     for spot in _candidates(at, around):
-        if _is_out_of_the_way(spot, around, apart_m) and _is_free_way(bare, at, spot, around):
+        if _is_out_of_the_way(spot, around, apart_m) and _is_free_way(world, at, spot, around):
             return spot
     return None
 
@@ -51,9 +73,9 @@ def in_the_way(at: Point, around: Around, *, within_m: float) -> bool:
     return far_m < ROBOT_M or (far_m < within_m and ahead_m > 0.0 and aside_m < LANE_M)
 
 
-def _candidates(at: Point, around: Around) -> Iterator[Point]:
+def _candidates(at: Point, around: Around, steps_m: tuple[float, ...] = STEPS_M) -> Iterator[Point]:
     """Spots around, near ones first, and of those the farthest from the robot first."""
-    for step_m in STEPS_M:
+    for step_m in steps_m:
         angles = (2.0 * math.pi * k / DIRECTIONS for k in range(DIRECTIONS))
         spots = [(at[0] + step_m * math.cos(a), at[1] + step_m * math.sin(a)) for a in angles]
         yield from sorted(spots, key=lambda spot: -math.dist(spot, around.robot))
@@ -73,12 +95,14 @@ def _in_lane(spot: Point, around: Around) -> tuple[float, float]:
 
 def _is_free_way(world: World, at: Point, spot: Point, around: Around) -> bool:
     """Whether nothing is on the straight line there, and it never comes nearer to the robot."""
+    if not atlas.room_at(world, spot):  # on the way there are doorways, which are in no room
+        return False
     least_m = min(WALKING_M, math.dist(at, around.robot) - 0.01)
     count = max(1, math.ceil(math.dist(at, spot) / SAMPLE_M))
     for k in range(1, count + 1):
         part = k / count
         point = (at[0] + part * (spot[0] - at[0]), at[1] + part * (spot[1] - at[1]))
-        if math.dist(point, around.robot) < least_m or not atlas.room_at(world, point):
+        if math.dist(point, around.robot) < least_m:
             return False
         if clear_of(world, point, ROOM_M) or _touches(point, around.others):
             return False

@@ -10,6 +10,7 @@ from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.fingers import check_grips, close_fingers, open_fingers, set_payload
+from executive.skills.motions.fitting_grasp import ask_fitting
 from executive.skills.motions.gaze import see
 from executive.skills.motions.grasp import (
     aim,
@@ -22,7 +23,6 @@ from executive.skills.motions.grasp import (
 )
 from executive.skills.motions.look_over import limit_s
 from executive.skills.motions.object_search import find
-from executive.skills.motions.past_people import ask_past_people
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
@@ -47,10 +47,14 @@ MOVE_THE_BASE = ("out_of_reach", "no_path", "goal_in_collision", "planner_timeou
 
 
 class PickParams(SkillParams, frozen=True, kw_only=True):
-    """Take an object; without a side the planner chooses the hand."""
+    """Take an object; without a side the planner chooses the hand.
+
+    With `for_place_id` in a way in which it can be put on that place afterwards, if there is one.
+    """
 
     object_id: str
     side: Side | None = None
+    for_place_id: str | None = None
 
 
 class Pick(ScriptedSkill[PickParams]):
@@ -164,7 +168,8 @@ class Pick(ScriptedSkill[PickParams]):
             walk_cost_per_m=WALK_COST_PER_M if attempt == 0 else MOVE_OVER_COST_PER_M,
             seed=self.body.context.seed + attempt,
         )
-        return (yield from ask_past_people(self.body, request, PickPlan))
+        place = self.body.map.place(self.parameters.for_place_id or "")
+        return (yield from ask_fitting(self.body, request, place))
 
     def _grasp(self, info: ObjectInfo, plan: PickPlan) -> Script[PickPlan]:
         """Take hold of it and lift it; tries again from where the body stands if it slips away."""

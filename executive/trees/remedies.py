@@ -9,6 +9,7 @@ from executive.skills.balance import BalanceParams
 from executive.skills.look import LookParams
 from executive.skills.navigate import NavigateParams, Step
 from executive.skills.pick import PickParams
+from executive.skills.place import PlaceParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Errand
 from robot.failures import Failure
@@ -51,7 +52,8 @@ def _fetch_again(errand: Errand, reason: Failure) -> tuple[Errand, ...]:
     if errand.object_id is None or not errand.carries:
         return _look_again(errand, reason)
     search = SearchParams(object_id=errand.object_id)
-    pick = PickParams(object_id=errand.object_id)
+    goal = errand.params.place_id if isinstance(errand.params, PlaceParams) else None
+    pick = PickParams(object_id=errand.object_id, for_place_id=goal)
     return (
         Errand(name=f"look for {errand.object_name}", params=search),
         Errand(name=f"pick up {errand.object_name} again", params=pick),

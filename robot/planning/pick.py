@@ -12,7 +12,7 @@ from robot.planning.grasps import pick_options
 from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.reach import Targets, Trunks
-from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest
+from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest, pitched_rad
 from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.solids import Solid, people_of, solids_of
 from robot.planning.stances import posture_of
@@ -42,6 +42,10 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
     )
     if isinstance(options, Failure):
         return options
+    options = [option for option in options if pitched_rad(option.R0) <= request.most_tilt_rad]
+    if not options:
+        text = "no grasp of it is as level as it is wanted"
+        return failure("no_grasp", text, most_tilt_rad=request.most_tilt_rad)
     names = {info.id: info.name for info in around.map.objects}
     problem = HandlingProblem(
         kind="pick",

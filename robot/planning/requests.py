@@ -18,13 +18,14 @@ How a pick or a place is meant to be carried out::
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 import msgspec
 
 from robot.failures import Failure
 from robot.messages import Obstacle, Place, Shape, Side, WorldMap, WorldState
-from robot.se3 import SE3, Vector3
+from robot.se3 import SE3, Array, Vector3
 
 Stance: TypeAlias = tuple[float, float, float]
 Joints: TypeAlias = tuple[float, ...]
@@ -181,16 +182,23 @@ class OverEdge(msgspec.Struct, frozen=True, kw_only=True):
     away_rad: Joints | None = None
 
 
+def pitched_rad(R: Array) -> float:
+    """How far a hand of this orientation, shape (3, 3), is pitched down from level [rad]."""
+    return math.asin(max(-1.0, min(1.0, -float(R[2, 0]))))
+
+
 class PickRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """How to pick up `object_id` (one of `around.objects`), standing at `start` now.
 
     `side` None: the planner chooses the hand. The higher `walk_cost_per_m`, the nearer the stance.
+    The hand is pitched down by `most_tilt_rad` at most.
     """
 
     object_id: str
     around: Surroundings
     start: Stance
     side: Side | None = None
+    most_tilt_rad: float = math.inf
     walk_cost_per_m: float = WALK_COST_PER_M
     seed: int = 0
 
@@ -226,6 +234,11 @@ class PickPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     opening_m: float
     margin: float
     over: OverEdge | None = None
+
+    @property
+    def tilt_rad(self) -> float:
+        """How far the hand is pitched down from level [rad]."""
+        return pitched_rad(self.X_WG_grasp.rotation())
 
 
 class PlaceRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):

@@ -30,6 +30,9 @@ FAR_COST_PER_M, ASIDE_COST_PER_M = 1.5, 0.8
 """Of a metre that the arm is stretched ahead, or off its best distance to the side."""
 TURNS_RAD, TURN_COST_PER_RAD = (-0.4, 0.0, 0.4), 0.12
 """Of the hand, from how it points by itself."""
+LAST_TURNS_RAD = (-0.9, -0.4, 0.0, 0.4, 0.9)
+"""The same in postures that are tried last: a box that turns its long side to the edge is taken
+with the hand along the edge."""
 CHUNK = 6000
 """So many stances are looked at together: numpy's overhead is small, few are looked at in vain."""
 OPTION_SHARE = 0.5
@@ -214,7 +217,8 @@ def _around(
 ) -> None:
     """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
-    grid = np.array(list(product(lean.ahead_m, lean.aside_m or reaching.aside_m, TURNS_RAD)))
+    turns_rad = LAST_TURNS_RAD if lean.last else TURNS_RAD
+    grid = np.array(list(product(lean.ahead_m, lean.aside_m or reaching.aside_m, turns_rad)))
     inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
     natural = -sign * inward * (0.5 if lean.pitch_rad else 1.0)
     beta = natural + grid[:, 2]

@@ -34,10 +34,14 @@ def pick(goal: goals.Pick, scene: Scene) -> Part:
     return _pick_one(scene.object(query), query, scene)
 
 
-def _pick_one(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene) -> Part:
+def _pick_one(
+    info: ObjectInfo, query: goals.ObjectQuery, scene: Scene, *, to: Place | None = None
+) -> Part:
+    """Take one thing; `to` is where it will be put."""
     scene.take(info.id)
     name = info.full_name
-    pick = about(info, f"pick up {name}", PickParams(object_id=info.id))
+    params = PickParams(object_id=info.id, for_place_id=to and to.id)
+    pick = about(info, f"pick up {name}", params)
     if query.at is None:  # picking begins with looking for it everywhere
         return pick
     return Series(name=f"take {name}", parts=(search(info, query, scene), pick))
@@ -145,7 +149,7 @@ def _put(
     if part is not None:
         params = part_of_place(info, place, part)
     put = about(info, f"put {name} on the {place.name}", params, carries=True)
-    return _fetched(info, query, scene, (put,), name=f"bring {name} to the {target}")
+    return _fetched(info, query, scene, (put,), name=f"bring {name} to the {target}", to=place)
 
 
 def _fetched(
@@ -156,9 +160,10 @@ def _fetched(
     *,
     name: str,
     keeps: bool = False,
+    to: Place | None = None,
 ) -> Part:
     """Fetch an object unless it is in the hand by then, and do something with it."""
-    fetch = () if info.id in scene.held else (_pick_one(info, query, scene),)
+    fetch = () if info.id in scene.held else (_pick_one(info, query, scene, to=to),)
     if not keeps:
         scene.put_down(info.id)
     parts = (*fetch, *then)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from msgspec.structs import replace
 
 from executive.blackboard import WORLD, Blackboard
-from executive.meaning.handlers.steps import about, search, tolerant, visit
+from executive.meaning.handlers.steps import about, search, to_look_over, tolerant, visit
 from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge, stands_on
 from executive.meaning.robot_state import state_of
@@ -110,7 +110,8 @@ def _looks(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
     """Looks in their order: at the places named, at the landmarks, around."""
     looks: list[Part] = []
     if query.at is not None:
-        looks += [tolerant(visit(place)) for place in places_at(query.at, scene)]
+        named = to_look_over(places_at(query.at, scene), scene)
+        looks += [tolerant(visit(place)) for place in named]
     if query.relation is not None:
         ends = (query.relation.of, query.relation.other)
         for end in (end for end in ends if end is not None):
@@ -121,7 +122,7 @@ def _looks(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
 def places_at(name: str, scene: Scene, *, near: bool = True) -> list[Place]:
     """The surfaces that are meant by a place: its own, those of a room, those near a spot.
 
-    Without `near` a spot of the floor has none.
+    A piece of furniture with boards is all of them. Without `near` a spot of the floor has none.
 
     Raises:
         CannotMean: there is no such place.
@@ -130,7 +131,8 @@ def places_at(name: str, scene: Scene, *, near: bool = True) -> list[Place]:
     every = [place for place in scene.knowledge.map.places if not place.floor]
     for place in scene.places(name):
         if not place.floor:
-            found.append(place)
+            boards = [other for other in every if other.of == place.of and place.id == place.of]
+            found += [place, *boards]
         elif place.id == place.room:
             found += [other for other in every if other.room == place.room]
         elif near:

@@ -1,13 +1,13 @@
-"""Backing away from somebody who is too near for an arm to move: the feet make the room."""
+"""Backing away from somebody: the feet make room for an arm, or for them to come out."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.free_floor import may_stand
+from executive.skills.motions.free_floor import may_stand, nearest_thing
 from executive.skills.motions.personal_space import CLEAR_M, ZONE_M, somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
@@ -20,6 +20,8 @@ SPARE_M = 0.05
 """More than is needed: steps end a few centimetres off, and people sway."""
 TURNS_RAD = (0.0, 0.5, -0.5, 1.0, -1.0, 1.4, -1.4)
 """Directions that are tried, beside straight away from them: never towards them."""
+WAY_OUT_M = (1.0, 0.8, 0.65)
+"""Between a person's outline and the body, tried in turn: they come out of a doorway past it."""
 
 
 def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
@@ -31,7 +33,25 @@ def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
     person = somebody_near(body, body.X_WG(side).p, within_m=ZONE_M + swing_m)
     if person is None:
         return
-    X_WS_goal = _retreat(body, side, person, clear_m=CLEAR_M + SPARE_M + swing_m)
+    clear_m = CLEAR_M + SPARE_M + swing_m
+    yield from _step_back(body, person, _retreat(body, body.X_WG(side).p, person, clear_m=clear_m))
+
+
+def make_way(body: Body, person: PersonInfo) -> Script[None]:
+    """Step back from who stands in the way and does not leave: they may have no room to.
+
+    As far as there is free floor for it, if it is not as far as they need, and room beside it for
+    arms that sway.
+    """
+    room_m = body.description.body_radius_m + body.description.walking.room.beside_m
+    for clear_m in WAY_OUT_M:
+        X_WS_goal = _retreat(body, body.X_WS.p, person, clear_m=clear_m)
+        if X_WS_goal is not None and nearest_thing(body, X_WS_goal.p)[1] >= room_m:
+            yield from _step_back(body, person, X_WS_goal)
+            return
+
+
+def _step_back(body: Body, person: PersonInfo, X_WS_goal: SE3 | None) -> Script[None]:
     if X_WS_goal is None:
         return
     before, body.phase = body.phase, f"stepping back from {person.name}"
@@ -39,9 +59,9 @@ def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
     body.phase = before
 
 
-def _retreat(body: Body, side: Side, person: PersonInfo, *, clear_m: float) -> SE3 | None:
-    """The nearest stance from which the hand is clear of them, straight away from them first."""
-    X_WS, hand = body.X_WS, body.X_WG(side).p
+def _retreat(body: Body, p_W: Sequence[float], person: PersonInfo, *, clear_m: float) -> SE3 | None:
+    """The nearest stance at which what is at a point now is clear of them; straight back first."""
+    X_WS, hand = body.X_WS, p_W
     x_m, y_m, _ = body.X_WPerson(person.id).p
     away_rad = math.atan2(X_WS.p[1] - y_m, X_WS.p[0] - x_m)
     for turn_rad in TURNS_RAD:

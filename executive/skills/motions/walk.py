@@ -9,6 +9,7 @@ import math
 
 import msgspec
 
+from executive.skills.motions.back_away import make_way
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.committed import Committed
 from executive.skills.motions.final_steps import is_at_stance, miss, step_to
@@ -21,7 +22,7 @@ from executive.skills.motions.personal_space import in_the_path, somebody_near
 from executive.skills.motions.planning import ask, pose_of, stance_of
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.support import surroundings
-from robot.messages import Obstacle, Stand, Walk
+from robot.messages import Obstacle, PersonInfo, Stand, Walk
 from robot.model.gait import Walking
 from robot.planning.requests import BasePath, BasePathRequest, Stance
 from robot.se3 import SE3, wrap_angle
@@ -42,6 +43,8 @@ BESIDE_M = 0.3
 """What stands as near as this to where somebody is seen is taken to be them."""
 EXCUSE = "Excuse me."
 """What somebody who stands in the way is told, before a way around them is planned."""
+LEFT_M = 0.5
+"""Who is so far from where they stood in the way has stepped aside."""
 NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 
 
@@ -69,9 +72,16 @@ def walk_near(body: Body, goal: Stance) -> Script[None]:
         words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
         x_m, y_m = (blocker.X_WO.p[i] - body.X_WS.p[i] for i in range(2))
-        if somebody_near(body, blocker.X_WO.p, within_m=BESIDE_M) is not None:
+        person = somebody_near(body, blocker.X_WO.p, within_m=BESIDE_M)
+        if person is not None:
             body.context.say(EXCUSE)
         yield from _let_pass(body, math.atan2(y_m, x_m))
+        if person is not None:
+            yield from _let_leave(body, person, blocker.X_WO)
+        if person is not None and not _has_left(body, person, blocker.X_WO):
+            yield from make_way(body, person)
+            body.context.say(EXCUSE)
+            yield from _let_leave(body, person, blocker.X_WO)
         body.phase = words
     assert blocker is not None
     raise give_up(
@@ -177,6 +187,19 @@ def _let_pass(body: Body, towards_rad: float) -> Script[None]:
     end_s = body.now_s + LET_PASS_S
     while body.now_s < end_s and in_the_path(body, towards_rad) is not None:
         yield
+
+
+def _let_leave(body: Body, person: PersonInfo, X_WO: SE3) -> Script[None]:
+    """Stand for a while as long as somebody is where they were."""
+    body.phase = f"waiting for {person.name} to step aside"
+    end_s = body.now_s + LET_PASS_S
+    while body.now_s < end_s and not _has_left(body, person, X_WO):
+        yield
+
+
+def _has_left(body: Body, person: PersonInfo, X_WO: SE3) -> bool:
+    """Whether somebody is no longer where they stood in the way."""
+    return math.dist(body.X_WPerson(person.id).p[:2], X_WO.p[:2]) > LEFT_M
 
 
 def turn_by(body: Body, angle_rad: float) -> Script[None]:

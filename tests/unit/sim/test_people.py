@@ -14,8 +14,8 @@ from sim.people import wish_in
 from sim.person_arm import PersonArm, links
 from sim.plant import Plant
 from sim.somebody import LOST_M
-from sim.standing_room import BACK_M, LANE_M, ROBOT_M, Around, free_spot, in_the_way
-from sim.world_schema import Behaviour
+from sim.standing_room import BACK_M, LANE_M, ROBOT_M, Around, in_the_way, way_out
+from sim.world_schema import Behaviour, Door, Room
 
 JUNO = description.load("juno")
 BENCH = world.load("bench")
@@ -118,8 +118,7 @@ def test_a_free_spot_is_out_of_the_lane_and_clear_of_everything(heading_rad):
     around = Around((0.0, 0.0), heading_rad)
     at = (1.1 * math.cos(heading_rad), 1.1 * math.sin(heading_rad))
     bare = world.empty()
-    spot = free_spot(bare, at, around)
-    assert spot is not None
+    (spot,) = way_out(bare, at, around)
     assert math.dist(spot, around.robot) >= ROBOT_M
     across = spot[1] * math.cos(heading_rad) - spot[0] * math.sin(heading_rad)
     along = spot[0] * math.cos(heading_rad) + spot[1] * math.sin(heading_rad)
@@ -128,10 +127,22 @@ def test_a_free_spot_is_out_of_the_lane_and_clear_of_everything(heading_rad):
 
 def test_nobody_steps_where_somebody_stands():
     around = Around((0.0, 0.0), 0.0)
-    spot = free_spot(world.empty(), (1.1, 0.0), around)
-    again = free_spot(world.empty(), (1.1, 0.0), Around((0.0, 0.0), 0.0, others=((spot, 0.3),)))
-    assert again is not None
+    (spot,) = way_out(world.empty(), (1.1, 0.0), around)
+    (again,) = way_out(world.empty(), (1.1, 0.0), Around((0.0, 0.0), 0.0, others=((spot, 0.3),)))
     assert math.dist(again, spot) > 0.3
+
+
+@pytest.mark.parametrize("heading_deg", [-90, -65, -110])
+def test_who_stands_in_a_doorway_steps_back_through_it_and_then_aside(heading_deg):
+    hall = Room(
+        id="hall", at_m=(0.0, 0.0), size_m=(6.0, 1.4), walls=("north", "south", "east", "west"),
+        doors=(Door(wall="south", at_m=0.0, width_m=0.85),),
+    )  # fmt: skip
+    kitchen = Room(id="kitchen", at_m=(0.0, -2.3), size_m=(4.0, 3.0), walls=("south",))
+    home = msgspec.structs.replace(world.empty(), rooms=(hall, kitchen))
+    around = Around((0.0, -0.1), math.radians(heading_deg))
+    *_, spot = way_out(home, (0.0, -0.66), around)
+    assert not in_the_way(spot, around, within_m=2.0)
 
 
 @pytest.fixture(scope="module")

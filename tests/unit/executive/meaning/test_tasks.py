@@ -208,6 +208,15 @@ def test_between_the_boards_of_a_shelf_is_in_it(text):
     assert put.place_id.startswith("shelf")
 
 
+def test_what_is_taken_to_be_put_somewhere_is_taken_for_that_place():
+    outcome = request("put the red cup on the table", WHERE)
+    assert not isinstance(outcome, Refused), outcome
+    take, put = (errand.params for errand in errands(outcome.task))
+    assert take.for_place_id == put.place_id
+    outcome = request("pick up the red cup", WHERE)
+    assert [errand.params.for_place_id for errand in errands(outcome.task)] == [None]
+
+
 def test_a_question_is_put_to_a_person_and_its_answer_used():
     asked = []
 

@@ -54,6 +54,7 @@ def _map() -> m.WorldMap:
         places=(
             surface("counter", 0.0, 2.5),
             surface("table", 0.0, 0.0),
+            *_rack(),
             floor("kitchen", 0.0, "kitchen"),
             floor("hall", 6.0, "hall"),
             m.Place(id="door", name="front door", X_WP=SE3((8.0, 0, 0)), size_m=(0.6, 0.6),
@@ -70,6 +71,18 @@ def _map() -> m.WorldMap:
         people=(m.PersonInfo(id="mia", name="mia", X_WO=SE3((2.0, -2.0, 0.0))),),
         categories={"mug": "mugs", "bottle": "bottles", "box": "boxes"},
         bounds_m=(-4, -4, 10, 4),
+    )  # fmt: skip
+
+
+def _rack() -> tuple[m.Place, ...]:
+    """Two boards; as a whole it is the lower one by another name."""
+    heights_m = {"lower rack": 0.5, "upper rack": COUNTER_M, "rack": 0.5}
+    return tuple(
+        m.Place(
+            id=name.replace(" ", "_"), name=name, X_WP=SE3((-3.0, 0.0, height_m)), of="rack",
+            size_m=(0.4, 1.0), clearance_m=0.38, room="kitchen",
+        )
+        for name, height_m in heights_m.items()
     )  # fmt: skip
 
 
@@ -235,6 +248,14 @@ def test_what_is_on_a_surface_is_what_was_seen_there(words, means):
     found = part.question(board(red=(0.3, 2.5), tea=(-0.3, 2.5), blue=(0.3, 0.0)))
     assert isinstance(found, tuple)
     assert set(found) == means
+
+
+def test_what_stands_on_a_rack_stands_on_any_of_its_boards():
+    (part,) = parts("bring all mugs on the rack to the table", Settle)
+    found = part.question(board(red=(-3.0, 0.2), blue=(0.3, 0.0)))  # on the upper board
+    assert found == ("red",)
+    looked = [e.params.place_ids for look in part.looks for e in errands(look)]
+    assert looked == [("lower_rack",), ("upper_rack",)]
 
 
 def test_it_is_what_was_settled():

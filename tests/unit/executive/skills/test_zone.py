@@ -48,6 +48,23 @@ def test_walking_stops_for_somebody_ahead_and_goes_on_when_they_leave(stage):
     assert "stopping for Ann" in stage.phases
 
 
+def test_who_has_no_room_to_leave_is_given_some(stage):
+    """Ann stands in a doorway and comes out of it only when the robot is 1.2 m away."""
+    comes(stage, "walking", lambda: where[0], for_s=math.inf)
+    where, tick = [SE3((1.0, 0.0, 0.0))], stage.puppet.tick
+
+    def leave():
+        tick()
+        if math.dist(stage.puppet.X_WS.p[:2], where[0].p[:2]) > 1.2 and len(stage.said) > 1:
+            where[0] = AWAY
+
+    stage.puppet.tick = leave
+    report = stage.run(THERE)
+    assert report.status == "succeeded", report
+    assert "stepping back from Ann" in stage.phases
+    assert stage.said == ["Excuse me.", "Excuse me."]
+
+
 def test_not_a_step_is_sent_while_they_stand_there(stage):
     comes(stage, "walking", lambda: before(stage, 0.6), for_s=4.0)
     stage.run(THERE, until_phase="stopping")

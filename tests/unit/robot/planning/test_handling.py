@@ -149,6 +149,36 @@ def test_a_thin_torch_that_lies_on_the_table(solver: Solver, yaw_rad: float) -> 
     assert plan.margin > 0.2
 
 
+def test_what_was_taken_from_above_goes_on_a_high_board_when_taken_with_a_leveller_hand(
+    solver: Solver,
+) -> None:
+    low = Shape(kind="box", size_m=(0.05, 0.17, 0.035))
+    remote = on_table(-0.1, 0.2, shape=low)
+    reached: dict[bool, bool] = {}
+    for most_tilt_rad in (math.inf, 0.4):
+        plan = pick(solver, surroundings(remote), most_tilt_rad=most_tilt_rad)
+        assert isinstance(plan, PickPlan), plan
+        assert plan.tilt_rad <= most_tilt_rad
+        held = Held(id="cup", shape=low, X_GO=plan.X_OG.inverse())
+        put = place(solver, BOARD[BOARDS_M[2]], surroundings(), side=plan.side, held=held)
+        reached[plan.tilt_rad > 0.4] = isinstance(put, PlacePlan)
+    assert reached == {True: False, False: True}
+
+
+@pytest.mark.parametrize("height_m", [1.02, 1.06])
+@pytest.mark.parametrize("yaw_rad", [0.0, 0.1])
+def test_a_box_that_turns_its_long_side_to_the_edge_is_taken_with_the_hand_along_it(
+    solver: Solver, height_m: float, yaw_rad: float
+) -> None:
+    shape = Shape(kind="box", size_m=(0.06, 0.12, 0.07))
+    counter = block("counter", 1.65, -2.0, (0.90, 1.40, height_m))
+    X_WO = SE3.from_xy_yaw(1.30, -2.0, yaw_rad, z_m=height_m + 0.035)
+    box = ObjectPose(id="cup", shape=shape, X_WO=X_WO)
+    plan = pick(solver, Surroundings(map=room(counter), objects=(box,)))
+    assert isinstance(plan, PickPlan), plan
+    assert plan.opening_m == pytest.approx(0.06)
+
+
 def test_a_bottle_with_4_cm_above_it_comes_out_from_under_a_board(solver: Solver) -> None:
     board = BOARD[BOARDS_M[1]]
     tall_m = board.clearance_m - 0.04
