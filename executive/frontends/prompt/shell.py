@@ -133,6 +133,10 @@ class Shell(Answering):
         """Bring the robot to a stand and end all jobs; from any thread."""
         self.brake.stop(why)
 
+    def stop_unsaid(self, why: str) -> None:
+        """The same, without a word."""
+        self.brake.stop_unsaid(why)
+
     def command(self, name: str) -> None:
         """Do what a command does that takes no words."""
         self.commands[name].run("")
