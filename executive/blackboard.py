@@ -94,11 +94,19 @@ PHASE = Key[str]("phase", str, writer="skills", meaning="what the newest skill d
 HELD = Key[dict[Side, str]](
     "held", dict[str, str], writer="sense", meaning="hand to id of the object in it", initial={}
 )
+GIVEN = Key[dict[str, str]](
+    "given", dict[str, str], writer="sense", initial={},
+    meaning="id of a thing to that of the person whom it was given to",
+)  # fmt: skip
+TAKEN_FROM = Key[dict[str, SE3]](
+    "taken_from", dict[str, SE3], writer="sense",
+    meaning="id of a thing to where it stood before a hand took it last: X_WO", initial={},
+)  # fmt: skip
 SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robot", initial="")
 
 KEYS: tuple[Key[Any], ...] = (
-    NOW, BODY, WORLD, MAP, HOME, HEALTH, HELD, STOP, PAUSE, PAUSED, ABORT, GOAL, FAILURE,
-    RECOVERIES, PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
+    NOW, BODY, WORLD, MAP, HOME, HEALTH, HELD, GIVEN, TAKEN_FROM, STOP, PAUSE, PAUSED, ABORT,
+    GOAL, FAILURE, RECOVERIES, PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
 )  # fmt: skip
 """The whole table."""
 

@@ -48,6 +48,14 @@ _WHERE = re.compile(
     r"(?:see|know|seen|find)\b",
     re.IGNORECASE,
 )
+_AGAIN = re.compile(
+    r"(?:(?:and|now|ok|okay|please|robot)\W+)*"
+    r"(?:(?:do|try|repeat)(?: (?:it|that|this|the same(?: thing)?))? )?"
+    r"(?:again|once more|once again|one more time|another time)(?:\W+(?:please|robot))*\W*"
+    r"|(?:please )?repeat(?: (?:it|that|this))?(?: please)?\W*",
+    re.IGNORECASE,
+)
+"""Nothing but a wish to have the last thing done once more."""
 
 _STEERING = (Stop, Pause, Resume, Cancel)
 _AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
@@ -116,6 +124,7 @@ class Dialogue:
         self.dropped = ""
         self._repeats = 0
         self._before: tuple[tuple[Goal, ...], RobotState] | None = None
+        self._told_of = ""
         self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
@@ -162,7 +171,10 @@ class Dialogue:
         asked_where, self._asked_where = self._asked_where, False
         if asked_where and _AND.match(text):
             text = _AND.sub("where is ", text)
+        if opened is None and self._told_of and _AGAIN.fullmatch(text.strip()):
+            text = self._repeatable(text)
         turn = turn or self._revised(text, state) or self._understand(text, state, opened)
+        self._told_of = text if isinstance(turn, Reply) else ""
         self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
         if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
             self._before = (turn.goals, state)
@@ -170,6 +182,13 @@ class Dialogue:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
         return turn
+
+    def _repeatable(self, text: str) -> str:
+        """What "again" repeats after a question: the last order, or else the question."""
+        if self._before is None:
+            return self._told_of
+        self.context = replace(self.context, goals=self._before[0])
+        return text
 
     def _read(self, text: str, state: RobotState) -> Outcome:
         """What a sentence means by itself, here and now."""
@@ -193,6 +212,10 @@ class Dialogue:
         if verdict_of(text) is not None or answered(text, question) is not None:
             return True
         return plans.changed(text, question, self.vocabulary) is not None
+
+    def about(self, goals: tuple[Goal, ...]) -> None:
+        """What is said next is about these goals, whatever was asked after them."""
+        self.context = replace(self.context, goals=goals)
 
     def besides(self, text: str, state: RobotState) -> str:
         """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.

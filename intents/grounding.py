@@ -35,12 +35,14 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         id: What the executive calls it.
         size_m: Extents in x, y, z [m].
-        at: Place it is at, or empty. With neither place nor room it may be anywhere.
+        at: Place it is at, or empty. With neither place, room nor position it may be anywhere.
         of: Piece of furniture that the place is a part of ("shelf" of its boards), or empty.
         room: Room it is in, or empty.
         p_WO: Position in the world [m].
         held: It is in the robot's hand.
         hand: In which one ("left"), if that is known.
+        holder: Name of the person whom it was given to and who has it still, or empty.
+        came_from: Place that it was taken from last, or empty.
     """
 
     id: str
@@ -55,6 +57,8 @@ class Entity(msgspec.Struct, frozen=True, kw_only=True):
     p_WO: tuple[float, float, float] | None = None
     held: bool = False
     hand: str = ""
+    holder: str = ""
+    came_from: str = ""
 
 
 class Grounded(msgspec.Struct, frozen=True):
@@ -164,7 +168,7 @@ _BY_PLACE = frozenset({"leftmost", "rightmost", "nearest", "farthest", "highest"
 
 def _fits(entity: Entity, query: ObjectQuery) -> bool:
     """Whether an entity is as described, leaving aside comparisons with others."""
-    unplaced = not (entity.at or entity.room)
+    unplaced = not (entity.at or entity.room or entity.holder or entity.p_WO)
     near = (
         query.at is None
         or unplaced

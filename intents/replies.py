@@ -99,7 +99,7 @@ def _where(query: ObjectQuery, state: RobotState) -> str | None:
         everywhere, "candidates", ()
     )  # fmt: skip
     known = [e for e in state.entities if e.id in ids]
-    told = [f"{_name(e)} is {spot}" for e in known if (spot := _spot(e))]
+    told = [said for e in known if (said := _whereabouts(e))]
     return f"{_capital(listing(told, 'and'))}." if told else None
 
 
@@ -115,7 +115,17 @@ def unknown_place(query: ObjectQuery) -> str:
     return f"I do not know where the {describe(query)} is. Shall I look for it?"
 
 
+def _whereabouts(entity: Entity) -> str:
+    """That somebody has it, or where it is; empty if that is not known."""
+    if entity.holder:
+        return f"{entity.holder} has {_name(entity)}"
+    spot = _spot(entity)
+    return f"{_name(entity)} is {spot}" if spot else ""
+
+
 def _spot(entity: Entity) -> str:
+    if entity.holder:
+        return f"with {entity.holder}"
     if entity.held:
         return f"in my {entity.hand} hand" if entity.hand else "in my hand"
     if entity.at and entity.room and entity.at != entity.room:

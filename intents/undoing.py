@@ -125,14 +125,15 @@ def _things_back(query: ObjectQuery, before: RobotState, now: RobotState, *, gav
     for was, is_now in _both(ids, before, now):
         thing = replace(narrowed(ObjectQuery(), was), at=None)
         named = describe_entity(was)
+        stood_on = was.at or is_now.came_from  # nobody had seen it before it was taken from there
         if was.held:
             steps += [] if is_now.held else [Pick(object=thing)]
-        elif not was.at:
+        elif not stood_on:
             return f"I do not know where the {named} was."
-        elif is_now.held or is_now.at != was.at:
+        elif is_now.held or is_now.at != stood_on:
             if gave and not is_now.held and not is_now.at:
                 return f"I gave the {named} away; hand it to me, or tell me where it lies."
-            steps.append(Place(object=thing, on=was.at))
+            steps.append(Place(object=thing, on=stood_on))
     return tuple(steps) if ids else "I do not know any more which thing that was."
 
 

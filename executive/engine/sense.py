@@ -8,7 +8,19 @@ from py_trees.common import Status
 
 from executive.behaviours.ask import ANSWERS
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import BODY, HEALTH, HELD, HOME, MAP, NOW, SPEED_LIMIT, WORLD
+from executive.blackboard import (
+    BODY,
+    GIVEN,
+    HEALTH,
+    HELD,
+    HOME,
+    MAP,
+    NOW,
+    SPEED_LIMIT,
+    TAKEN_FROM,
+    WORLD,
+)
+from executive.engine.handled import Handled
 from executive.engine.health_monitor import HealthMonitor
 from executive.engine.reminder import Reminder
 from executive.health import Finding, Health, Level
@@ -36,6 +48,7 @@ class Sense(Behaviour):
         self._link = link
         self._monitor = monitor
         self._holdings = holdings
+        self._handled = Handled(holdings)
         self._reminder = Reminder(link, holdings)
         self._board = stage.board.claim("sense")
         self._health = Health()
@@ -84,8 +97,11 @@ class Sense(Behaviour):
 
     def _feel(self) -> None:
         """What the hands hold; how, is journalled for an executive that comes after this one."""
-        held = self._holdings.all()
+        held, board = self._holdings.all(), self._stage.board
         self._board.set(HELD, {one.side: one.object_id for one in held})
+        self._handled.look(board.read(WORLD), board.read(MAP))
+        self._board.set(GIVEN, self._handled.given)
+        self._board.set(TAKEN_FROM, self._handled.taken_from)
         if held != self._held:
             self._held = held
             hands = {one.side: msgspec.to_builtins(one) for one in held}

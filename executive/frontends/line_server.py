@@ -1,8 +1,9 @@
 """A unix socket on which others send lines and are sent lines: bounded in all that they can want.
 
-Each client has a thread that reads. One that does not read what it is sent, sends a line without
-an end, or is another user's, is let go. Where there are as many as there may be, the one that was
-silent longest makes room, so that forgotten connections keep nobody from stopping a robot.
+Each client has a thread that reads. One that is a megabyte behind with reading what it is sent,
+that sends a line without an end, or that is another user's, is let go. Where there are as many as
+there may be, the one that was silent longest makes room, so that forgotten connections keep nobody
+from stopping a robot.
 """
 
 from __future__ import annotations
@@ -14,12 +15,15 @@ import socket
 import struct
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 
 from robot.closing import Closing
 
 AGAIN_S = 0.05
+MOST_BEHIND = 1 << 20
+"""Bytes that may wait for a client that reads slowly."""
 _PASSING = (
     errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOBUFS, errno.ECONNABORTED, errno.EINTR,
     errno.EAGAIN, errno.EPERM,
@@ -36,25 +40,85 @@ def is_own(connection: socket.socket) -> bool:
 
 
 class Client:
-    """Somebody who is connected."""
+    """Somebody who is connected.
+
+    What it does not read at once waits for it, in a thread that is there only as long as it is
+    behind; nobody else waits for that.
+    """
 
     def __init__(self, connection: socket.socket) -> None:
         """Take a connection over."""
         self._connection = connection
         self._lock = threading.Lock()
+        self._behind: deque[bytes] = deque()
+        self._behind_bytes = 0
+        self._latest = b""
+        self._late = False
         self.last_heard = 0
         """Counts what all clients said; the least is of who was silent longest."""
 
-    def send(self, line: bytes) -> bool:
-        """Send a line if there is room for it at once; else the client does not read, and goes."""
+    def send(self, line: bytes, *, supersedes: bool = False) -> bool:
+        """Send a line, now or when the client has read what it was sent before; never waits.
+
+        Args:
+            line: what is sent.
+            supersedes: whether it takes the place of the one of that kind that waits still.
+
+        Returns:
+            Whether it may arrive: one that is too far behind is let go.
+        """
         with self._lock:
-            try:
-                if self._connection.send(line, socket.MSG_DONTWAIT) == len(line):
-                    return True
-            except OSError:
-                pass
+            if self._late:
+                if supersedes:
+                    self._latest = line
+                else:
+                    self._keep(line)
+                within = self._behind_bytes <= MOST_BEHIND
+            else:
+                within = self._sent_or_late(line)
+        if not within:
+            self.drop()
+        return within
+
+    def _sent_or_late(self, line: bytes) -> bool:
+        """Send what there is room for, and begin to wait for more room; whether that can be."""
+        try:
+            sent = self._connection.send(line, socket.MSG_DONTWAIT)
+        except BlockingIOError:
+            sent = 0
+        except OSError:
+            return False
+        if sent == len(line):
+            return True
+        self._keep(line[sent:])
+        self._late = True
+        try:
+            threading.Thread(target=self._catch_up, name="slow client", daemon=True).start()
+        except RuntimeError:  # no room for a thread
+            return False
+        return True
+
+    def _keep(self, line: bytes) -> None:
+        self._behind.append(line)
+        self._behind_bytes += len(line)
+
+    def _catch_up(self) -> None:
+        """Send what waits as fast as it is read."""
+        with suppress(OSError):
+            while line := self._next():
+                self._connection.sendall(line)
+            return
         self.drop()
-        return False
+
+    def _next(self) -> bytes:
+        with self._lock:
+            if self._behind:
+                line = self._behind.popleft()
+                self._behind_bytes -= len(line)
+                return line
+            line, self._latest = self._latest, b""
+            self._late = bool(line)
+            return line
 
     def drop(self) -> None:
         """Let it go; its thread notices."""

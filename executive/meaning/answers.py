@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
-from executive.blackboard import HELD, WORLD, Blackboard
+from executive.blackboard import GIVEN, HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.skills.motions.likelihood import surfaces_of
@@ -119,4 +119,6 @@ def _seen(board: Blackboard, ids: frozenset[str], places: tuple[Place, ...]) -> 
     seen = [t for t in world.tracks if t.id in ids and t.X_WO is not None and not t.missing]
     if not places:
         return seen
-    return [t for t in seen if t.X_WO and any(stands_on(t.X_WO, place) for place in places)]
+    away = {*board.read(HELD).values(), *board.read(GIVEN)}
+    here = [t for t in seen if t.held_by is None and t.id not in away]  # a hand is no place
+    return [t for t in here if t.X_WO and any(stands_on(t.X_WO, place) for place in places)]

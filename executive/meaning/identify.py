@@ -63,6 +63,7 @@ class Scene:
         held: tuple[str, ...] = (),
         entities: tuple[Entity, ...] = (),
         view: Viewpoint | None = None,
+        moves: bool = False,
     ) -> None:
         """Begin with what is held now.
 
@@ -71,19 +72,22 @@ class Scene:
             held: ids of what is in the hands.
             entities: every object with where it is believed to be (default: it is not known).
             view: where the robot stands, for "the leftmost"; None if that is not known.
+            moves: whether things may be elsewhere by the time the goals are done.
         """
         self.knowledge = knowledge
         self._entities = list(entities or knowledge.entities())
         self._view = view
         self._settled: dict[goals.ObjectQuery, tuple[str, ...]] = {}
+        self._moves = moves
         self.held: list[str] = list(held)
         self.spoken_of: str | None = held[-1] if held else None
 
     def knowing(self, query: goals.ObjectQuery, ids: tuple[str, ...]) -> Scene:
         """The same scene, where it is settled which things a description means."""
         scene = Scene(
-            self.knowledge, held=tuple(self.held), entities=tuple(self._entities), view=self._view
-        )
+            self.knowledge, held=tuple(self.held), entities=tuple(self._entities),
+            view=self._view, moves=self._moves,
+        )  # fmt: skip
         gone = replace(query, at=None)  # as it is spoken of once it was taken from there
         scene._settled = {**self._settled, _bare(query): ids, _bare(gone): ids}
         scene.spoken_of = ids[0]
@@ -92,6 +96,7 @@ class Scene:
     def follow(self, other: Scene) -> None:
         """Go on from what another one has come to."""
         self.held, self.spoken_of = list(other.held), other.spoken_of
+        self._moves = self._moves or other._moves
 
     @property
     def room(self) -> str:
@@ -141,6 +146,7 @@ class Scene:
         """
         if object_id in self.held:
             return
+        self._moves = True
         if len(self.held) >= HANDS:
             infos = [self.knowledge.object(held) for held in self.held]
             names = " and ".join(info.full_name for info in infos if info is not None)
@@ -149,6 +155,7 @@ class Scene:
 
     def put_down(self, object_id: str) -> None:
         """The goals so far have put it down."""
+        self._moves = True
         if object_id in self.held:
             self.held.remove(object_id)
 
@@ -193,7 +200,8 @@ class Scene:
         """Which of those that look as described stand where the description says.
 
         Raises:
-            Unsettled: it is not known of all of them where they are.
+            Unsettled: it is not known of all of them where they are, or nothing is believed to be
+                there, or something is moved before it is asked.
         """
         looks = replace(query, at=None, relation=None, superlative=None, count="all", held=False)
         alike = ground(looks, self._entities)
@@ -203,9 +211,12 @@ class Scene:
             return alike
         known = {entity.id: entity for entity in self._entities}
         fitting = [known[object_id] for object_id in alike.ids]
-        if all(entity.p_WO or entity.held for entity in fitting):
+        known_now = all(entity.p_WO or entity.held or entity.holder for entity in fitting)
+        many = query.count not in (None, 1)
+        if known_now and not (query.at and many and self._moves):
             there = ground(replace(query, held=False), self._entities, view=self._view)
-            return found if isinstance(there, Unknown) and query.at else there
+            if not (query.at and isinstance(there, Unknown)):
+                return there
         text = f"{describe(query)!r} fits {len(fitting)} things as long as nobody looks"
         question = f"Which one, {listing([f'the {describe_entity(e)}' for e in fitting])}?"
         raise Unsettled(query, failure("ambiguous", text, suggestion=question))

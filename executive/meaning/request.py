@@ -11,7 +11,7 @@ from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.tasks import understand
 from executive.meaning.validation import check
-from executive.meaning.whereabouts import Whereabouts, needed
+from executive.meaning.whereabouts import Whereabouts, is_busy, needed
 from executive.trees.parts import Part
 from intents import dialogue, parser, plans
 from intents.context import noted, verdict_of
@@ -138,7 +138,9 @@ def meant(
         state: where things are and where the robot stands, for "the leftmost", as far as known.
     """
     state = state or RobotState()
-    scene = Scene(where.knowledge, held=held, entities=state.entities, view=state.view)
+    scene = Scene(
+        where.knowledge, held=held, entities=state.entities, view=state.view, moves=is_busy(state)
+    )
     try:
         task = understand(goals, scene)
     except CannotMean as end:

@@ -10,13 +10,22 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from executive.blackboard import GOAL, HEALTH, HELD, PHASE, WORLD, Blackboard
+from executive.blackboard import (
+    GIVEN,
+    GOAL,
+    HEALTH,
+    HELD,
+    PHASE,
+    TAKEN_FROM,
+    WORLD,
+    Blackboard,
+)
 from executive.meaning.knowledge import Knowledge
 from intents.grounding import Entity
 from intents.relations import Viewpoint
 from intents.state import RobotState
 from robot.messages import Place, WorldState
-from robot.se3 import Vector3
+from robot.se3 import SE3, Vector3
 
 IN_VIEW_S = 0.5
 """What was seen that recently is in view: a few frames of the camera."""
@@ -35,7 +44,9 @@ def state_of(
     world = board.read(WORLD)
     held = {id_: side for side, id_ in board.read(HELD).items()}
     state = RobotState(
-        entities=tuple(_entities(knowledge, world, held)),
+        entities=tuple(
+            _entities(knowledge, world, held, board.read(GIVEN), taken_from=board.read(TAKEN_FROM))
+        ),
         doing=board.read(GOAL),
         step="" if board.read(PHASE) == "done" else board.read(PHASE),
         problems=tuple(finding.failure.cause for finding in board.read(HEALTH).findings),
@@ -70,15 +81,27 @@ def _whereabouts_of_operator(world: WorldState, knowledge: Knowledge) -> str:
 
 
 def _entities(
-    knowledge: Knowledge, world: WorldState | None, held: Mapping[str, str]
+    knowledge: Knowledge,
+    world: WorldState | None,
+    held: Mapping[str, str],
+    given: Mapping[str, str],
+    *,
+    taken_from: Mapping[str, SE3],
 ) -> list[Entity]:
     """Every object of the map, with where it is believed to be."""
     tracks = {track.id: track for track in world.tracks} if world else {}
     found: list[Entity] = []
     for info in knowledge.map.objects:
         entity, track = knowledge.entity(info), tracks.get(info.id)
+        origin = taken_from.get(info.id)
+        stood_on = knowledge.surface_under(origin) if origin is not None else None
+        if stood_on is not None:
+            entity = replace(entity, came_from=stood_on.name)
+        holder = knowledge.person(given[info.id]) if info.id in given else None
         if info.id in held:
             entity = replace(entity, held=True, hand=held[info.id])
+        elif holder is not None:
+            entity = replace(entity, holder=holder.name)
         elif track is not None and track.X_WO is not None and not track.missing:
             at = knowledge.surface_under(track.X_WO)
             entity = _standing(entity, at, track.X_WO.p, knowledge)

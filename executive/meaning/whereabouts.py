@@ -29,13 +29,18 @@ class Spot(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     room: str = ""
     p_WO: Point | None = None
     held: bool = False
+    holder: str = ""
 
 
-class Whereabouts(msgspec.Struct, frozen=True, kw_only=True):
-    """Where the things were, by id, and where the robot stood (None: not known)."""
+class Whereabouts(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """Where the things were, by id, and where the robot stood (None: not known).
+
+    `busy`: something else was under way, after which things may stand elsewhere.
+    """
 
     things: dict[str, Spot]
     view: Viewpoint | None = None
+    busy: bool = False
 
 
 def needed(goals: Iterable[Goal], state: RobotState) -> Whereabouts | None:
@@ -43,21 +48,29 @@ def needed(goals: Iterable[Goal], state: RobotState) -> Whereabouts | None:
     if not state.entities or not _relative(to_builtins(goals)):
         return None
     things = {
-        one.id: Spot(at=one.at, room=one.room, p_WO=one.p_WO, held=one.held)
+        one.id: Spot(at=one.at, room=one.room, p_WO=one.p_WO, held=one.held, holder=one.holder)
         for one in state.entities
     }
-    return Whereabouts(things=things, view=state.view)
+    return Whereabouts(things=things, view=state.view, busy=is_busy(state))
+
+
+def is_busy(state: RobotState) -> bool:
+    """Whether something is done before what is asked for now."""
+    return bool(state.doing or state.waiting)
 
 
 def recalled(whereabouts: Whereabouts, knowledge: Knowledge) -> RobotState:
     """The state that they were taken from, as far as the meaning of goals depends on it."""
     entities = tuple(_put(entity, whereabouts) for entity in knowledge.entities())
-    return RobotState(entities=entities, view=whereabouts.view)
+    before = ("something else",) if whereabouts.busy else ()
+    return RobotState(entities=entities, view=whereabouts.view, waiting=before)
 
 
 def _put(entity: Entity, whereabouts: Whereabouts) -> Entity:
     spot = whereabouts.things.get(entity.id, Spot())
-    return replace(entity, at=spot.at, room=spot.room, p_WO=spot.p_WO, held=spot.held)
+    return replace(
+        entity, at=spot.at, room=spot.room, p_WO=spot.p_WO, held=spot.held, holder=spot.holder
+    )
 
 
 def _relative(plain: object) -> bool:

@@ -103,7 +103,7 @@ class Give(ScriptedSkill[GiveParams]):
         body, side = self.body, held.side
         body.phase = "letting go"
         self._given = True
-        body.context.holdings.release(side)
+        body.context.holdings.hand_over(side, self.parameters.person_id)
         set_payload(body, side, 0.0)
         yield from open_fingers(body, side)
         yield from body.wait(CLEAR_S)

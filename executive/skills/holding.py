@@ -37,10 +37,27 @@ class Holdings:
     def __init__(self) -> None:
         """Start with empty hands."""
         self._held: dict[Side, Held] = {}
+        self._given: dict[str, str] = {}
 
     def take(self, held: Held) -> None:
         """A hand has closed on an object."""
         self._held[held.side] = held
+        self._given.pop(held.object_id, None)
+
+    def hand_over(self, side: Side, person_id: str) -> None:
+        """A hand lets go of what somebody takes from it. May be repeated."""
+        held = self._held.pop(side, None)
+        if held is not None:
+            self._given[held.object_id] = person_id
+
+    def put_away(self, object_id: str) -> None:
+        """Whoever was given an object has put it down somewhere."""
+        self._given.pop(object_id, None)
+
+    @property
+    def given(self) -> dict[str, str]:
+        """What somebody was given and has still, as far as is known: ids of thing and person."""
+        return dict(self._given)
 
     def release(self, side: Side) -> None:
         """A hand has opened, or lost what it held. May be repeated."""

@@ -64,6 +64,10 @@ class Told:
         self.did.append("stop")
         self.out("Stopping.")
 
+    def stop_unsaid(self, why):
+        self.stops += 1
+        self.did.append("stop, unsaid")
+
     def stop_at_once(self, text):
         if text.startswith("estop"):
             self.did.append(text)

@@ -102,6 +102,8 @@ class Conversation:
         self._shell = shell
         self._ear = listener
         self._recorded = recorded
+        self._stops = shell.brake.stops
+        self._left_out = False
         self._risk = heard_risk if confirm else risk
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="sentences")
         shell.speech.screen = self._said
@@ -149,8 +151,13 @@ class Conversation:
         say(f"> {one.text}")
         if one.kind == "stop" or shell.brake.is_cry(one.text):
             shell.brake.stop("a cry to stop was heard")
+            self._stops = shell.brake.stops
         elif self._over:
             return
+        elif self._recorded and shell.brake.stops != self._stops:
+            if not self._left_out:
+                say(f"Not done: “{one.text}”, and what follows it: the robot was told to stop")
+            self._left_out = True
         elif one.kind == "halt":
             shell.halt_at_once(one.text, spoken=True)
         elif one.kind == "halted":
@@ -196,4 +203,5 @@ class Conversation:
         if self._shell.dialogue.question is not None:
             say("Nobody answered; that is not done.")
             return ExitStatus.INVALID
-        return cli.status_of(self._shell)
+        status = cli.status_of(self._shell)
+        return max(status, ExitStatus.FAILED) if self._left_out else status

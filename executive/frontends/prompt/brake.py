@@ -76,9 +76,11 @@ class Brake:
         self._dialogue.forget()
 
     def press(self) -> None:
-        """Press the emergency stop."""
+        """Press the emergency stop; lines from before it come to nothing."""
         self._people.speech.hush()
         self._robot.executive.press_estop("the operator pressed the emergency stop")
+        with self._lock:
+            self._stops += 1
 
     def halt_robot(self) -> None:
         """Come to a stand at once and keep the jobs, until it is known what is wanted."""

@@ -84,7 +84,11 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
             if on_terminal:
                 return _at_terminal(shell, options, handle, ahead)
             interrupts = shell.robot.interrupts
-            whole = work_off(shell, lines_until(sys.stdin, lambda: interrupts.pressed > 0))
+
+            def over() -> bool:
+                return interrupts.pressed > 0 or bool(shell.gone)
+
+            whole = work_off(shell, lines_until(sys.stdin, over))
             if interrupts.pressed:
                 shell.leave()
             status = status_of(shell) if whole else max(status_of(shell), ExitStatus.FAILED)

@@ -18,16 +18,18 @@ class Halt:
 
     Attributes:
         on: whether it halted, and it is not known yet what is wanted.
+        told: whether people were told that it halts.
     """
 
     def __init__(self, executive: Executive) -> None:
         """Nobody has cried yet."""
         self._executive = executive
         self._given_up: set[int] = set()
-        self.on = False
+        self.on = self.told = False
 
     def begin(self) -> None:
         """Come to a stand at once, and keep what is under way."""
+        self.told = self.told and self.on
         self.on = True
         self._executive.pause(CRIED)
 

@@ -16,26 +16,40 @@ CHUNK = 65536
 
 
 def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
-    """Do every line; ends with the last, with `quit`, when the robot is gone, or with a signal.
+    """Do every line; ends with the last, with `quit`, when the robot is gone, or is to stop.
 
     Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand
-    for it. Returns whether no line that came was left undone for that.
+    for it. A stop that is none of the lines (on a page, in another terminal) is about all that
+    follow. Returns whether no line that came was left undone for that.
     """
+    brake = shell.brake
+    stops = brake.stops
     for line in lines:
         text = line.strip()
         if not text or text.startswith("#"):
             continue
+        if shell.gone:
+            break
         if shell.robot.interrupts.pressed:
-            shell.out(f"Not done: “{text}”, and what follows it: a signal says to leave")
-            return False
+            return _left_out(shell, text, "a signal says to leave")
+        if brake.stops != stops:
+            return _left_out(shell, text, "the robot was told to stop")
         shell.out(f"> {text}")
+        own = brake.is_cry(text) or text.startswith("estop")
         shell.line(text)
         shell.robot.wait()
-        if shell.gone:
-            shell.out(shell.gone)
+        if own:
+            stops = brake.stops
         if shell.leaving or shell.gone:
             break
+    if shell.gone:
+        shell.out(shell.gone)
     return True
+
+
+def _left_out(shell: Spoken, text: str, why: str) -> bool:
+    shell.out(f"Not done: “{text}”, and what follows it: {why}")
+    return False
 
 
 def lines_until(stream: TextIO, over: Callable[[], bool]) -> Iterator[str]:

@@ -13,6 +13,7 @@ from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.robot import AtWork
 from executive.meaning.request import Understood
 from executive.trees.parts import errands
+from intents.goals import Goal
 from robot.misfits import listed
 from robot.se3 import SE3
 
@@ -22,11 +23,13 @@ class Queueing:
 
     Attributes:
         corrects: whether the next task takes the place of the one before it.
+        corrected: the job whose place it takes then (None: the one that was asked for last).
     """
 
     def __init__(self, robot: AtWork, brake: Brake, people: Answering) -> None:
         """Nothing was asked for yet."""
         self.corrects = False
+        self.corrected: int | None = None
         self._robot = robot
         self._brake = brake
         self._people = people
@@ -81,6 +84,11 @@ class Queueing:
         """The jobs that have begun and are not over."""
         return [job for job in self._robot.executive.jobs if job.state in UNDER_WAY]
 
+    def goals_of(self, job: Job) -> tuple[Goal, ...]:
+        """What a job was asked to do; nothing if it was not asked for here."""
+        asked = self._asked.get(job.number)
+        return asked[0].goals if asked else ()
+
     def foresee_s(self, job: Job) -> float | None:
         """How long a job takes in all; None if it was not asked for here, or cannot be said."""
         asked = self._asked.get(job.number)
@@ -104,7 +112,7 @@ class Queueing:
         """End what a task takes the place of: what was halted for it, or what it corrects."""
         halt = self._brake.halt
         corrects, self.corrects = self.corrects, False
-        last = max(self._asked, default=0)
+        last, self.corrected = self.corrected or max(self._asked, default=0), None
         jobs = [job for job in self._robot.executive.jobs if job.state not in OVER]
         replaced = [job for job in jobs if corrects and job.number == last]
         comes_first = urgent or "first" in text.casefold().split()

@@ -27,11 +27,13 @@ from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.meaning.request import Understood
 from intents.context import Context, verdict_of
+from intents.correcting import is_correction
 from intents.dialogue import Dialogue
-from intents.halting import is_halt
+from intents.halting import besides, is_halt
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Question, Refusal
 from intents.parser import hear
+from intents.state import RobotState
 from robot.errors import RobotError
 
 if TYPE_CHECKING:
@@ -133,6 +135,10 @@ class Shell(Answering):
         """Bring the robot to a stand and end all jobs; from any thread."""
         self.brake.stop(why)
 
+    def stop_unsaid(self, why: str) -> None:
+        """The same, without a word."""
+        self.brake.stop_unsaid(why)
+
     def command(self, name: str) -> None:
         """Do what a command does that takes no words."""
         self.commands[name].run("")
@@ -211,7 +217,7 @@ class Shell(Answering):
 
     def ask_again(self) -> None:
         """Ask what was asked by an executive before this one: whether to go on after a halt."""
-        self.brake.halt.on = True
+        self.brake.halt.on = self.brake.halt.told = True
         self.ask_to_go_on()
 
     def hear(self, text: str, *, stops: int) -> None:
@@ -299,10 +305,32 @@ class Shell(Answering):
         if not self.brake.halt.kept:
             self.out(self.brake.standing())
             return
-        self.out("Halting.")
-        said = self.dialogue.besides(text, self._understanding.state())
+        self._tell_of_halt()
+        state = self._understanding.state()
+        said = self.dialogue.besides(text, state) or self._besides_of_halted(text, state)
         if said:
             self.sentence(said)
+        elif is_correction(text) and (left := besides(text)):
+            self.refuse(f"I do not know what “{left}” is to change.")
+
+    def _besides_of_halted(self, text: str, state: RobotState) -> str:
+        """What a cry corrects of the job that it has halted, where it means nothing else."""
+        job = self.brake.halt.kept[0]
+        before, goals = self.dialogue.context, self.queue.goals_of(job)
+        self.dialogue.about(goals)
+        said = self.dialogue.besides(text, state) if goals else ""
+        if said:
+            self.queue.corrected = job.number
+        else:
+            self.dialogue.about(before.goals)
+        return said
+
+    def _tell_of_halt(self) -> None:
+        """Say that the robot halts, once and before anything is asked about it."""
+        halt = self.brake.halt
+        if not halt.told:
+            halt.told = True
+            self.out("Halting.")
 
     def ask_to_go_on(self) -> None:
         """Ask what is to become of the jobs that were halted, where nothing else is asked."""
@@ -312,6 +340,7 @@ class Shell(Answering):
         if question is None:
             self.brake.halt.end()
             return
+        self._tell_of_halt()
         self.dialogue.ask(question)
         self.answer(question.question)
 

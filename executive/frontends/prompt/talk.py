@@ -88,6 +88,11 @@ class Spoken(Protocol):
         ...
 
     @property
+    def brake(self) -> Stopping:
+        """What stops the robot."""
+        ...
+
+    @property
     def gone(self) -> str:
         """That the robot is gone, and what to do; empty while it is there."""
         ...
@@ -112,11 +117,6 @@ class Talk(Spoken, Protocol):
     @property
     def speech(self) -> Hushed:
         """What is said aloud."""
-        ...
-
-    @property
-    def brake(self) -> Stopping:
-        """What stops the robot."""
         ...
 
     @property

@@ -146,10 +146,16 @@ class Terminal:
             mourning.cancel()
 
     async def _mourn(self) -> None:
-        """Tell that the robot is gone when that happens, also while nothing is asked of it."""
+        """Tell that the robot is gone when that happens, also while nothing is asked of it.
+
+        A prompt that has nobody to talk to any more ends.
+        """
         while not self._shell.gone:
             await asyncio.sleep(REFRESH_S)
-        self._shell.answer(self._shell.gone)
+        if self._shell.leaving:
+            self._leave()
+        else:
+            self._shell.answer(self._shell.gone)
 
     async def _prompt_until_leaving(self, session: PromptSession[str], keyboard: Keyboard) -> None:
         shell, mistakes = self._shell, 0

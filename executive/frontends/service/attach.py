@@ -13,9 +13,10 @@ from contextlib import suppress
 from typing import NamedTuple
 
 import msgspec
+from msgspec.structs import replace
 
 from executive.engine.loop import Interrupts
-from executive.frontends.output import say
+from executive.frontends.output import as_mistake, say
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.terminal import LEAVING, Terminal, history_at_home
@@ -23,21 +24,28 @@ from executive.frontends.prompt.view import View
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service import views
-from executive.frontends.service.client import AGAIN_S, ANSWER_S, Connection, Cut, leave_stop
+from executive.frontends.service.client import AGAIN_S, ANSWER_S, Connection, Cut
 from executive.frontends.service.place import Place
+from executive.frontends.service.pulse import Pulse
+from executive.frontends.service.remote_brake import RemoteBrake
+from executive.health import Level
 from intents.halting import is_halt
 from intents.letters import bare, without_sequences
-from intents.stopping import is_stay, is_stop
 from intents.vocabulary import Vocabulary
+from robot.clock import Clock, WallClock
 from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 
 WAY_BACK_S = 60.0
 """So long a line waits for an executive that takes over."""
+LOOK_S = 0.2
+DEAF = "it does not answer"
+ESTOP: Mapping[str, m.Button] = {"release": "release", "reset": "reset"}
+"""What can be said after `estop`, besides nothing."""
 
 
 def attach(place: Place) -> int:
-    """Talk to a robot that is up until the person leaves; returns the exit status.
+    """Talk to a robot that is up until the person leaves, or it is down; returns the exit status.
 
     Raises:
         RobotError: the robot does not answer.
@@ -51,13 +59,14 @@ def attach(place: Place) -> int:
                 named = f"{place.name}: {shell.hello.robot} in {shell.hello.world}"
                 say(f"{named}. `help` shows what can be said; Ctrl-D leaves, the robot goes on.")
                 Terminal(shell, history=history_at_home()).run()
-                say(shell.gone or f"{place.name} goes on: humanoid attach comes back to it.")
-            else:
-                interrupts = shell.robot.interrupts
-                if not work_off(shell, lines_until(sys.stdin, lambda: interrupts.pressed > 0)):
-                    shell.status = max(shell.status, ExitStatus.FAILED)
+                if not shell.gone:
+                    say(f"{place.name} goes on: humanoid attach comes back to it.")
+            elif not work_off(shell, lines_until(sys.stdin, shell.is_over)):
+                shell.status = max(shell.status, ExitStatus.FAILED)
         finally:
             shell.close()
+    if shell.gone:
+        shell.warn(shell.gone)
     return ExitStatus.BROKEN if shell.gone else shell.status
 
 
@@ -87,6 +96,20 @@ class RemoteRobot:
         """A line that waits for its jobs has done so already."""
 
 
+class Pending:
+    """A line that was sent, until it is over.
+
+    Attributes:
+        over: whether it is.
+        jobs: that came of it, as far as that was told.
+    """
+
+    def __init__(self) -> None:
+        """It is under way."""
+        self.over = threading.Event()
+        self.jobs: tuple[int, ...] = ()
+
+
 class RemoteShell:
     """A `Talk` with a shell of another process.
 
@@ -94,13 +117,14 @@ class RemoteShell:
         place: of the robot.
         robot: as it is told of.
         hello: what is known of it from the beginning.
-        leaving: whether the person wants to go.
+        leaving: whether the person wants to go, or there is nobody to talk to any more.
+        gone: that the robot is, empty while it is there.
         status: the worst that came of a line.
     """
 
     hello: views.Hello
 
-    def __init__(self, place: Place, *, waits: bool) -> None:
+    def __init__(self, place: Place, *, waits: bool, clock: Clock | None = None) -> None:
         """Connect to nothing yet; `waits`: a line is done when all that comes of it is over."""
         self.robot = RemoteRobot()
         self.leaving = False
@@ -110,12 +134,14 @@ class RemoteShell:
         self.asks = m.Asks()
         self.place = place
         self._waits = waits
+        self._clock = clock or WallClock()
         self._connection: Connection | None = None
-        self._pending: dict[int, threading.Event] = {}
+        self._pending: dict[int, Pending] = {}
         self._lock = threading.Lock()
         self._ready = threading.Event()
-        self._closing = False
+        self._closing = threading.Event()
         self.brake = RemoteBrake(self)
+        self._pulse = Pulse(self._ask_for_a_word, now_s=self._clock.now_s())
 
     # --- the connection ---
 
@@ -125,41 +151,99 @@ class RemoteShell:
         threading.Thread(target=self._receive, args=(connection,), daemon=True).start()
         if not self._ready.wait(ANSWER_S):
             raise Cut(f"{self.place.name} is up, and does not answer")
+        threading.Thread(target=self._look_on, daemon=True).start()
 
     def close(self) -> None:
-        """Hang up; the robot goes on."""
-        self._closing = True
+        """Hang up, once the stops that are under way are heard; the robot goes on."""
+        self.brake.settled()
+        self._closing.set()
         if self._connection is not None:
             self._connection.close()
 
-    def _watch(self) -> Connection:
-        connection = Connection(self.place)
-        connection.send(m.Watch(views=not self._waits))
-        self._connection = connection
+    def _watch(self, *, again: bool = False) -> Connection:
+        told: list[Place] = []
+
+        def meanwhile(place: Place) -> None:
+            if not told:
+                told.append(place)
+                self.out("Nobody listens just now; stops are kept for who comes next.")
+
+        connection = Connection(self.place, meanwhile=meanwhile)
+        connection.send(m.Watch(views=not self._waits, recent=not again))
+        if again:
+            self.out(f"{self.place.name} listens again; something may have been left out.")
+        with self._lock:
+            lines = self._pending.values()
+            followed = [(self._followed(one, connection), one) for one in lines]
+            self._pending = {number: one for number, one in followed if number is not None}
+            self._connection = connection
         return connection
 
+    def _followed(self, one: Pending, connection: Connection) -> int | None:
+        """Wait for what comes of a line that was said by a connection that is cut; its number."""
+        if self._waits and one.jobs:
+            return connection.send(m.Await(jobs=one.jobs))
+        if self._waits:
+            self.warn("It is not known what came of that line.")
+            self.status = max(self.status, ExitStatus.BROKEN)
+        one.over.set()
+        return None
+
     def _receive(self, connection: Connection) -> None:
-        """What is told, from one executive after the other."""
+        """What is told, as long as the robot is up; whatever ends that is said."""
+        try:
+            self._receive_all(connection)
+        except RobotError as error:
+            up = places.is_up(self.place)
+            self._lose(f"{error}" if up else f"{self.place.name} is up no more.")
+        except Exception as error:  # in this software
+            self._lose(as_mistake(error))
+
+    def _receive_all(self, connection: Connection) -> None:
+        """What is told by one executive after the other."""
         while True:
             for line in connection.lines():
+                if self._pulse.heard(self._clock.now_s()):
+                    self.out(f"{self.place.name} answers again.")
                 with suppress(msgspec.DecodeError):  # of a newer one
                     self._take(views.told(line))
-            self._connection = None
             with self._lock:
-                pending, self._pending = self._pending, {}
-            for one in pending.values():
-                one.set()
-            if self._closing:
+                self._connection = None
+            connection.close()
+            if self._closing.is_set():
                 return
-            try:
-                if not places.is_up(self.place):
-                    raise Cut("it is down")
-                self.out("Nobody listens just now: the executive is replaced. Stops are kept.")
-                connection = self._watch()
-            except RobotError:
-                self.gone = f"{self.place.name} is up no more."
-                return
-            self.out(f"{self.place.name} listens again.")
+            if not places.is_up(self.place):
+                raise Cut("it is down")
+            with suppress(Cut):
+                connection = self._watch(again=True)
+
+    def _lose(self, why: str) -> None:
+        """There is nobody to talk to any more."""
+        self.gone = why
+        self.leaving = True
+        with self._lock:
+            self._connection = None
+            pending, self._pending = self._pending, {}
+        for one in pending.values():
+            one.over.set()
+        self._ready.set()
+
+    def _look_on(self) -> None:
+        """Look after the connection, as long as there is one."""
+        while not self.gone and not self._closing.wait(LOOK_S):
+            self.look(self._clock.now_s())
+
+    def look(self, now_s: float) -> None:
+        """Say when a robot that is quiet does not answer either."""
+        if self._pulse.look(now_s):
+            self.robot.view = replace(
+                self.robot.view, mode="unknown", phase="", level=Level.HOLD, unwell=DEAF
+            )
+            name = self.place.name
+            self.warn(f"{name} is up, and does not answer; humanoid logs --name {name}")
+
+    def _ask_for_a_word(self) -> None:
+        self.send(m.Await(jobs=()))
 
     def _take(self, told: m.Told | views.Seen | views.Hello) -> None:
         match told:
@@ -168,21 +252,27 @@ class RemoteShell:
             case views.Hello():
                 self.hello = told
                 self.dialogue = Names(told.vocabulary)
+                self.brake.greet(told.stops, told.pid)
                 self._ready.set()
             case views.Seen(view=view, busy=busy):
                 self.robot.view, self.robot.busy = view, busy
             case m.Asks():
                 self.asks = told
-            case m.Ended(number=number, status=status):
+            case m.Stopped(stops=stops):
+                self.brake.hear(stops)
+            case m.Queued(number=number, jobs=jobs):
+                with self._lock:
+                    if number in self._pending:
+                        self._pending[number].jobs = jobs
+            case m.Ended(number=number, status=status, stops=stops):
                 self.status = max(self.status, status)
+                self.brake.hear(stops)
                 with self._lock:
                     over = self._pending.pop(number, None)
                 if over is not None:
-                    over.set()
-            case m.Queued():
-                pass
+                    over.over.set()
 
-    def send(self, request: m.Request, *, over: threading.Event | None = None) -> bool:
+    def send(self, request: m.Request, *, over: Pending | None = None) -> bool:
         """Send a request; whether somebody takes it."""
         with self._lock:
             connection = self._connection
@@ -195,6 +285,27 @@ class RemoteShell:
                 return True
         return False
 
+    # --- what is known of the robot ---
+
+    @property
+    def hears(self) -> bool:
+        """Whether what the robot says is told here."""
+        return self._connection is not None and not self._pulse.lost
+
+    @property
+    def at_work(self) -> bool:
+        """Whether there may be something to stop: who does not answer may be at work."""
+        return self.robot.busy or not self.hears
+
+    @property
+    def asks_something(self) -> bool:
+        """Whether the robot asks the person something."""
+        return bool(self.asks.question)
+
+    def is_over(self) -> bool:
+        """Whether no line is wanted any more."""
+        return bool(self.gone) or self.robot.interrupts.pressed > 0
+
     # --- what a prompt does with it ---
 
     def out(self, text: str, /) -> None:
@@ -204,6 +315,10 @@ class RemoteShell:
     def answer(self, text: str) -> None:
         """Say a line to people."""
         self.out(text)
+
+    def warn(self, text: str, /) -> None:
+        """Say in red that something is wrong."""
+        say(text, err=True, styled=(text, "bold red"))
 
     @property
     def commands(self) -> Mapping[str, Command]:
@@ -219,24 +334,27 @@ class RemoteShell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it."""
-        if self.is_emergency(text):
+        text = plain(text)
+        if text.startswith("estop"):
+            self.brake.press(ESTOP.get(text.removeprefix("estop").strip(), "estop"))
             return True
-        if not self.brake.is_cry(plain(text)):
+        if not self.brake.is_cry(text):
             return False
         self.brake.stop("")
         return True
 
     def is_emergency(self, text: str) -> bool:
-        """Whether a line is about the emergency stop; it is handed on here."""
-        if not plain(text).startswith("estop"):
+        """Whether a line is about the emergency stop; unless it undoes that, it is pressed here."""
+        name, *rest = plain(text).split(maxsplit=1) or [""]
+        if not name.startswith("estop"):
             return False
-        if not self.send(m.Say(text=plain(text))):
-            self.brake.stop_unsaid("")
+        if not rest or rest[0] not in ESTOP:
+            self.brake.press("estop")
         return True
 
     def halt_at_once(self, text: str, *, busy: bool | None = None) -> bool:
         """Halt a robot at work if a line is a cry that ends nothing."""
-        at_work = self.robot.busy if busy is None else busy
+        at_work = self.at_work if busy is None else busy
         return at_work and is_halt(text) and self.send(m.Halt(text=text[: m.MAX_TEXT]))
 
     def line(self, text: str, *, stops: int | None = None) -> None:
@@ -244,61 +362,32 @@ class RemoteShell:
         if text.strip() in LEAVING:
             self.leaving = True
             return
-        if stops not in (None, self.brake.stops):
-            self.out(f"Not done: “{text}” was there when you said stop")
+        if self.stop_at_once(text):
+            self.brake.settled()
             return
-        over = threading.Event()
+        before = self.brake.stops if stops is None else stops
+        line = Pending()
         until_s = time.monotonic() + WAY_BACK_S
-        while not self.send(m.Say(text=text[: m.MAX_TEXT], wait=self._waits), over=over):
+        while True:
+            self.brake.settled()
+            if before != self.brake.stops:
+                self.out(f"Not done: “{text}” was there when you said stop")
+                self.status = max(self.status, ExitStatus.INVALID)
+                return
+            said = m.Say(text=text[: m.MAX_TEXT], wait=self._waits, stops=self.brake.told)
+            if self.send(said, over=line):
+                break
             if self.gone or time.monotonic() > until_s:
                 self.status = max(self.status, ExitStatus.BROKEN)
-                self.out("Not done: nobody listens.")
+                self.warn("Not done: nobody listens.")
                 return
             time.sleep(AGAIN_S)
-        while not over.wait(0.2):
+        while not line.over.wait(LOOK_S):
             if self.gone or self.robot.interrupts.count:
                 return
 
     def leave(self) -> None:
         """Nothing comes of it: the robot goes on."""
-
-
-class RemoteBrake:
-    """Stops a robot that another process keeps up."""
-
-    def __init__(self, shell: RemoteShell) -> None:
-        """Nobody has said stop here yet."""
-        self.stops = 0
-        self._shell = shell
-
-    def is_cry(self, text: str) -> bool:
-        """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        return is_stop(text) or (self._shell.robot.busy and is_stay(text))
-
-    def stop(self, why: str) -> None:
-        """Bring the robot to a stand; the robot says so."""
-        self.stop_unsaid(why)
-
-    def stop_unsaid(self, why: str) -> None:
-        """The same; where nobody listens, it is left for who comes next, and said again then."""
-        del why  # the robot is told that it was another terminal
-        self.stops += 1
-        if self._shell.send(m.Press(button="stop")):
-            return
-        threading.Thread(target=self._stop_next, daemon=True).start()
-
-    def _stop_next(self) -> None:
-        while not self._shell.gone and not self._shell.send(m.Press(button="stop")):
-            leave_stop(self._shell.place)
-            time.sleep(AGAIN_S)
-
-    def ask_no_more(self) -> bool:
-        """Close what the robot asks; whether it asks anything."""
-        return bool(self._shell.asks.question) and self._shell.send(m.Press(button="stop"))
-
-    def standing(self) -> str:
-        """What is true of a robot that has nothing to stop."""
-        return "There is nothing to stop."
 
 
 def plain(text: str) -> str:

@@ -8,6 +8,7 @@ it is said again as soon as somebody listens.
 from __future__ import annotations
 
 import errno
+import select
 import socket
 import time
 from collections.abc import Callable, Iterator
@@ -44,7 +45,10 @@ class Cut(ProcessError):
 
 
 class Connection(Closing):
-    """Asks one robot, one request after another."""
+    """Asks one robot, one request after another.
+
+    One thread may send while another one reads: how long either may take is its own affair.
+    """
 
     def __init__(
         self,
@@ -71,18 +75,22 @@ class Connection(Closing):
 
     def close(self) -> None:
         """Hang up."""
-        with suppress(OSError):
-            self._socket.shutdown(socket.SHUT_RDWR)
+        self._hang_up()
         self._socket.close()
 
+    def _hang_up(self) -> None:
+        """Let whoever reads here notice that nothing more comes."""
+        with suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)
+
     def send(self, request: m.Request) -> int:
-        """Send a request; returns its number. Raises Cut."""
+        """Send a request, which may take `ANSWER_S`; returns its number. Raises Cut."""
         self._number += 1
         numbered = msgspec.structs.replace(request, number=self._number)
         try:
-            self._socket.settimeout(ANSWER_S)
-            self._socket.sendall(m.line_of(numbered))
+            self._socket.sendall(m.line_of(numbered))  # bounded as `places.connect` has set it
         except OSError as error:
+            self._hang_up()  # what was sent of it is no line
             raise Cut(f"{self.place.name} does not listen any more: {error}") from None
         return self._number
 
@@ -117,15 +125,19 @@ class Connection(Closing):
         Raises:
             Silent: nothing came for `wait_s`.
         """
-        self._socket.settimeout(wait_s)
+        poll = select.poll()
+        try:
+            poll.register(self._socket, select.POLLIN)
+        except ValueError:  # closed
+            return
         while True:
             *lines, self._rest = self._rest.split(b"\n")
             yield from lines
             try:
+                if not poll.poll(None if wait_s is None else 1e3 * wait_s):
+                    text = f"{self.place.name} is up, and does not answer"
+                    raise Silent(f"{text}; humanoid logs --name {self.place.name}")
                 data = self._socket.recv(1 << 16)
-            except TimeoutError:
-                text = f"{self.place.name} is up, and does not answer"
-                raise Silent(f"{text}; humanoid logs --name {self.place.name}") from None
             except OSError:
                 return
             if not data or len(self._rest) > m.MAX_TOLD:
@@ -152,10 +164,19 @@ def _connected(
         time.sleep(AGAIN_S)
 
 
-def press(place: Place, button: m.Button, hear: Hear) -> int:
-    """Press a button; returns the exit status.
+def press(
+    place: Place, button: m.Button, hear: Hear, *, why: str = "", quiet: bool = False
+) -> m.Ended:
+    """Press a button, by a connection of its own; returns how that ended.
 
     One that stops is left for the next executive while none listens.
+
+    Args:
+        place: of the robot.
+        button: which one.
+        hear: is called with what is told of it.
+        why: what a job is told that ends by it; empty: that it was a command of another terminal.
+        quiet: whether nothing is said where there is nothing to stop.
 
     Raises:
         RobotError: the robot does not answer.
@@ -165,7 +186,7 @@ def press(place: Place, button: m.Button, hear: Hear) -> int:
     while True:
         with Connection(place, meanwhile=meanwhile) as connection:
             try:
-                return connection.ask(m.Press(button=button), hear).status
+                return connection.ask(m.Press(button=button, why=why, quiet=quiet), hear)
             except Cut:  # it died just now; the next one is told
                 if not places.is_up(place) or time.monotonic() > until_s:
                     raise

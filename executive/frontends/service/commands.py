@@ -68,7 +68,7 @@ def _asked(place: Place, request: m.Request, *, as_json: bool, headed: bool = Fa
 
 def button(name: str | None, pressed: m.Button) -> int:
     """Press a button of a robot's."""
-    return press(places.find(name), pressed, _tell)
+    return press(places.find(name), pressed, _tell).status
 
 
 def brake(name: str | None, pressed: m.Button) -> int:

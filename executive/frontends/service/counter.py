@@ -6,6 +6,7 @@ thread that reads them, whatever else is being worked off; lines are worked off 
 
 from __future__ import annotations
 
+import os
 import threading
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
@@ -35,6 +36,7 @@ LOOK_S = 0.1
 KEPT_WORDS = 100
 """What was said last; who begins to watch is told."""
 LEAVING = ("quit", "exit")
+ELSEWHERE = "the operator said stop in another terminal"
 NOT_LEFT = "That is for a prompt; `humanoid down` ends this robot."
 
 
@@ -74,9 +76,11 @@ class Counter(Closing):
         self._watching: dict[Client, m.Watch] = {}
         self._waits: list[_Wait] = []
         self._lock = threading.Lock()
+        self._telling = threading.Lock()
         self._recent: deque[str] = deque(maxlen=KEPT_WORDS)
         self._asks = m.Asks()
         self._seen: views.Seen | None = None
+        self._stops = shell.stops
         self._open_lines = 0
         self._closing = threading.Event()
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
@@ -127,14 +131,14 @@ class Counter(Closing):
         self._tell_watchers(m.Words(text=text), but=asker.client if asker else None)
 
     def _tell_watchers(
-        self, told: m.Words | m.Asks | views.Seen, *, but: Client | None = None
+        self, told: m.Words | m.Asks | m.Stopped | views.Seen, *, but: Client | None = None
     ) -> None:
         with self._lock:
             watching = dict(self._watching)
-        line = m.line_of(told) if watching else b""
+        line, view = m.line_of(told) if watching else b"", isinstance(told, views.Seen)
         for client, watch in watching.items():
-            if client is not but and (watch.views or not isinstance(told, views.Seen)):
-                client.send(line)
+            if client is not but and (watch.views or not view):
+                client.send(line, supersedes=view)
 
     def _end(self, client: Client, number: int, status: int, **more: m.Standing) -> None:
         stops = self._shell.stops
@@ -148,16 +152,9 @@ class Counter(Closing):
                 self._out(as_mistake(error))
 
     def _look(self) -> None:
-        """Tell what changed: what is asked, how the robot is, and who need not wait any more."""
-        question, choices = self._shell.asked or ("", ())
-        asks = m.Asks(question=question, choices=choices)
-        if asks != self._asks:
-            self._asks = asks
-            self._tell_watchers(asks)
-        seen = views.Seen(view=self._shell.robot.view, busy=self._busy)
-        if seen != self._seen:
-            self._seen = seen
-            self._tell_watchers(seen)
+        """Tell what changed, and who need not wait any more."""
+        with self._telling:
+            self._tell_changes()
         with self._lock:
             waits, self._waits = self._waits, []
         for wait in waits:
@@ -167,6 +164,22 @@ class Counter(Closing):
                     self._waits.append(wait)
             else:
                 self._end(wait.client, wait.number, status)
+
+    def _tell_changes(self) -> None:
+        """What is asked, how often it was told to stop, and how the robot is."""
+        question, choices = self._shell.asked or ("", ())
+        asks = m.Asks(question=question, choices=choices)
+        if asks != self._asks:
+            self._asks = asks
+            self._tell_watchers(asks)
+        stops = self._shell.stops
+        if stops != self._stops:
+            self._stops = stops
+            self._tell_watchers(m.Stopped(stops=stops))
+        seen = views.Seen(view=self._shell.robot.view, busy=self._busy)
+        if seen != self._seen:
+            self._seen = seen
+            self._tell_watchers(seen)
 
     @property
     def _busy(self) -> bool:
@@ -216,6 +229,8 @@ class Counter(Closing):
 
     def _answer(self, client: Client, asked: m.Request) -> None:
         match asked:
+            case m.Press(button="stop"):
+                self._stop(asked)
             case m.Press(button=button):
                 self._press(button)
             case m.Say():
@@ -241,11 +256,18 @@ class Counter(Closing):
                 self.left.set()
         self._end(client, asked.number, ExitStatus.DONE)
 
+    def _stop(self, asked: m.Press) -> None:
+        why = printable_line(asked.why) or ELSEWHERE
+        if asked.quiet and not self._busy and self._shell.asked is None:
+            self._shell.stop_unsaid(why)
+        else:
+            self._shell.stop(why)
+
     def _press(self, button: m.Button) -> None:
         shell = self._shell
         match button:
             case "stop":
-                shell.stop("the operator said stop in another terminal")
+                shell.stop(ELSEWHERE)
             case "estop":
                 shell.stop_at_once("estop")
             case "release" | "reset":
@@ -255,7 +277,8 @@ class Counter(Closing):
 
     def _take(self, client: Client, asked: m.Say) -> None:
         """A line: a stop and a halt act here, whatever else is being worked off."""
-        shell, stops = self._shell, self._shell.stops
+        shell = self._shell
+        stops = shell.stops if asked.stops is None else asked.stops
         told = f"(shell) > {printable_line(asked.text)}"
         self._out(told)
         self._log.append(told)
@@ -324,17 +347,20 @@ class Counter(Closing):
             for one in shell.commands.values()
         )  # fmt: skip
         hello = views.Hello(
-            number=asked.number, run=self._running.run, robot=self._running.robot,
+            number=asked.number, pid=os.getpid(), run=self._running.run, robot=self._running.robot,
             world=self._running.world, vocabulary=shell.dialogue.vocabulary, commands=rows,
             stops=shell.stops,
         )  # fmt: skip
         client.send(m.line_of(hello))
-        for text in tuple(self._recent) if asked.views else ():
+        for text in tuple(self._recent) if asked.views and asked.recent else ():
             client.send(m.line_of(m.Words(number=asked.number, text=text)))
-        client.send(m.line_of(views.Seen(view=shell.robot.view, busy=self._busy)))
-        client.send(m.line_of(self._asks))
-        with self._lock:
-            self._watching[client] = asked
+        with self._telling:  # so that no change is missed, nor told before what was so before
+            self._tell_changes()
+            client.send(m.line_of(self._seen or views.Seen(view=shell.robot.view, busy=True)))
+            client.send(m.line_of(self._asks))
+            client.send(m.line_of(m.Stopped(stops=self._stops)))
+            with self._lock:
+                self._watching[client] = asked
 
     def _forget(self, client: Client) -> None:
         with self._lock:

@@ -20,6 +20,7 @@ MAX_TOLD = 1 << 22
 Button = Literal["stop", "estop", "release", "reset", "pause", "resume", "cancel"]
 BUTTONS: tuple[Button, ...] = get_args(Button)
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
+Reason = Annotated[str, Meta(max_length=100)]
 
 
 class _Request(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True,
@@ -36,16 +37,30 @@ class Queue(_Request, frozen=True, kw_only=True, tag="queue"):
 
 
 class Press(_Request, frozen=True, kw_only=True, tag="press"):
-    """A button: it acts at once, whatever the robot is about."""
+    """A button: it acts at once, whatever the robot is about.
+
+    Attributes:
+        why: is told of what ends by it.
+        quiet: a stop that finds nothing to stop says nothing.
+    """
 
     button: Button
+    why: Reason = ""
+    quiet: bool = False
 
 
 class Say(_Request, frozen=True, kw_only=True, tag="say"):
-    """A line, as at the prompt; `wait`: it ends when all that comes of it is over."""
+    """A line, as at the prompt.
+
+    Attributes:
+        wait: it ends when all that comes of it is over.
+        stops: so often the robot had been told to stop, as far as was known where the line was
+            typed; a stop since then is about this line too (None: as when it arrives).
+    """
 
     text: Text
     wait: bool = False
+    stops: int | None = None
 
 
 class Halt(_Request, frozen=True, kw_only=True, tag="halt"):
@@ -61,9 +76,15 @@ class Await(_Request, frozen=True, kw_only=True, tag="await"):
 
 
 class Watch(_Request, frozen=True, kw_only=True, tag="watch"):
-    """Be told from now on what is said, asked and done; `views`: and how the robot is."""
+    """Be told from now on what is said, asked and done.
+
+    Attributes:
+        views: and how the robot is.
+        recent: and, first, what was said before.
+    """
 
     views: bool = False
+    recent: bool = True
 
 
 class Down(_Request, frozen=True, kw_only=True, tag="down"):
@@ -106,6 +127,12 @@ class Asks(AnyTold, frozen=True, kw_only=True, tag="asks"):
     choices: tuple[str, ...] = ()
 
 
+class Stopped(AnyTold, frozen=True, kw_only=True, tag="stopped"):
+    """So often the robot was told to stop by now, by whomever."""
+
+    stops: int
+
+
 class Waiting(msgspec.Struct, frozen=True, kw_only=True):
     """A job, as it stands."""
 
@@ -144,7 +171,7 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
     jobs: tuple[Waiting, ...] = ()
 
 
-Told = Words | Queued | Ended | Asks
+Told = Words | Queued | Ended | Asks | Stopped
 
 _requests = msgspec.json.Decoder(Request)
 _tellings = msgspec.json.Decoder(Told)

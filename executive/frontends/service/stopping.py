@@ -45,7 +45,7 @@ def _press(place: Place, button: m.Button) -> Pressed:
             words.append(told.text)
 
     try:
-        status = press(place, button, hear)
+        status = press(place, button, hear).status
     except RobotError as error:
         return Pressed(place.name, ExitStatus.BROKEN, str(error))
     return Pressed(place.name, status, "\n".join(words))

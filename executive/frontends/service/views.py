@@ -30,8 +30,9 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Hello(AnyTold, frozen=True, kw_only=True, tag="hello"):
-    """What a prompt has to know before the first line."""
+    """What a prompt has to know before the first line; `pid` is of the executive."""
 
+    pid: int
     run: str
     robot: str
     world: str

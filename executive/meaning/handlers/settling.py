@@ -103,6 +103,15 @@ def where_words(query: goals.ObjectQuery) -> str:
     return describe(bare).removeprefix("thing ").replace("at the", "on the", 1)
 
 
+def nothing_there(query: goals.ObjectQuery, knowledge: Knowledge) -> str:
+    """That a place was looked at in vain: "there is nothing on the table but the blue cup"."""
+    bare = replace(query, at=None, count=None, except_=None, held=False)
+    what = "nothing" if bare == goals.ObjectQuery() else f"no {describe(bare)}"
+    floors = all(place.floor for place in knowledge.places(query.at or ""))
+    but = f" but the {describe(query.except_)}" if query.except_ is not None else ""
+    return f"there is {what} {'in' if floors else 'on'} the {query.at}{but}"
+
+
 # --- where to look ------------------------------------------------------------------------------
 
 
@@ -226,6 +235,8 @@ class _Question:
         """Whether it stands where the description says."""
         assert entity.p_WO is not None
         X_WO = SE3(entity.p_WO)
+        if entity.holder:
+            return False
         rooms = {place.name for place in self._places if place.id == place.room}
         on = any(stands_on(X_WO, place) for place in self._surfaces)
         return not self._places or on or entity.room in rooms
@@ -278,6 +289,8 @@ class _Question:
         return Grounded(away[0][1], (away[0][1],)) if clear else None
 
     def _not_seen(self, seen: Sequence[Entity]) -> Failure:
+        if self._query.at and not (self._query.relation or self._query.superlative):
+            return failure("object_not_seen", nothing_there(self._query, self._knowledge))
         alike = [e for e in seen if e.id in self._alike]
         others = [f"the {describe_entity(e)}" + (f" at the {e.at}" if e.at else "") for e in alike]
         hint = f"; saw {', '.join(others)}" if others else ""

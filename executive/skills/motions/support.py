@@ -44,6 +44,12 @@ def stands_on(X_WO: SE3, place: Place) -> bool:
     return inside and -0.02 <= z <= min(ON_TOP_M, place.clearance_m)
 
 
+def rests_on(X_WO: SE3, info: ObjectInfo, place: Place) -> bool:
+    """Whether an object's underside is at a surface, or at a floor: no hand holds it up."""
+    bottom_m = X_WO.p[2] + info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
+    return stands_on(X_WO, place) and bottom_m - place.X_WP.p[2] < NEAR_M
+
+
 def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:
     """`supported` with what the map knows."""
     return supported(X_WO, body.object_info(object_id), body.map.places)

@@ -199,7 +199,8 @@ class _Steering:
         executive = self._shell.robot.executive
         if rest == "off":
             executive.clear_breaks()
-            self._shell.out("No step is held any more; `continue` lets go what is held.")
+            left = "; `continue` lets go what is held" if executive.held else ""
+            self._shell.out(f"No step is held any more{left}.")
         elif rest:
             executive.break_at(rest)
             self._shell.out(f"Holding before {rest}; `step` and `continue` go on.")

@@ -14,6 +14,7 @@ from executive.frontends.listening.obeying import Conversation
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.shell import Shell
 from intents.speech.ear import Ear, Spoken
+from robot.exit_status import ExitStatus
 from tests.fakes.puppet_shell import puppet_shell
 
 LINES = ["walk 1.5 m forward", "walk 1.5 m back", "where are you?", "wave"]
@@ -66,6 +67,45 @@ def test_a_line_that_is_understood_as_the_signal_comes_comes_to_nothing(shell: S
     shell.robot.submit = late
     assert not work_off(shell, LINES)
     assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+
+
+@pytest.mark.parametrize("button", ["stop", "estop"])
+def test_no_line_is_done_after_a_stop_from_elsewhere(shell: Shell, button: str):
+    told: list[int] = []
+
+    def look() -> None:
+        if not told and shell.robot.session.runtime.link.body().mode == "walk":
+            told.append(1)
+            if button == "stop":
+                shell.stop("STOP was pressed on the page")
+            else:
+                shell.stop_at_once("estop")
+
+    shell.robot.session.on_tick(look)
+    assert not work_off(shell, LINES)
+    jobs = shell.robot.executive.jobs
+    assert [job.text for job in jobs] == ["walk 1.5 m forward"]
+    assert (
+        said[-1] == "Not done: “walk 1.5 m back”, and what follows it: the robot was told to stop"
+    )
+
+
+def test_a_stop_that_is_a_line_itself_is_about_no_line_after_it(shell: Shell):
+    assert work_off(shell, ["say hello", "stop", "say good night"])
+    assert [job.state for job in shell.robot.executive.jobs] == ["done", "done"]
+
+
+def test_nothing_that_a_recording_says_is_done_after_a_stop_from_elsewhere(shell: Shell):
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
+    talk = Conversation(shell, cast(Ear, ear), recorded=True, confirm=False)
+    talk.take(Spoken(kind="sentence", text="say hello"))
+    talk.take(Spoken(kind="stop", text="stop"))
+    talk.take(Spoken(kind="sentence", text="say good night"))
+    shell.stop("STOP was pressed on the page")
+    for text in LINES:
+        talk.take(Spoken(kind="sentence", text=text))
+    assert [job.state for job in shell.robot.executive.jobs] == ["done", "done"]
+    assert talk._status() == ExitStatus.FAILED
 
 
 def test_lines_without_a_signal_are_all_done(shell: Shell):

@@ -244,8 +244,9 @@ def test_a_prompt_is_told_what_it_needs_before_anything_else(counter, told, plac
     with Connection(place) as connection:
         connection.send(m.Watch(views=True))
         lines = (views.told(line) for line in connection.lines(wait_s=HANG_S))
-        found = [next(lines) for _ in range(5)]
-    assert [type(one).__name__ for one in found] == ["Hello", "Words", "Seen", "Asks", "Ended"]
+        found = [next(lines) for _ in range(6)]
+    kinds = [type(one).__name__ for one in found]
+    assert kinds == ["Hello", "Words", "Seen", "Asks", "Stopped", "Ended"]
     assert found[0].world == "w"
     assert found[1].text == "said before"
     assert found[3].choices == ("the red one",)

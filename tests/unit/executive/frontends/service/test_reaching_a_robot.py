@@ -26,7 +26,7 @@ from tests.fakes.waiting import HANG_S, eventually
 def home(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_RUNTIME_DIR", "")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    monkeypatch.setattr(attaching, "say", lambda text, err=False: None)
+    monkeypatch.setattr(attaching, "say", lambda text, err=False, styled=None: None)
     return tmp_path
 
 
@@ -55,7 +55,7 @@ def test_a_stop_is_left_for_an_executive_that_takes_over_and_said_to_it(home):
         places.listen(place, running(private), backlog=1).close()  # that one has died
         done: list[int] = []
         pressing = threading.Thread(
-            target=lambda: done.append(clients.press(place, "stop", lambda _: None))
+            target=lambda: done.append(clients.press(place, "stop", lambda _: None).status)
         )
         pressing.start()
         assert eventually(lambda: mailbox.take_stop(private))

@@ -1,0 +1,73 @@
+"""What is said to a robot that halts for it: of the job that it was at, in the order it happens."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+
+import pytest
+
+from executive.engine.jobs import OVER
+from executive.frontends.prompt.shell import Shell
+from tests.fakes.puppet_shell import puppet_shell
+from tests.fakes.waiting import eventually
+
+said: list[str] = []
+
+
+@pytest.fixture
+def shell(tmp_path) -> Generator[Shell]:
+    said.clear()
+    with puppet_shell(tmp_path, said) as made:
+        yield made
+        made.brake.stop("the test is over")
+
+
+def walks(shell: Shell) -> bool:
+    return shell.robot.session.runtime.link.body().mode == "walk"
+
+
+def begin(shell: Shell, *lines: str) -> None:
+    for line in lines:
+        shell.line(line)
+    assert eventually(lambda: walks(shell))
+
+
+def open_jobs(shell: Shell) -> list[str]:
+    given_up = shell.brake.halt.gave_up
+    return [
+        job.text
+        for job in shell.robot.executive.jobs
+        if job.state not in OVER and not given_up(job)
+    ]
+
+
+def test_a_correction_is_of_the_job_that_was_halted_also_with_others_after_it(shell: Shell):
+    begin(shell, "walk to the shelf", "wave")
+    shell.line("no, to the table")
+    assert "Instead of “walk to the shelf”." in said
+    left = open_jobs(shell)
+    assert "walk to the shelf" not in left
+    assert "wave" in left
+    assert any("table" in text for text in left)
+
+
+def test_a_correction_that_fits_nothing_is_named(shell: Shell):
+    begin(shell, "walk to the shelf", "wave")
+    shell.line("no, to the plumbus")
+    assert any("plumbus" in one for one in said)
+    assert "walk to the shelf" in open_jobs(shell)
+
+
+def test_halting_is_said_before_it_is_asked_whether_to_go_on(shell: Shell):
+    begin(shell, "walk to the shelf")
+    shell.halt_at_once("wait")  # heard before the line is one
+    shell.line("where are you?")  # whose end asks already
+    shell.line("wait")
+    told = [one for one in said if one == "Halting." or one.startswith("Shall I go on")]
+    assert told[0] == "Halting."
+    assert told.count("Halting.") == 1
+
+
+def test_nothing_is_let_go_where_nothing_is_held(shell: Shell):
+    shell.line("break off")
+    assert said[-1] == "No step is held any more."
