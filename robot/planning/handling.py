@@ -13,10 +13,13 @@ with it goes (or comes) straight up, to *up*::
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from robot.failures import Failure, failure
 from robot.messages import Side
+from robot.planning.checks import END
 from robot.planning.depth import too_deep
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
@@ -119,8 +122,24 @@ def _explain(
     reaching = body.description.handy.reaching
     return too_deep(problem, floor, reaching, blockers=blockers) or failure(
         "goal_in_collision",
-        f"every way for the hand to {problem.what} found touches {' or '.join(blockers)}",
+        f"every way for the hand to {problem.what} that was found {_fails_by(blockers)}",
         blocked_by=", ".join(blockers),
         tried=float(tally.reached),
         blocked=float(sum(count for _, count in common)),
     )
+
+
+UNMAPPED = re.compile(r"(in_view|unmapped)_[0-9]+")
+"""Ids of what perception saw and the map does not explain (`robot.perception.node`)."""
+
+
+def _fails_by(blockers: list[str]) -> str:
+    """What ways of a hand that are none have in common, the more frequent first."""
+    touched = [
+        "something in the way" if UNMAPPED.fullmatch(one) else one.replace("_", " ")
+        for one in blockers
+        if one != END
+    ]
+    ends = [f"is at {END}"] if END in blockers else []
+    touches = [f"touches {' or '.join(dict.fromkeys(touched))}"] if touched else []
+    return " or ".join([*touches, *ends])

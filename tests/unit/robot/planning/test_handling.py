@@ -8,6 +8,8 @@ import pytest
 
 from robot.failures import Failure
 from robot.messages import PersonInfo, Shape, Side
+from robot.planning import handling
+from robot.planning.checks import END
 from robot.planning.floor import Floor
 from robot.planning.requests import (
     BodyPosture,
@@ -447,3 +449,17 @@ def test_a_cup_in_a_cage_names_the_cage(solver: Solver) -> None:
     assert isinstance(failed, Failure)
     assert failed.code == "goal_in_collision"
     assert "cage" in str(failed.evidence["blocked_by"])
+
+
+@pytest.mark.parametrize(
+    ("blockers", "words"),
+    [
+        (["wall_shelf"], "touches wall shelf"),
+        (["table", "in_view_5"], "touches table or something in the way"),
+        (["unmapped_12", "in_view_5"], "touches something in the way"),
+        ([END], "is at the end of its reach"),
+        (["table", END], "touches table or is at the end of its reach"),
+    ],
+)
+def test_what_is_in_a_hands_way_is_told_without_inner_names(blockers, words) -> None:
+    assert handling._fails_by(blockers) == words
