@@ -17,4 +17,5 @@ def user_state_folder() -> Path | None:
     if said.is_absolute():
         return said / "humanoid"
     home = Path(os.path.expanduser("~"))  # noqa: PTH111 - it never raises
-    return home / ".local/state/humanoid" if home.is_absolute() and home.is_dir() else None
+    # Path.is_dir raises where a folder on the way to it is closed to us
+    return home / ".local/state/humanoid" if home.is_absolute() and os.path.isdir(home) else None  # noqa: PTH112

@@ -1,8 +1,11 @@
 """The command line, as people call it."""
 
+import os
+
 import pytest
 
 from executive.frontends import cli
+from executive.runs import run_folder
 
 
 @pytest.fixture
@@ -14,6 +17,9 @@ def humanoid(monkeypatch, capsys, tmp_path):
         monkeypatch.setattr("sys.argv", ["humanoid", *words])
         with pytest.raises(SystemExit) as end:
             cli.main()
+        for held in run_folder._claimed.values():  # as the end of its process lets go
+            os.close(held)
+        run_folder._claimed.clear()
         out, err = capsys.readouterr()
         return int(end.value.code or 0), out + err
 

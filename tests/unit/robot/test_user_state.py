@@ -28,6 +28,16 @@ def test_it_is_at_home_when_nothing_of_use_is_said(
     assert history_at_home() == tmp_path / ".local/state/humanoid/history"
 
 
+def test_a_home_that_may_not_be_looked_at_is_none(monkeypatch: pytest.MonkeyPatch):
+    def refused(*_args: object, **_options: object):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.delenv("XDG_STATE_HOME", raising=False)
+    monkeypatch.setenv("HOME", "/closed/home")
+    monkeypatch.setattr("os.stat", refused)
+    assert user_state_folder() is None
+
+
 @pytest.mark.parametrize("home", ["/no/such/home", "relative"])
 def test_a_home_that_is_not_there_is_none(
     home: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
