@@ -76,8 +76,6 @@ def walk_near(body: Body, goal: Stance) -> Script[None]:
         if person is not None:
             body.context.say(EXCUSE)
         yield from _let_pass(body, math.atan2(y_m, x_m))
-        if person is not None:
-            yield from _let_leave(body, person, blocker.X_WO)
         if person is not None and not _has_left(body, person, blocker.X_WO):
             yield from make_way(body, person)
             body.context.say(EXCUSE)
