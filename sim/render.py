@@ -72,6 +72,8 @@ class Renderer(Closing):
         self._model, self._width, self._height = model, width, height
         self._gl: Any = None
         self._groups = SEEN.copy()
+        self._tracer: Tracer | None = None
+        self._traced_by = (0, 0.0)
         self._scene = mujoco.MjvScene(model, maxgeom=2000)
         self._option = mujoco.MjvOption()
         self._option.geomgroup[UNSENSED] = 1
@@ -138,10 +140,17 @@ class Renderer(Closing):
             below = -math.sin(down) * level - np.array([0.0, 0.0, math.cos(down)])
             eye_W = np.array(view.at) - view.distance_m * forward
             axes = right, below, forward
-        focal_px = self._height / 2 / math.tan(math.radians(fovy_deg) / 2)
-        pinhole = Pinhole(self._width, self._height, focal_px)
-        tracer = Tracer(self._model, data, pinhole, groups=self._groups)
+        tracer = self._tracer_of(data, fovy_deg)
         return to_bytes(tracer.look(eye_W, np.column_stack(axes)).light)
+
+    def _tracer_of(self, data: mujoco.MjData, fovy_deg: float) -> Tracer:
+        """Of the last picture, if that was of the same scene through the same lens."""
+        if self._tracer is None or self._traced_by != (id(data), fovy_deg):
+            focal_px = self._height / 2 / math.tan(math.radians(fovy_deg) / 2)
+            pinhole = Pinhole(self._width, self._height, focal_px)
+            self._tracer = Tracer(self._model, data, pinhole, groups=self._groups)
+            self._traced_by = id(data), fovy_deg
+        return self._tracer
 
     def _aim(self, view: View) -> None:
         camera = self._camera
