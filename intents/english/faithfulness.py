@@ -140,6 +140,8 @@ class _Told:
 def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     """Where what is said at a word ends, and whether it comes back."""
     word, match = text.word(at), text.name_at(at)
+    if word in lexicon.BOARDS and at and _is_told_board(text.word(at - 1), told):
+        return at + 1, True
     if match and word not in _OTHERS | _PEOPLE:
         known = told.name(*(n.name for n in match.names)) or told.speaks
         known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
@@ -151,7 +153,8 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
         return match.end, known or (favour and not told.handed_over)
     most = text.lookup(lexicon.SUPERLATIVES, at)
     if most:
-        return most[1], most[0] in told.values or text.word(at - 1) in _WEIGHING
+        known = most[0] in told.values or text.word(at - 1) in _WEIGHING
+        return most[1], known or _is_told_board(word, told)
     if not word[0].isalnum() or word in told.words or singular(word) in told.words:
         return at + 1, True
     amount = measure(text.words, at) or number(text.words, at)
@@ -204,9 +207,14 @@ def _word_carried(text: Text, at: int, told: _Told) -> bool:
     if word in _ORDINALS:
         return not _before_noun(text, at + 1) and not text.lookup(lexicon.SUPERLATIVES, at + 1)
     if word in _BOARDS:
-        parts = set(lexicon.LEVELS.get(word, ())) & told.words
-        return bool(parts) or after == "of" or not _before_noun(text, at + 1)
+        said = _is_told_board(word, told) or after == "of"
+        return said or not _before_noun(text, at + 1)
     return False
+
+
+def _is_told_board(word: str, told: _Told) -> bool:
+    """Whether one of several boards comes back, by whatever word the world has for it."""
+    return not told.words.isdisjoint(lexicon.LEVELS.get(word, ()))
 
 
 def _quantity_carried(text: Text, at: int, told: _Told) -> bool:

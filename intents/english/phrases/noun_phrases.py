@@ -19,8 +19,6 @@ from intents.english.words.verbs import verbs_at
 from intents.goals import Superlative
 
 _SOMEBODY = lexicon.words("i we he she they you somebody someone")
-_BOARDS = lexicon.words("board shelf level tier compartment rack row")
-"""What a piece of furniture has one above the other."""
 _EXCEPT = lexicon.phrases(
     "except,except for,apart from,other than,excluding,save for,aside from,"
     "with the exception of,not counting,leaving out"
@@ -68,7 +66,7 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
 def read_postmodifiers(text: Text, phrase: NounPhrase) -> None:
     """Read on from the noun; moves ``phrase.end``."""
     while True:
-        end = _measured_out(text, phrase, phrase.end)
+        end = _measured_out(text, phrase, phrase.end) or _board_after(text, phrase, phrase.end)
         end = end or _modifier(text, phrase, phrase.end) or _relative(text, phrase, phrase.end)
         if end is None:
             return
@@ -112,17 +110,36 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
 def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
     """The upper board *of the bookcase*, where the world has an "upper bookcase"."""
     level, _, noun = phrase.said.rpartition(" ")
-    if noun not in _BOARDS or not inner.name("place"):
+    if noun not in lexicon.BOARDS or not inner.name("place"):
         return None
-    for word in LEVELS.get(phrase.level or level, ()):
-        named = text.index.exact(f"{word} {inner.said}") or text.index.exact(f"{inner.said} {word}")
+    if not _is_board(text, phrase, phrase.level or level, inner.said):
+        return None
+    phrase.places += inner.places
+    return inner.end
+
+
+def _board_after(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The bookcase, *top board*; the bookcase, *on its second shelf*."""
+    if not phrase.name("place"):
+        return None
+    at += text.word(at) == COMMA
+    at += text.word(at) in ("on", "at")
+    at += text.word(at) in ("the", "its")
+    if text.word(at + 1) not in lexicon.BOARDS:
+        return None
+    return at + 2 if _is_board(text, phrase, text.word(at), phrase.said) else None
+
+
+def _is_board(text: Text, phrase: NounPhrase, level: str, furniture: str) -> bool:
+    """Name the board of a piece of furniture in a phrase; whether the world has such a one."""
+    for word in LEVELS.get(level, ()):
+        named = text.index.exact(f"{word} {furniture}") or text.index.exact(f"{furniture} {word}")
         if named:
             phrase.noun, phrase.names, phrase.exact = "name", named, True
             phrase.level = phrase.side = ""
-            phrase.said = f"{word} {inner.said}"
-            phrase.places += inner.places
-            return inner.end
-    return None
+            phrase.said = f"{word} {furniture}"
+            return True
+    return False
 
 
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -11,7 +11,6 @@ from intents.english.words.verbs import verbs_at
 _PARTS = lexicon.words("door doors lid flap")
 """Parts of furniture that stand for the whole: the cabinet door."""
 
-
 _HOLDERS = (lexicon.OBJECT_NOUNS - SOMETHING) | lexicon.CONTAINERS
 
 
@@ -74,7 +73,7 @@ def _read_name(text: Text, phrase: NounPhrase, match: Match, at: int) -> int:
         phrase.level = text.word(end)  # shelf upper
         _prefix_level(text, phrase)
         if not phrase.level:
-            return end + 1
+            return end + 1 + (text.word(end + 1) in lexicon.BOARDS)
         phrase.level = ""
     if (
         match.of("room")

@@ -341,6 +341,8 @@ LEVELS = {
     "close": ("close", "near"), "front": ("front",), "rear": ("rear", "back"),
 }  # fmt: skip
 """Adjectives that tell parts of furniture apart, with what a world may call them."""
+BOARDS = words("board shelf level tier compartment rack row")
+"""What a piece of furniture has one above the other."""
 
 ELSE = phrases("else,otherwise,or else,if not,if not so,in the other case,if that fails")
 IN_ALL = phrases("over,in a row,in total,altogether,in all,each")
