@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from typing import Literal
 
 import mujoco
@@ -19,7 +19,15 @@ from robot.messages import Heard
 from robot.model.description import RobotDescription
 from sim import furniture
 from sim.somebody import PERIOD_S, Script, Somebody, floor
-from sim.standing_room import BACK_M, ROBOT_M, Around, in_the_way, way_out
+from sim.standing_room import (
+    BACK_M,
+    LANE_M,
+    ROBOT_M,
+    WIDE_LANE_M,
+    Around,
+    in_the_way,
+    way_out,
+)
 from sim.taking import Hold
 from sim.world_schema import Object, World
 
@@ -31,6 +39,8 @@ HELD_M = 0.10
 """Between a robot's hand and the middle of what it holds."""
 WAY_M = 2.0
 """Within which somebody stands in the robot's way, if they stand before it."""
+AGAIN_S = 20.0
+"""Who made room so short a time ago and is asked again knows that it was not enough."""
 Wish = Literal["take", "make room", "answer", ""]
 
 
@@ -111,8 +121,9 @@ class People:
                 return None if thing is None else self._take(one, thing)
             case "make room" if behaviour.steps_aside:
                 is_near = math.dist(one.at, around.robot) < apart_m
-                if is_near or in_the_way(one.at, around, within_m=WAY_M):
-                    return self._make_room(one, apart_m)
+                lanes_m = self._lanes_m(one)
+                if is_near or in_the_way(one.at, around, within_m=WAY_M, lane_m=lanes_m[0]):
+                    return self._make_room(one, apart_m, lanes_m)
             case "answer" if behaviour.answers:
                 return self._answer(one, behaviour.answers)
             case _:
@@ -133,12 +144,20 @@ class People:
         self._said.append((one.person.id, text))
         return True
 
-    def _make_room(self, one: Somebody, apart_m: float) -> Script:
-        """Walk out of the robot's way, if there is somewhere to go."""
-        way = way_out(self._world, one.at, self._around(one), apart_m=apart_m)
+    def _make_room(self, one: Somebody, apart_m: float, lanes_m: Sequence[float]) -> Script:
+        """Walk out of the robot's way, if there is somewhere to go: out of the widest lane."""
+        around = self._around(one)
+        ways = (way_out(self._world, one.at, around, apart_m=apart_m, lane_m=m) for m in lanes_m)
+        way = next(filter(None, ways), ())
         for spot in way:
             yield from one.walk(spot)
+        one.made_room_s = self._data.time
         return bool(way)
+
+    def _lanes_m(self, one: Somebody) -> tuple[float, ...]:
+        """How wide a lane somebody leaves, best first: who has to make room again leaves more."""
+        again = self._data.time - one.made_room_s < AGAIN_S
+        return (WIDE_LANE_M, LANE_M) if again else (LANE_M,)
 
     # --- taking ---
 

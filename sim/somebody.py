@@ -35,6 +35,7 @@ class Somebody:
         self.arms = {side: PersonArm(model, person.id, side) for side in sides}
         self.script: Script | None = None
         self.grip: Grip | None = None
+        self.made_room_s = -math.inf
 
     @property
     def X_WPerson(self) -> SE3:

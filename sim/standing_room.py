@@ -30,6 +30,8 @@ WALKING_M = 0.65
 """Between them on the way: nobody walks into a robot to let it pass."""
 LANE_M = 0.7
 """Between them and the line that the robot faces along, in front of it."""
+WIDE_LANE_M = 1.3
+"""The same for who is asked again soon: what the robot wants is not straight before it."""
 
 
 class Around(msgspec.Struct, frozen=True):
@@ -41,36 +43,37 @@ class Around(msgspec.Struct, frozen=True):
 
 
 def way_out(
-    world: World, at: Point, around: Around, *, apart_m: float = ROBOT_M
+    world: World, at: Point, around: Around, *, apart_m: float = ROBOT_M, lane_m: float = LANE_M
 ) -> tuple[Point, ...]:
     """The way to the nearest spot out of the robot's way, that far from it; empty: there is none.
 
     Straight if possible, else around one corner.
     """
     bare = msgspec.structs.replace(world, people=())
-    spot = _free_spot(bare, at, around, apart_m)
+
+    def free_spot(start: Point) -> Point | None:
+        for spot in _candidates(start, around):
+            clear = _is_out_of_the_way(spot, around, apart_m, lane_m)
+            if clear and _is_free_way(bare, start, spot, around):
+                return spot
+        return None
+
+    spot = free_spot(at)
     if spot is not None:
         return (spot,)
     for corner in _candidates(at, around, CORNERS_M):
         if _is_free_way(bare, at, corner, around):
-            spot = _free_spot(bare, corner, around, apart_m)
+            spot = free_spot(corner)
             if spot is not None:
                 return (corner, spot)
     return ()
 
 
-def _free_spot(world: World, at: Point, around: Around, apart_m: float) -> Point | None:
-    for spot in _candidates(at, around):
-        if _is_out_of_the_way(spot, around, apart_m) and _is_free_way(world, at, spot, around):
-            return spot
-    return None
-
-
-def in_the_way(at: Point, around: Around, *, within_m: float) -> bool:
+def in_the_way(at: Point, around: Around, *, within_m: float, lane_m: float = LANE_M) -> bool:
     """Whether somebody stands before the robot, or so near that it cannot turn."""
     far_m = math.dist(at, around.robot)
     ahead_m, aside_m = _in_lane(at, around)
-    return far_m < ROBOT_M or (far_m < within_m and ahead_m > 0.0 and aside_m < LANE_M)
+    return far_m < ROBOT_M or (far_m < within_m and ahead_m > 0.0 and aside_m < lane_m)
 
 
 def _candidates(at: Point, around: Around, steps_m: tuple[float, ...] = STEPS_M) -> Iterator[Point]:
@@ -81,9 +84,9 @@ def _candidates(at: Point, around: Around, steps_m: tuple[float, ...] = STEPS_M)
         yield from sorted(spots, key=lambda spot: -math.dist(spot, around.robot))
 
 
-def _is_out_of_the_way(spot: Point, around: Around, apart_m: float) -> bool:
+def _is_out_of_the_way(spot: Point, around: Around, apart_m: float, lane_m: float) -> bool:
     ahead_m, aside_m = _in_lane(spot, around)
-    return math.dist(spot, around.robot) >= apart_m and (ahead_m < 0.0 or aside_m >= LANE_M)
+    return math.dist(spot, around.robot) >= apart_m and (ahead_m < 0.0 or aside_m >= lane_m)
 
 
 def _in_lane(spot: Point, around: Around) -> tuple[float, float]:

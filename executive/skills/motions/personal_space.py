@@ -14,7 +14,8 @@ ZONE_M = 0.5
 """Between a person and the middle of the body, or a hand [m]."""
 CLEAR_M = 0.6
 """More than the zone, so that somebody at its edge does not stop and free the robot in turns."""
-BELIEVED_S = 3.0
+BELIEVED_S = 10.0
+"""Who was seen so lately is taken to be there still, unless the place was seen empty since."""
 PATIENCE_S = 15.0
 STEP_BACK = "Please step back a little."
 """What somebody who is near a hand is told."""
@@ -45,8 +46,11 @@ def somebody_near(
 def in_the_path(body: Body, towards_rad: float) -> Obstacle | None:
     """Who the body would walk into, as an obstacle."""
     person = somebody_near(body, body.X_WS.p, towards_rad=towards_rad)
-    if person is None:
-        return None
+    return None if person is None else as_obstacle(body, person)
+
+
+def as_obstacle(body: Body, person: PersonInfo) -> Obstacle:
+    """Somebody where they are believed to be, as what stands in the way."""
     return Obstacle(id=person.id, name=person.name, X_WO=body.X_WPerson(person.id), shapes=())
 
 

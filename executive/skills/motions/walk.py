@@ -9,7 +9,7 @@ import math
 
 import msgspec
 
-from executive.skills.motions.back_away import make_way
+from executive.skills.motions.asking_aside import EXCUSE, ask_aside
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.committed import Committed
 from executive.skills.motions.final_steps import is_at_stance, miss, step_to
@@ -18,16 +18,19 @@ from executive.skills.motions.gaze import look_at
 from executive.skills.motions.obstructions import in_the_way
 from executive.skills.motions.past_people import ask_past_people
 from executive.skills.motions.path_follower import Follower, Velocity, turn_towards
-from executive.skills.motions.personal_space import in_the_path, somebody_near
+from executive.skills.motions.personal_space import as_obstacle, in_the_path, somebody_near
 from executive.skills.motions.planning import ask, pose_of, stance_of
 from executive.skills.motions.script import GaveUp, Script, give_up
 from executive.skills.motions.support import surroundings
-from robot.messages import Obstacle, PersonInfo, Stand, Walk
+from robot.messages import Obstacle, Stand, Walk
 from robot.model.gait import Walking
 from robot.planning.requests import BasePath, BasePathRequest, Stance
-from robot.se3 import SE3, wrap_angle
+from robot.se3 import SE3, Vector3, wrap_angle
 
 REPLANS = 3
+"""So often it is tried anew without getting on."""
+NEARER_M = 0.3
+"""Who stops nearer to the goal than before by this, and for what is elsewhere, has got on."""
 SIDESTEP_M = 0.6
 FACING_RAD = 0.35
 BLOCKED_WITHIN_M = 1.0
@@ -36,15 +39,16 @@ STALLED_S = 5.0  # judged by motion: what is left of the way may grow where it l
 LOOK_EVERY_S = 1.0
 LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
+UNSEEN_S, BESIDE_THE_WAY_M = 1.0, 1.2
+"""Who was not seen for so long is looked at where the way leads by so near."""
 STOP_TIMEOUT_S = 5.0
 MOVING_M_S = 0.03
 LET_PASS_S = 6.0
 BESIDE_M = 0.3
 """What stands as near as this to where somebody is seen is taken to be them."""
-EXCUSE = "Excuse me."
-"""What somebody who stands in the way is told, before a way around them is planned."""
-LEFT_M = 0.5
-"""Who is so far from where they stood in the way has stepped aside."""
+CALL_AHEAD_M = 1.6
+"""From so far away somebody beside the way is asked to make room, so that they have by then."""
+CALL_EVERY_M = 0.2
 NO_ROOM = ("no_path", "goal_in_collision", "start_in_collision")
 
 
@@ -63,25 +67,28 @@ def walk_near(body: Body, goal: Stance) -> Script[None]:
     """The same, until a few exact steps will do; the body is left walking."""
     if _is_near(body, goal):
         return
-    blocker: Obstacle | None = None
-    for _ in range(1 + REPLANS):
+    left, nearest_m, p_before_W = REPLANS, math.inf, (math.inf, math.inf, 0.0)
+    while True:
         path = yield from plan_path(body, goal)
-        blocker = yield from follow(body, path)
+        blocker = (yield from follow(body, path)) or _person_at(body, goal)
         if blocker is None:
             return
+        left_m, _ = miss(body.X_WS, pose_of(goal))
+        elsewhere = math.dist(blocker.X_WO.p, p_before_W) > NEARER_M
+        if elsewhere and left_m < nearest_m - NEARER_M:
+            left, nearest_m = REPLANS, left_m
+        p_before_W = blocker.X_WO.p
         words, body.phase = body.phase, f"stopping for {blocker.name}"
         yield from stand_still(body)
         x_m, y_m = (blocker.X_WO.p[i] - body.X_WS.p[i] for i in range(2))
         person = somebody_near(body, blocker.X_WO.p, within_m=BESIDE_M)
         if person is not None:
-            body.context.say(EXCUSE)
+            yield from ask_aside(body, person)
         yield from _let_pass(body, math.atan2(y_m, x_m))
-        if person is not None and not _has_left(body, person, blocker.X_WO):
-            yield from make_way(body, person)
-            body.context.say(EXCUSE)
-            yield from _let_leave(body, person, blocker.X_WO)
         body.phase = words
-    assert blocker is not None
+        if left == 0:
+            break
+        left -= 1
     raise give_up(
         "path_blocked",
         f"{blocker.name} stands in the way, whichever way was tried",
@@ -164,6 +171,7 @@ def follow(body: Body, path: BasePath) -> Script[Obstacle | None]:
         committed.told(_walk(body, twist), now_s=body.now_s)
         body.progress = 1.0 - follower.remaining_m / follower.total_m
         watch.look_ahead(follower)
+        watch.call_ahead(follower)
         watch.check_progress(follower.remaining_m)
         blocker = _person_ahead(body, twist) or watch.blocker(follower)
         if blocker is not None:
@@ -180,24 +188,28 @@ def _person_ahead(body: Body, twist: Velocity) -> Obstacle | None:
     return in_the_path(body, body.X_WS.yaw_rad + aside_rad)
 
 
+def _unsure_of(body: Body, points: list[tuple[float, float]]) -> Vector3 | None:
+    """Where somebody would stand beside points of the way who has not been seen for a while."""
+    for track in body.world.people:
+        if track.X_WO is None or track.missing or body.now_s - track.seen_s < UNSEEN_S:
+            continue
+        x_m, y_m, _ = track.X_WO.p
+        if any(math.dist((x_m, y_m), point) < BESIDE_THE_WAY_M for point in points):
+            return (x_m, y_m, LOOK_HEIGHT_M)
+    return None
+
+
+def _person_at(body: Body, goal: Stance) -> Obstacle | None:
+    """Somebody whom the body would touch where it is to stand, as an obstacle."""
+    person = somebody_near(body, (*goal[:2], 0.0), within_m=body.description.body_radius_m)
+    return None if person is None else as_obstacle(body, person)
+
+
 def _let_pass(body: Body, towards_rad: float) -> Script[None]:
     """Stand for a while as long as somebody is near on that side."""
     end_s = body.now_s + LET_PASS_S
     while body.now_s < end_s and in_the_path(body, towards_rad) is not None:
         yield
-
-
-def _let_leave(body: Body, person: PersonInfo, X_WO: SE3) -> Script[None]:
-    """Stand for a while as long as somebody is where they were."""
-    body.phase = f"waiting for {person.name} to step aside"
-    end_s = body.now_s + LET_PASS_S
-    while body.now_s < end_s and not _has_left(body, person, X_WO):
-        yield
-
-
-def _has_left(body: Body, person: PersonInfo, X_WO: SE3) -> bool:
-    """Whether somebody is no longer where they stood in the way."""
-    return math.dist(body.X_WPerson(person.id).p[:2], X_WO.p[:2]) > LEFT_M
 
 
 def turn_by(body: Body, angle_rad: float) -> Script[None]:
@@ -235,15 +247,25 @@ class _Watch:
         self._anchor = body.X_WS
         self._moved_s = body.now_s
         self._blocked_since_s: float | None = None
+        self._called: set[str] = set()
 
     def look_ahead(self, follower: Follower) -> None:
-        """Turn the head along the path now and then."""
+        """Turn the head now and then: along the path, or to who may still be beside it."""
         if self.body.now_s - self._looked_s < LOOK_EVERY_S:
             return
         points = follower.ahead(LOOK_AHEAD_M)
         if points:
-            look_at(self.body, (*points[-1], LOOK_HEIGHT_M))
+            unsure = _unsure_of(self.body, points)
+            look_at(self.body, unsure or (*points[-1], LOOK_HEIGHT_M))
             self._looked_s = self.body.now_s
+
+    def call_ahead(self, follower: Follower) -> None:
+        """Ask who stands too near to the way ahead to make room, once, while walking on."""
+        for point in follower.ahead(CALL_AHEAD_M, step_m=CALL_EVERY_M):
+            person = somebody_near(self.body, point)
+            if person is not None and person.id not in self._called:
+                self._called.add(person.id)
+                self.body.context.say(EXCUSE)
 
     def check_progress(self, remaining_m: float) -> None:
         """Give up when the body has neither moved nor turned for long, or walks in circles."""

@@ -10,11 +10,19 @@ import pytest
 from robot.model import description
 from sim import world
 from sim.grip import PULL_N, Grip
-from sim.people import wish_in
+from sim.people import AGAIN_S, wish_in
 from sim.person_arm import PersonArm, links
 from sim.plant import Plant
 from sim.somebody import LOST_M
-from sim.standing_room import BACK_M, LANE_M, ROBOT_M, Around, in_the_way, way_out
+from sim.standing_room import (
+    BACK_M,
+    LANE_M,
+    ROBOT_M,
+    WIDE_LANE_M,
+    Around,
+    in_the_way,
+    way_out,
+)
 from sim.world_schema import Behaviour, Door, Room
 
 JUNO = description.load("juno")
@@ -123,6 +131,29 @@ def test_a_free_spot_is_out_of_the_lane_and_clear_of_everything(heading_rad):
     across = spot[1] * math.cos(heading_rad) - spot[0] * math.sin(heading_rad)
     along = spot[0] * math.cos(heading_rad) + spot[1] * math.sin(heading_rad)
     assert along < 0.0 or abs(across) >= LANE_M
+
+
+def test_who_has_to_leave_a_wide_lane_goes_farther():
+    around, at = Around((0.0, 0.0), 0.0), (1.1, 0.0)
+    (near,) = way_out(world.empty(), at, around)
+    *_, far = way_out(world.empty(), at, around, lane_m=WIDE_LANE_M)
+    assert not in_the_way(near, around, within_m=2.0)
+    assert in_the_way(near, around, within_m=2.0, lane_m=WIDE_LANE_M)
+    assert not in_the_way(far, around, within_m=2.0, lane_m=WIDE_LANE_M)
+
+
+def test_who_just_made_room_and_is_asked_again_makes_more():
+    plant = bench(behind_m=0.7)
+    places = []
+    for _ in range(3):
+        plant.hear("Excuse me.")
+        let_pass(plant, 4.0)
+        places.append(plant.where("person/anna").p)
+    assert math.dist(places[0], places[1]) > 0.2
+    let_pass(plant, AGAIN_S)
+    plant.hear("Excuse me.")
+    let_pass(plant, 4.0)
+    assert math.dist(places[2], plant.where("person/anna").p) < 0.01
 
 
 def test_nobody_steps_where_somebody_stands():

@@ -62,7 +62,43 @@ def test_who_has_no_room_to_leave_is_given_some(stage):
     report = stage.run(THERE)
     assert report.status == "succeeded", report
     assert "stepping back from Ann" in stage.phases
-    assert stage.said == ["Excuse me.", "Excuse me."]
+    assert stage.said == ["Excuse me."] * 3  # from afar, before her, and when there is room
+
+
+def test_who_stands_by_the_way_is_asked_from_afar_and_the_walk_goes_on(stage):
+    comes(stage, "walking", lambda: where[0], for_s=math.inf)
+    where, tick = [SE3((1.65, -0.49, 0.0))], stage.puppet.tick
+
+    def leave():
+        tick()
+        if stage.said:
+            where[0] = AWAY
+
+    stage.puppet.tick = leave
+    assert stage.run(THERE).status == "succeeded"
+    assert stage.said == ["Excuse me."]
+    assert not any(phase.startswith("stopping") for phase in stage.phases)
+
+
+def test_who_steps_aside_at_once_is_not_backed_away_from(stage):
+    comes(stage, "walking", lambda: where[0], for_s=math.inf)
+    where, tick = [SE3((1.0, 0.0, 0.0))], stage.puppet.tick
+
+    def leave():
+        tick()
+        if len(stage.said) > 1:
+            where[0] = AWAY
+
+    stage.puppet.tick = leave
+    assert stage.run(THERE).status == "succeeded"
+    assert "stepping back from Ann" not in stage.phases
+
+
+def test_nobody_is_stepped_onto_who_stands_where_the_walk_ends(stage):
+    """The last steps follow no path: Ann stands just behind the goal."""
+    comes(stage, "walking", lambda: SE3((2.81, -2.25, 0.0)), for_s=math.inf)
+    report = stage.run(THERE)
+    assert report.failure.code == "path_blocked", report
 
 
 def test_not_a_step_is_sent_while_they_stand_there(stage):
