@@ -92,6 +92,10 @@ def _is_of(goal: Goal, pick: Pick) -> bool:
 def same_object(wanted: Goal, found: list[Goal]) -> bool:
     """I want the chips, can you bring them; Ada wants out, guide her: one wish, said twice."""
     goal = found[0] if found else None
+    if isinstance(wanted, ForEach) and isinstance(goal, ForEach):
+        return wanted.object.name == goal.object.name and same_object(
+            wanted.goals[0], list(goal.goals)
+        )
     if isinstance(wanted, Guide):
         return isinstance(goal, Guide) and wanted.person.name == goal.person.name
     if not isinstance(goal, Bring | Pick | Find | Give) or not isinstance(wanted, Bring | Find):
@@ -108,6 +112,8 @@ def as_wished(goal: Goal, wish: Goal) -> Goal:
         return replace(goal, to=goal.to or wish.to, person=wish.person)
     if isinstance(goal, Pick) and isinstance(wish, Bring):
         return wish
+    if isinstance(goal, ForEach) and isinstance(wish, ForEach):
+        return replace(goal, object=wish.object)
     if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
         return replace(goal, object=replace(goal.object, at=wish.object.at))
     return goal

@@ -37,6 +37,7 @@ _ON_THE_WAY = words(
 )
 """Verbs that take a thing somewhere, and not to who speaks."""
 _IT = words("it they that those")
+_PUT_AT = words("on onto in into next beside by near")
 _LIVES = words("lives live goes go belongs belong")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
@@ -157,7 +158,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
         raise Unclear("Where shall I take it?")
     if to is None and clause.verb.startswith(MOVES) and not then:
         raise Unclear("Where shall I take it?")
-    if to is None and (clause.verb.startswith(MOVES) or "put" in then):
+    on_the_way = to is None and (clause.verb.startswith(MOVES) or "put" in then)
+    if on_the_way or (to == ME and _is_put_somewhere(clause)):
         return [Pick(object=replace(o, at=o.at or at)) for o in objects]
     slots.direction("backward")
     slots.done()
@@ -193,6 +195,13 @@ def _then(clause: Clause) -> set[str]:
     """The senses of the verb that goes on after "and": take the cup *and put it there*."""
     after = connector_end(clause.text, clause.end)
     return {sense for sense, _ in verbs_at(clause.text.words, after)} if after else set()
+
+
+def _is_put_somewhere(clause: Clause) -> bool:
+    """Get me the cup *and leave it on the desk*: it is for me, but nobody hands it over."""
+    text, after = clause.text, connector_end(clause.text, clause.end)
+    ends = [end for sense, end in verbs_at(text.words, after) if sense == "put"] if after else []
+    return any(text.word(n) in _IT and text.word(n + 1) in _PUT_AT for n in ends)
 
 
 def _receiver(slots: Slots) -> Person | str | None:

@@ -16,6 +16,7 @@ from intents.goals import (
     Close,
     Count,
     Find,
+    ForEach,
     Give,
     Goal,
     GoTo,
@@ -84,6 +85,8 @@ class Scope:
             if isinstance(value, ObjectQuery | Person):
                 self.mention(value.at)
                 value = value if stays else replace(value, at=None)
+                if isinstance(goal, ForEach) and isinstance(value, ObjectQuery):
+                    value = replace(value, count="all")
             self.mention(value)
         if isinstance(goal, Open | Close | Switch):
             self.device = goal.what

@@ -89,12 +89,18 @@ def needed(sentence: Sentence, at: int) -> Found | None:
         there = to_place(goal.phrase, scope)
         return [Guide(person=to_person(phrase, scope), to=there)], end
     thing = complements[0] if needing and len(complements) == 1 else None
-    if thing is None or thing.role or not thing.phrases or thing.phrase.is_person:
+    if (
+        needing is None
+        or thing is None
+        or thing.role
+        or not thing.phrases
+        or thing.phrase.is_person
+    ):
         return None
     sentence.notes.wanted = True
-    person = to_person(phrase, scope)
     end += text.word(end) in _HANDED_OVER
-    return [Bring(object=to_object(one, scope), to=person) for one in thing.phrases], end
+    who, verb = Complement(role="to", phrases=[phrase]), text.raw(phrase.end, needing)
+    return framed(sentence, "bring", verb, [thing, who], first=needing, end=end)
 
 
 def required(sentence: Sentence, at: int) -> Found | None:
