@@ -153,6 +153,7 @@ class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
         gazes_W: points to look at from there, by turning the head alone.
         sees: which of the points asked for are expected to be seen.
         length_m: of the way there.
+        worth_per_s: what is seen, for the time that it takes to go and look [1/s].
         cut_off: which points can be seen from places that no way leads to, and from no others.
     """
 
@@ -160,6 +161,7 @@ class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     gazes_W: tuple[Vector3, ...] = ()
     sees: tuple[int, ...] = ()
     length_m: float = 0.0
+    worth_per_s: float = 0.0
     cut_off: tuple[int, ...] = ()
 
 

@@ -94,6 +94,7 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
         stance=best.stance,
         gazes_W=_gazes(points, worth, best, eye_m=_eye_m(body)),
         sees=tuple(best.rows.tolist()),
+        worth_per_s=best.worth_per_s,
         length_m=0.0 if best.cell is None else float(lengths_m[best.cell]),
         cut_off=cut_off,
     )

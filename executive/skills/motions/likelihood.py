@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from executive.skills.motions.habits import usual_rooms
 from executive.skills.motions.support import stands_on
 from executive.skills.motions.survey import Prospect
 from robot.messages import ObjectInfo, Place, Track, WorldMap
@@ -24,6 +25,8 @@ SAME_WORD = 6.0
 """A filter is kept in the filter rack."""
 ALIKE_HERE, ALIKE_NEAR = 3.0, 1.5
 """Others of its sort were seen on the surface, or in the same room."""
+KEPT_THERE = 4.0
+"""Mugs are kept in kitchens."""
 SHORTEST_WORD = 4
 SAID, LIKELY, UNLIKELY = range(3)
 """Ranks: where it was said to be, then where it may well be, then everywhere else."""
@@ -45,6 +48,7 @@ def prospects(
         for place in surfaces
         if any(other.category == info.category for other in here.get(place.id, ()))
     }
+    kept = usual_rooms(info, world_map)
     wanted = frozenset(said)
     found: list[Prospect] = []
     for place in surfaces:
@@ -53,6 +57,7 @@ def prospects(
         alike = any(other.category == info.category for other in things)
         near = ALIKE_NEAR if place.room and place.room in rooms else 1.0
         worth = _usual(place) * (ALIKE_HERE if alike else near)
+        worth *= KEPT_THERE if place.room in kept else 1.0
         found.append(Prospect(place=place, worth=worth * _same_word(info, place), rank=rank))
     return found
 

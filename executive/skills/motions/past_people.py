@@ -27,6 +27,8 @@ P = TypeVar("P")
 R = TypeVar("R", bound=BasePathRequest | LookRequest | PickRequest | PlaceRequest)
 
 CLOSED = ("no_path", "no_stance")
+WORTH_ASKING = 0.6
+"""Of what a view is worth, where people have to be asked to step aside first: that takes time."""
 BESIDE_M = 0.1
 """What the sensors see as near as this to somebody is taken to be them."""
 
@@ -51,7 +53,7 @@ def ask_past_people(
 
 
 def ask_view_past_people(body: Body, request: LookRequest) -> Script[LookPlan]:
-    """The best view; from behind people who close the way there if there is no other.
+    """The best view; from behind people who close the way there if that shows so much more.
 
     What can only be seen from there is not cut off.
     """
@@ -59,7 +61,7 @@ def ask_view_past_people(body: Body, request: LookRequest) -> Script[LookPlan]:
     if not (plan.cut_off and request.around.map.people):
         return plan
     past = yield from ask(body, _without_people(request), LookPlan)
-    if plan.stance is None and past.stance is not None:
+    if past.stance is not None and past.worth_per_s * WORTH_ASKING > plan.worth_per_s:
         return past
     cut_off = tuple(point for point in plan.cut_off if point in past.cut_off)
     return msgspec.structs.replace(plan, cut_off=cut_off)

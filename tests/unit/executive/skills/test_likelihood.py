@@ -2,6 +2,7 @@
 
 import msgspec
 
+from executive.skills.motions.habits import usual_rooms
 from executive.skills.motions.likelihood import LIKELY, SAID, UNLIKELY, prospects
 from executive.skills.motions.survey import Prospect
 from robot.messages import ObjectInfo, Place, Shape, Track, WorldMap
@@ -82,3 +83,34 @@ def test_where_others_of_its_sort_are_is_likely() -> None:
 
 def test_a_place_that_is_called_after_such_things_is_likely() -> None:
     assert of(BOOK)["book rack"].worth > of(CAN)["book rack"].worth
+
+
+def room(name: str, *synonyms: str) -> Place:
+    return Place(
+        id=name, name=name, X_WP=SE3(), size_m=(4, 4), room=name, floor=True, synonyms=synonyms
+    )
+
+
+def test_things_are_kept_where_people_keep_such_things() -> None:
+    desk, worktop = surface("desk", "table", 0.0, 0.74), surface("worktop", "counter", 9.0, 0.9)
+    home = msgspec.structs.replace(
+        MAP,
+        places=(
+            room("tea_corner", "kitchenette"),
+            room("bureau"),
+            msgspec.structs.replace(desk, room="bureau"),
+            msgspec.structs.replace(worktop, room="tea_corner"),
+        ),
+    )
+
+    def best(info: ObjectInfo) -> str:
+        return max(prospects(info, home, ()), key=lambda found: found.worth).place.id
+
+    assert best(thing("blue mug", "mug")) == "worktop"
+    assert best(thing("red stapler", "stapler")) == "desk"
+    assert usual_rooms(thing("gizmo", "gizmo"), home) == frozenset()
+
+
+def test_a_plural_is_kept_where_one_is() -> None:
+    home = msgspec.structs.replace(MAP, places=(room("office"),))
+    assert usual_rooms(thing("staplers", "thing"), home) == {"office"}
