@@ -13,7 +13,7 @@ from robot.reality.contract import Begin, Cast, Home
 from robot.reality.faults import Fault
 from robot.reality.studio import Studio
 from robot.reality.visual_scene import VisualScene
-from sim import atlas, faults, placing, realities, world
+from sim import atlas, placing, realities, world
 from sim.homes import catalogue
 from sim.world_schema import World
 
@@ -135,6 +135,8 @@ class SimulatedWorld:
 
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
+        from sim import faults
+
         faults.verify(fault, self.entries, robot)
 
     def scene(self, robot: RobotDescription) -> VisualScene:

@@ -14,13 +14,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
-from intents.language_model import Key
 from robot import plain_data
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_secret
+
+if TYPE_CHECKING:
+    from intents.language_model import Key
 
 MAX_FILE_BYTES = 64_000
 MAX_KEY_BYTES = 4_096
@@ -77,6 +80,8 @@ def key_for(host: str, *, file: Path | None = None) -> Key:
     Raises:
         ConfigError: it is named, and cannot be read; what is read is never in the message.
     """
+    from intents.language_model import Key  # httpx takes long to load
+
     file = file or path()
     source = sources(file).get(host)
     if source is None:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 import msgspec
 
@@ -15,12 +15,14 @@ from robot import config
 from robot import quantities as q
 from robot.errors import ConfigError, DescriptionError, Problem
 from robot.messages import Side
-from robot.model import measures, mjcf, trial
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs
 from robot.model.keyframes import GettingUp
 from robot.model.paces import Paces
 from robot.model.published import Published
+
+if TYPE_CHECKING:
+    from robot.model import mjcf
 
 SHIPPED = Path(str(resources.files("robot.model"))).resolve()
 """Where the robots are that come with the project."""
@@ -273,6 +275,8 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     @property
     def source(self) -> mjcf.Source:
         """Where the model comes from."""
+        from robot.model import mjcf
+
         overlay = None if self.overlay is None else str(Path(self.folder) / self.overlay)
         without = () if self.published is None else self.published.without
         folder = self.mjcf_folder or self.folder
@@ -318,6 +322,8 @@ def load(name_or_path: str = "juno") -> RobotDescription:
     )
     _check(description, str(path))
     if not _shipped(description):
+        from robot.model import trial
+
         trial.check(description.source)
     return _measured(description)
 
@@ -334,6 +340,8 @@ def _shipped(description: RobotDescription) -> bool:
 
 def _measured(description: RobotDescription) -> RobotDescription:
     """With what is left out of the file and can be seen at the model."""
+    from robot.model import measures, mjcf
+
     model = mjcf.compiled(description.source)
     joints = {name: motor.joint for name, motor in description.motors.items()}
     arms = [
