@@ -14,6 +14,7 @@ from executive.engine.loop import Interrupts
 from executive.frontends import speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.beside import shown as viewed
+from executive.frontends.dump.record import recorded
 from executive.frontends.dump.writer import along
 from executive.frontends.hooks import notified
 from executive.frontends.launching import hear_people, under_way
@@ -74,7 +75,7 @@ def carry_out(
         options: how it is shown.
         handle: of a live robot.
         voiced: whether the robot speaks; what cannot be heard has been told.
-        page: whether it is shown on a page.
+        page: whether it is shown on a page, and recorded.
         attend: takes orders from pages: of a live robot from any, of a fast one from its own.
 
     Raises:
@@ -90,7 +91,11 @@ def carry_out(
             executive.journal.listen(speech.note)
             return show(executive)
 
-        with viewed(prepared.setup.folder, wanted=page.view, err=options.as_json):
+        folder, err = prepared.setup.folder, options.as_json
+        with (
+            viewed(folder, wanted=page.view, err=err),
+            recorded(folder, wanted=page.record, err=err),
+        ):
             steered = attend if handle is not None or page.view else _nobody
 
             def out(text: str) -> None:

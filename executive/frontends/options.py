@@ -70,6 +70,12 @@ Model = Annotated[
 View = Annotated[
     bool, typer.Option("--view", help="Show it at work on a page of this machine, in 3-D.")
 ]
+Record = Annotated[
+    bool,
+    typer.Option(
+        "--record", help="Write it to recorded.mcap in the run's folder as it goes on (Foxglove)."
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")]
 
 
@@ -158,9 +164,10 @@ class Shown:
 
 @dataclass(frozen=True, kw_only=True)
 class Viewed:
-    """Whether it is shown on a page."""
+    """Whether it is shown on a page, and kept for other programs."""
 
     view: View = False
+    record: Record = False
 
 
 @dataclass(frozen=True, kw_only=True)

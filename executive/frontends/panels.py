@@ -14,7 +14,7 @@ PANELS = {
         "down",
     ),
     "See what it does, and what it did": (
-        "view", "console", "why", "history", "dump", "film", "replay", "runs", "eval",
+        "view", "console", "why", "history", "dump", "record", "film", "replay", "runs", "eval",
     ),
     "Sentences, worlds, robots": ("parse", "worlds", "model"),
     "Recordings of real sensors": ("map", "sensors", "people", "detect", "calibrate"),

@@ -29,6 +29,7 @@ DumpFormat = Annotated[
 def register(app: typer.Typer) -> None:
     """Add the command to the command line."""
     app.command()(dump)
+    app.command()(record)
 
 
 def dump(
@@ -77,3 +78,32 @@ def dump(
         opened=open_,
     )  # fmt: skip
     raise typer.Exit(command.dump(wish))
+
+
+def record(
+    run: Annotated[
+        str | None,
+        typer.Argument(help="A run's folder or a part of its name (default: the newest)."),
+    ] = None,
+    *,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The file to write (default: in the run's folder)."),
+    ] = None,
+) -> None:
+    """Write a run to an MCAP file while it goes on, for Foxglove.
+
+    From any other terminal; it reads the run's files, so it cannot hold the robot up. It ends with
+    the run, or with Ctrl-C. The same begins with the run by --record.
+
+    [bold]Examples[/bold]
+
+      humanoid record                           (the newest run)
+
+      humanoid record red-cup -o red-cup.mcap
+
+      humanoid do "wave" --record
+    """
+    from executive.frontends.dump import record as recording
+
+    raise typer.Exit(recording.record(run, output))

@@ -7,18 +7,16 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from executive.frontends.dump import foxglove
+from executive.frontends.dump.looks import began_s, looks
 from executive.frontends.dump.tables import Table, as_csv, as_parquet, tables
 from executive.frontends.new_files import records_of, refuse_inputs, write
 from executive.frontends.output import Screen, say
-from executive.frontends.recorded_place import place_of
-from executive.journal import journal, motion, past_runs
+from executive.journal import journal, motion
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
-from executive.runs.again.recording import discreet
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.reality.visual_scene import VisualScene
 
 EXTRA: Mapping[str, tuple[str, str]] = {
     "mcap": ("foxglove", "mcap"),
@@ -28,8 +26,6 @@ EXTRA: Mapping[str, tuple[str, str]] = {
 TABLES: Mapping[str, Callable[[Table], bytes]] = {"csv": as_csv, "parquet": as_parquet}
 MOST_BYTES = 150_000_000
 """Of a journal or of movements: they are held in memory as they are written."""
-LAST_S = 3e9
-"""Of the wall clock, in 2065: stamps of MCAP's messages end in 2106."""
 
 
 def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
@@ -45,15 +41,16 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
         ConfigError: what writes it is not installed, the run is too long, or nothing can be
             written.
     """
-    _check(folder, kind)
+    check_installed(kind)
+    _check_size(folder)
     place = output or folder / (f"{folder.name}.mcap" if kind == "mcap" else kind)
-    motors, scene = _looks(run, folder)
+    motors, scene = looks(run, folder)
     with Screen(err=True).status(f"writing {kind}"):
         if kind == "mcap":
             refuse_inputs([place], records_of(folder))
             data, left_out = foxglove.recorded(
                 run, _events(folder), _moments(folder), scene=scene, motors=motors,
-                began_s=min(max(past_runs.began_s(folder) - run.begin_s, 0.0), LAST_S),
+                began_s=began_s(folder, run),
             )  # fmt: skip
             write(place, data, run=folder)
             if left_out:
@@ -71,31 +68,26 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
     return ExitStatus.DONE
 
 
-def _check(folder: Path, kind: str) -> None:
+def check_installed(kind: str) -> None:
+    """Refuse a format that nothing here can write.
+
+    Raises:
+        ConfigError: with the extra of this package that brings it along.
+    """
     if kind in EXTRA:
         module, extra = EXTRA[kind]
         if importlib.util.find_spec(module) is None:
             cure = f"pip install 'humanoid-executive[{extra}]'"
             raise ConfigError([Problem(f"what writes {kind} is not installed", suggestion=cure)])
+
+
+def _check_size(folder: Path) -> None:
     for name in (journal.FILE, motion.FILE):
         path = folder / name
         if path.is_file() and path.stat().st_size > MOST_BYTES:
             text = f"larger than {MOST_BYTES / 1e6:g} MB"
             cure = "humanoid dump --format html shows a long run"
             raise ConfigError([Problem(text, str(path), suggestion=cure)])
-
-
-def _looks(run: Run, folder: Path) -> tuple[tuple[str, ...], VisualScene | None]:
-    """Names of the robot's motors, and what it and its world look like; else numbers, and None."""
-    try:
-        with discreet(folder):
-            place = place_of(run.about)
-            if place is not None:
-                return place.robot.motor_names, place.world.scene(place.robot)
-    except ConfigError as error:
-        say(str(error), err=True)
-    first = next(_moments(folder), None)
-    return tuple(map(str, range(len(first.q)))) if first is not None else (), None
 
 
 def _events(folder: Path) -> Iterator[Event]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -49,28 +49,54 @@ def recorded(
         motors: names of joint positions, in the order of the moments'.
         began_s: the wall clock at time 0 of the robot [s since 1970].
     """
-    import foxglove
-    from foxglove.mcap import MCAPWriteOptions
-
-    file, context = io.BytesIO(), foxglove.Context()
-    options = MCAPWriteOptions(profile="", compression_threads=0)
-    with foxglove.open_mcap(file, context=context, writer_options=options):
-        writer = _Writer(context, began_s)
-        if scene is not None:
-            writer.scene(scene, run.begin_s)
-        writer.words(run)
-        writer.tree(run)
-        for event in events:
-            writer.event(event)
-        for moment in moments:
-            writer.moment(moment, scene, motors)
+    file = io.BytesIO()
+    writer = Writer(file, scene=scene, motors=motors, began_s=began_s, begin_s=run.begin_s)
+    writer.news(run)
+    for event in events:
+        writer.event(event)
+    for moment in moments:
+        writer.moment(moment)
+    writer.close()
     return file.getvalue(), writer.left_out
 
 
-class _Writer:
-    def __init__(self, context: Any, began_s: float) -> None:
-        from foxglove import Channel, channels
+class Writer:
+    """A file that takes a run as it comes, a chunk at a time.
 
+    Attributes:
+        left_out: how often something beyond the first `MOST_THINGS` was left out.
+    """
+
+    def __init__(
+        self,
+        file: BinaryIO,
+        *,
+        scene: VisualScene | None,
+        motors: tuple[str, ...],
+        began_s: float,
+        begin_s: float,
+        chunk_bytes: int = 1 << 20,
+    ) -> None:
+        """Begin the file, with what everything looks like.
+
+        Args:
+            file: it is written to; whoever opened it closes it.
+            scene: what it looks like; None where nobody knows.
+            motors: names of joint positions, in the order of the moments'.
+            began_s: the wall clock at time 0 of the robot [s since 1970].
+            begin_s: the robot's time at which the run begins.
+            chunk_bytes: what is written at a time; what has not been written a crash takes along.
+        """
+        import foxglove
+        from foxglove import Channel, channels
+        from foxglove.mcap import MCAPWriteOptions
+
+        context = foxglove.Context()
+        options = MCAPWriteOptions(profile="", compression_threads=0, chunk_size=chunk_bytes)
+        self._mcap = foxglove.open_mcap(file, context=context, writer_options=options)
+        self._scene_known, self._motors = scene, motors
+        self._told = 0
+        self._changed: dict[int, int] = {}
         self._began_s = began_s
         self._joints = channels.JointStatesChannel("/joint_states", context=context)
         self._transforms = channels.FrameTransformsChannel("/tf", context=context)
@@ -85,10 +111,16 @@ class _Writer:
         self.left_out = 0
         self._context = context
         self._bodies: dict[str, VisualBody] = {}
+        if scene is not None:
+            self._looks(scene, begin_s)
+
+    def close(self) -> None:
+        """Write what is left, and the index."""
+        self._mcap.close()
 
     # --- once ---
 
-    def scene(self, scene: VisualScene, t_s: float) -> None:
+    def _looks(self, scene: VisualScene, t_s: float) -> None:
         """What everything looks like: it hangs on frames, which move."""
         from foxglove.messages import FrameTransforms, SceneUpdate
 
@@ -113,20 +145,29 @@ class _Writer:
         ]
         self._fixed.log(FrameTransforms(transforms=fixed), log_time=self._ns(t_s))
 
-    def words(self, run: Run) -> None:
-        """What happened, as people are told of it."""
+    # --- what has come since the last time ---
+
+    def news(self, run: Run) -> None:
+        """What a run tells that was not yet told: words, and changes of the tree."""
+        self._tell(run)
+        self._changes(run)
+
+    def _tell(self, run: Run) -> None:
         from foxglove.messages import Log, LogLevel
 
-        for line in run.log:
+        lines, self._told = run.log[self._told :], len(run.log)
+        for line in lines:
             level = getattr(LogLevel, LEVELS.get(line.kind, "Info"))
             told = Log(
                 timestamp=self._stamp(line.t_s), level=level, message=line.text, name=line.kind
             )
             self._words.log(told, log_time=self._ns(line.t_s))
 
-    def tree(self, run: Run) -> None:
-        """Every change of a node."""
-        changes = [(change.t_s, node, change) for _, node in run.walk() for change in node.changes]
+    def _changes(self, run: Run) -> None:
+        changes: list[Any] = []
+        for _, node in run.walk():
+            known, self._changed[node.id] = self._changed.get(node.id, 0), len(node.changes)
+            changes += [(change.t_s, node, change) for change in node.changes[known:]]
         for t_s, node, change in sorted(changes, key=lambda one: one[0]):
             record = {
                 "id": node.id, "parent": node.parent, "kind": node.kind, "name": node.name,
@@ -141,10 +182,11 @@ class _Writer:
         record = {"n": event.n, "event": event.event, **event.data}
         self._events.log(record, log_time=self._ns(event.t_s))
 
-    def moment(self, moment: Moment, scene: VisualScene | None, motors: tuple[str, ...]) -> None:
+    def moment(self, moment: Moment) -> None:
         """How everything stands."""
         from foxglove.messages import FrameTransforms, JointState, JointStates, PoseInFrame
 
+        scene, motors = self._scene_known, self._motors
         at = self._ns(moment.t_s)
         stamp = self._stamp(moment.t_s)
         names = motors if len(motors) == len(moment.q) else map(str, range(len(moment.q)))

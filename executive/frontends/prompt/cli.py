@@ -14,6 +14,7 @@ from executive.frontends import carrying_out, speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.attending import attended
 from executive.frontends.console.beside import shown as viewed
+from executive.frontends.dump.record import recorded
 from executive.frontends.hooks import notified
 from executive.frontends.language_model import language_model
 from executive.frontends.launching import (
@@ -158,6 +159,7 @@ def conversation(
     )
     with ExitStack() as stack:
         stack.enter_context(viewed(folder, wanted=options.view))
+        stack.enter_context(recorded(folder, wanted=options.record))
         if under_way(handle) is not None:  # a stop comes before what is gone on with
             stack.enter_context(robot.interrupts.listen())
             hear_people(handle, robot.interrupts)

@@ -16,7 +16,8 @@ def test_a_sentence_is_parsed_without_physics_and_without_the_net():
         "from executive.__main__ import main\n"
         "try: main()\n"
         "except SystemExit: pass\n"
-        "sys.exit(', '.join({'mujoco', 'httpx', 'scipy', 'cv2', 'py_trees'} & set(sys.modules)) or 0)"
+        "late = {'mujoco', 'httpx', 'scipy', 'cv2', 'py_trees'}\n"
+        "sys.exit(', '.join(late & set(sys.modules)) or 0)"
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr

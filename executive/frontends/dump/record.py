@@ -1,0 +1,169 @@
+"""`humanoid record` and `--record`: a run as MCAP while it goes on, in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from typing import BinaryIO
+
+import robot
+from executive.frontends.dump.export import check_installed
+from executive.frontends.new_files import records_of, refuse_inputs, refuse_taken
+from executive.frontends.output import Screen, say
+from executive.journal import journal, past_runs
+from robot.bus.lifeline import Stop
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
+from robot.ordinary_files import make_below, open_to_append
+
+MODULE = "executive.frontends.dump.record"
+NAME = "recorded"
+FINISH_S = 120.0
+"""What a recording may take to catch up with a fast run, and to write its index."""
+
+
+def record(run: str | None, output: Path | None) -> int:
+    """Write a run under way to a file until it ends, or until Ctrl-C; one that is over, whole.
+
+    Args:
+        run: its folder or a part of its name; None: the newest.
+        output: the file, which must not be there; None: in the run's folder.
+
+    Raises:
+        ConfigError: there is no such run, what writes it is not installed, or it cannot be written.
+    """
+    check_installed("mcap")
+    folder = past_runs.find(run)
+    path = output or _free(folder)
+    refuse_inputs([path], records_of(folder))
+    refuse_taken(path)
+    live, stop = journal.is_written(folder), Stop()
+    with _opened(path) as file, Screen(err=True).status("recording") as shown:
+
+        def tell(t_s: float) -> None:
+            shown.update(f"recording {folder.name}: {t_s:.1f} s")
+
+        if live:
+            say(f"Recording {folder.name}; Ctrl-C ends the recording, not the run.", err=True)
+        _follow(
+            folder, file, is_over=lambda: bool(stop) or not journal.is_written(folder), tell=tell
+        )
+    say(f"Done: {path}")
+    return ExitStatus.DONE
+
+
+@contextmanager
+def recorded(folder: Path | None, *, wanted: bool, err: bool = False) -> Generator[None]:
+    """Write the run in a folder to a file inside the block, and say where; or just go on.
+
+    Args:
+        folder: of the run.
+        wanted: whether anybody wants it.
+        err: whether standard output is for something else.
+
+    Raises:
+        ConfigError: what writes it is not installed.
+    """
+    if not wanted or folder is None:
+        yield
+        return
+    check_installed("mcap")
+    path = _free(folder)
+    try:
+        process = _started(folder, path)
+    except OSError as error:
+        say(f"It cannot be recorded: {error.strerror or error}", err=True)
+        yield
+        return
+    say(f"Recording: {path}", err=err)
+    try:
+        yield
+    finally:
+        _finish(process, path)
+
+
+def _free(folder: Path) -> Path:
+    """A name that nothing has: a run that went on after a crash is recorded anew, as a whole."""
+    names = (f"{NAME}{'' if n == 1 else f'-{n}'}.mcap" for n in count(1))
+    return next(folder / name for name in names if not os.path.lexists(folder / name))
+
+
+def _started(folder: Path, path: Path) -> subprocess.Popen[bytes]:
+    """The process that reads the run's files and writes that one.
+
+    Raises:
+        OSError: it cannot be started.
+    """
+    logs = folder / "logs"
+    make_below(folder, logs)
+    log = open_to_append(logs / "record.log")
+    try:
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", MODULE, str(folder), str(path), str(os.getpid())],
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            process_group=0,  # Ctrl-C is for the robot
+            env={**os.environ, "PYTHONPATH": str(Path(robot.__file__).parent.parent)},
+        )
+    finally:
+        os.close(log)
+
+
+def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
+    """Let it write what is left, and the index."""
+    process.send_signal(signal.SIGTERM)
+    try:
+        with Screen(err=True).status(f"finishing {path.name}"):
+            failed = process.wait(FINISH_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        failed = process.wait()
+    if failed:
+        say(f"The recording is not whole: {path.parent / 'logs' / 'record.log'} says why", err=True)
+
+
+@contextmanager
+def _opened(path: Path) -> Generator[BinaryIO]:
+    try:
+        file = path.open("xb")
+    except OSError as error:
+        text = f"cannot be written: {error.strerror}"
+        raise ConfigError([Problem(text, str(path), suggestion="name a file with -o")]) from None
+    with file:
+        yield file
+
+
+def _follow(
+    folder: Path,
+    file: BinaryIO,
+    *,
+    is_over: Callable[[], bool],
+    tell: Callable[[float], object],
+) -> None:
+    from executive.frontends.dump.recording import follow  # Foxglove's library: slow to load
+
+    follow(folder, file, is_over=is_over, tell=tell)
+
+
+def main(folder: str, path: str, parent_pid: str) -> None:
+    """Record until the parent asks to end, or is gone: what it wrote is whole then, too."""
+    stop = Stop()
+    os.nice(10)
+    with _opened(Path(path)) as file:
+        _follow(
+            Path(folder),
+            file,
+            is_over=lambda: bool(stop) or os.getppid() != int(parent_pid),
+            tell=lambda _: None,
+        )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

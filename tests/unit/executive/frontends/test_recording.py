@@ -1,0 +1,134 @@
+"""A run that is recorded while it grows: the same as one that is written afterwards."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+
+import msgspec
+import pytest
+
+from executive.frontends.dump import record
+from executive.frontends.dump.command import Asked, dump
+from executive.frontends.dump.recording import Recording, follow
+from executive.journal import journal, motion
+from executive.journal.motion import Moment
+from robot.errors import ConfigError
+
+CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
+EVENTS = [
+    {"n": 0, "t_s": 0.5, "event": "run", "text": "wave", "world": "kitchen", "robot": "juno"},
+    {"n": 1, "t_s": 1.0, "event": "said", "text": "Hello."},
+    {"n": 2, "t_s": 2.0, "event": "warning", "text": "low"},
+    {"n": 3, "t_s": 9.0, "event": "outcome", "code": "done"},
+]
+LINES = [msgspec.json.encode(event) + b"\n" for event in EVENTS]
+MOVES = [
+    motion.encode(
+        Moment(t_s=0.5 + k, base=(0.1 * k, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0), q=(0.1 * k,) * 33,
+               objects={"red_cup": CUP})
+    )
+    + b"\n"
+    for k in range(6)
+]  # fmt: skip
+
+
+@pytest.fixture
+def folder(tmp_path):
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / journal.WALL_FILE).write_bytes(b'{"n":0,"wall_s":1700000000.5}\n')
+    return run
+
+
+def grow(folder, name: str, data: bytes) -> None:
+    with (folder / name).open("ab") as file:
+        file.write(data)
+
+
+def messages(data: bytes) -> list[tuple[str, int, bytes]]:
+    reader = pytest.importorskip("mcap.reader", reason="the extra `dev` is not installed")
+    found = reader.make_reader(io.BytesIO(data)).iter_messages()
+    return sorted((channel.topic, message.log_time, message.data) for _, channel, message in found)
+
+
+def test_what_grew_is_recorded_as_what_is_written_at_the_end(folder):
+    file = io.BytesIO()
+    recording = Recording(folder, file)
+    assert not recording.take()
+    for events, moves in ((LINES[:1], MOVES[:2]), (LINES[1:3], []), (LINES[3:], MOVES[2:])):
+        grow(folder, journal.FILE, b"".join(events)[:-3])
+        grow(folder, motion.FILE, b"".join(moves))
+        while recording.take():
+            pass
+        grow(folder, journal.FILE, b"".join(events)[-3:])  # a line's end comes later
+    while recording.take():
+        pass
+    recording.close()
+    whole = folder / "whole.mcap"
+    dump(Asked(run=str(folder), kind="mcap", output=whole))
+    assert messages(file.getvalue()) == messages(whole.read_bytes())
+
+
+def test_what_was_written_before_a_crash_can_be_read(folder, monkeypatch):
+    mcap = pytest.importorskip("mcap.exceptions", reason="the extra `dev` is not installed")
+    stream = pytest.importorskip("mcap.stream_reader")
+    monkeypatch.setattr("executive.frontends.dump.recording.CHUNK_BYTES", 1000)
+    grow(folder, journal.FILE, b"".join(LINES))
+    grow(folder, motion.FILE, b"".join(MOVES))
+    file = io.BytesIO()
+    recording = Recording(folder, file)
+    while recording.take():
+        pass
+    crashed = file.getvalue()
+    recording.close()
+    found = []
+    with pytest.raises(mcap.McapError):
+        for one in stream.StreamReader(io.BytesIO(crashed)).records:
+            found.append(type(one).__name__)
+    assert found.count("Message") > len(MOVES)
+
+
+def test_it_goes_on_until_no_more_comes_and_then_takes_the_rest(folder):
+    grow(folder, journal.FILE, b"".join(LINES))
+    looks = []
+
+    def is_over() -> bool:
+        looks.append(1)
+        if len(looks) == 2:
+            grow(folder, motion.FILE, b"".join(MOVES))
+        return len(looks) == 2
+
+    file, told = io.BytesIO(), []
+    follow(folder, file, is_over=is_over, tell=told.append)
+    assert told[-1] == 5.5
+    assert sum(topic == "/base_pose" for topic, _, _ in messages(file.getvalue())) == len(MOVES)
+
+
+def test_a_recorder_whose_parent_is_gone_ends_with_a_whole_file(folder):
+    grow(folder, journal.FILE, b"".join(LINES))
+    grow(folder, motion.FILE, b"".join(MOVES))
+    path = folder / "recorded.mcap"
+    nobody = "1"  # not the parent of that process
+    command = [sys.executable, "-m", record.MODULE, str(folder), str(path), nobody]
+    assert subprocess.run(command, check=False).returncode == 0
+    assert sum(topic == "/base_pose" for topic, _, _ in messages(path.read_bytes())) == len(MOVES)
+
+
+def test_a_file_that_is_there_is_never_written_over(folder):
+    grow(folder, journal.FILE, b"".join(LINES))
+    taken = folder / "mine.mcap"
+    taken.write_bytes(b"precious")
+    with pytest.raises(ConfigError, match="there already"):
+        record.record(str(folder), taken)
+    with pytest.raises(ConfigError, match="read by this very command"):
+        record.record(str(folder), folder / journal.FILE)
+    assert taken.read_bytes() == b"precious"
+
+
+def test_a_run_that_went_on_is_recorded_beside_what_was_recorded_before(folder):
+    grow(folder, journal.FILE, b"".join(LINES))
+    assert record.record(str(folder), None) == 0
+    assert record.record(str(folder), None) == 0
+    assert {path.name for path in folder.glob("*.mcap")} == {"recorded.mcap", "recorded-2.mcap"}
