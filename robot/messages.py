@@ -376,12 +376,47 @@ class Sightings(Message, frozen=True, kw_only=True):
 # --- the world ---------------------------------------------------------------------------------
 
 
+class Piece(msgspec.Struct, frozen=True, kw_only=True):
+    """A part of a shape, sized as one; `is_held`: a hand may close on it."""
+
+    kind: Literal["box", "cylinder"]
+    size_m: Vector3
+    X_ShapePiece: SE3 = SE3()
+    is_held: bool = True
+
+
 class Shape(msgspec.Struct, frozen=True, kw_only=True):
-    """A primitive: `size_m` is (x, y, z) of a box, (diameter, diameter, height) of a cylinder."""
+    """A primitive: `size_m` is (x, y, z) of a box, (diameter, diameter, height) of a cylinder.
+
+    `pieces` are its form where that is known more exactly: neck and belly of a bottle, a cup's
+    handle, which sticks out of the primitive. Its foot and its top are the primitive's.
+    """
 
     kind: Literal["box", "cylinder"]
     size_m: Vector3
     X_BodyShape: SE3 = SE3()
+    pieces: tuple[Piece, ...] = ()
+
+    @property
+    def is_round(self) -> bool:
+        """Whether it is the same from all sides."""
+        upright = (
+            piece.kind == "cylinder" and piece.X_ShapePiece.p[:2] == (0.0, 0.0)
+            for piece in self.pieces
+        )
+        return self.kind == "cylinder" and all(upright)
+
+    @property
+    def radius_m(self) -> float:
+        """Of the upright cylinder about its axis that holds all of it."""
+        x, y, _ = self.size_m
+        own = 0.5 * x if self.kind == "cylinder" else 0.5 * math.hypot(x, y)
+        reaches = [
+            math.hypot(*piece.X_ShapePiece.p[:2])
+            + (0.5 if piece.kind == "cylinder" else 0.5 * math.sqrt(2.0)) * max(piece.size_m[:2])
+            for piece in self.pieces
+        ]
+        return max([own, *reaches])
 
 
 class Obstacle(msgspec.Struct, frozen=True, kw_only=True):

@@ -116,8 +116,12 @@ class SimulatedWorld:
         self.map = atlas.world_map(entries)
 
     def content(self) -> bytes:
-        """Everything in it."""
-        return msgspec.json.encode(self.entries)
+        """Everything in it; keys that came later count only where they are used."""
+        content = msgspec.to_builtins(self.entries)
+        for item in content["objects"]:
+            if not item["kind"]:
+                del item["kind"], item["variant"]
+        return msgspec.json.encode(content)
 
     def objects(self) -> Mapping[str, Begin]:
         """Where every object begins, by id."""
