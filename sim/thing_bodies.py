@@ -60,7 +60,7 @@ def _half(part: Contact) -> list[float]:
 def _mesh(spec: mujoco.MjSpec, name: str, form: Mesh) -> str:
     """A mesh of the scene, made once."""
     if spec.mesh(name) is None:
-        mesh = spec.add_mesh(name=name)
+        mesh, form = spec.add_mesh(name=name), form.creased()
         mesh.uservert = form.points.astype(np.float32).ravel()
         mesh.userface = form.faces.ravel()
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # not asked for, and never fails

@@ -32,6 +32,8 @@ def sheet(kinds: Iterable[str], *, variant: int = 0) -> Image:
     spec = mujoco.MjSpec()
     paint = Paint(spec)
     set_light(spec, (0.0, 0.0, APART_M * len(names), APART_M))
+    for light in spec.lights:
+        light.castshadow = False  # its map is too coarse for a print on a can
     size = [APART_M * (len(names) + 4), 20.0, 0.1]
     spec.worldbody.add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE, size=size, material=paint.plain("ground", (0.86,) * 3)

@@ -6,6 +6,7 @@ once.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,8 +27,8 @@ def picture(wanted: Print, color: str, word: str, rng: np.random.Generator) -> P
     ground = color
     if wanted.colors:
         ground = wanted.colors[int(rng.integers(len(wanted.colors)))]
-    second = _other(ground, rng, besides=())
-    third = _other(ground, rng, besides=(second,))
+    second = _other([ground], rng)
+    third = _other([ground, second], rng)
     canvas = np.empty((HEIGHT_PX, WIDTH_PX, 3), dtype=np.uint8)
     canvas[:] = _ink(ground)
     rows, columns = np.mgrid[:HEIGHT_PX, :WIDTH_PX]
@@ -77,13 +78,12 @@ def _brand(canvas: Picture, text: str, second: str, third: str, rng: np.random.G
     canvas[:] = np.asarray(image)
 
 
-def _other(ground: str, rng: np.random.Generator, *, besides: tuple[str, ...]) -> str:
-    """A colour that can be told from the ground."""
+def _other(there: Sequence[str], rng: np.random.Generator) -> str:
+    """A colour that can be told from those that are there."""
     far = [
         name
         for name in INKS
-        if name not in besides
-        and np.linalg.norm(np.subtract(COLORS[name], COLORS[ground])) > APART
+        if all(np.linalg.norm(np.subtract(COLORS[name], COLORS[one])) > APART for one in there)
     ]
     return far[int(rng.integers(len(far)))]
 

@@ -167,7 +167,7 @@ def _lining(inside: Array) -> Mesh:
 
 
 def _label(outside: Array, picture: Picture, height: float, at: tuple[float, float]) -> Look:
-    rising = np.concatenate([[True], np.diff(outside[:, 1]) > 1e-9])
+    rising = np.append(np.diff(outside[:, 1]) > 1e-9, True)
     mesh = band(
         _points(outside[rising]), low_m=at[0] * height, high_m=at[1] * height, thick_m=LABEL_M
     )
@@ -202,12 +202,13 @@ def _rims(outside: Array, height: float) -> list[Mesh]:
     """The two ends of a can: a bead, and a lid that is sunk a little."""
     radius = float(outside[:, 0].max())
     end = float(outside[-1, 0])
-    lid = [(0.0, height - 0.002), (end - 0.003, height - 0.002), (end - 0.002, height + 0.0012),
-           (end + 0.0006, height + 0.0012), (end + 0.0006, height - 0.003), (0.0, height - 0.003)]  # fmt: skip
+    lid = [(0.0, height - 0.003), (end + 0.0006, height - 0.003), (end + 0.0006, height + 0.0012),
+           (end - 0.002, height + 0.0012), (end - 0.003, height + 0.0003),
+           (0.0, height + 0.0003)]  # fmt: skip
     first = float(outside[1, 0])
     foot = [(0.0, 0.0002), (first + 0.0004, 0.0002), (min(first + 0.002, radius + 0.0004), 0.003),
             (0.0, 0.003)]  # fmt: skip
-    return [lathe(lid[::-1]), lathe(foot)]
+    return [lathe(lid), lathe(foot)]
 
 
 def _handle(handle: Handle, outside: Array) -> tuple[Mesh, list[Contact], Vector3, Vector3]:
