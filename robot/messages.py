@@ -385,6 +385,10 @@ class Piece(msgspec.Struct, frozen=True, kw_only=True):
     is_held: bool = True
 
 
+INSIDE_M = 0.002
+"""What reaches no further out of a shape does not stick out of it."""
+
+
 class Shape(msgspec.Struct, frozen=True, kw_only=True):
     """A primitive: `size_m` is (x, y, z) of a box, (diameter, diameter, height) of a cylinder.
 
@@ -396,6 +400,23 @@ class Shape(msgspec.Struct, frozen=True, kw_only=True):
     size_m: Vector3
     X_BodyShape: SE3 = SE3()
     pieces: tuple[Piece, ...] = ()
+
+    @property
+    def held_pieces(self) -> tuple[Piece, ...]:
+        """What a hand may close on: all of it, where its form is not known."""
+        whole = Piece(kind=self.kind, size_m=self.size_m)
+        return tuple(piece for piece in self.pieces or (whole,) if piece.is_held)
+
+    @property
+    def sticking_out(self) -> tuple[Piece, ...]:
+        """Pieces that are not inside the primitive."""
+        x, y, _ = self.size_m
+        return tuple(
+            piece
+            for piece in self.pieces
+            if abs(piece.X_ShapePiece.p[0]) + 0.5 * piece.size_m[0] > 0.5 * x + INSIDE_M
+            or abs(piece.X_ShapePiece.p[1]) + 0.5 * piece.size_m[1] > 0.5 * y + INSIDE_M
+        )
 
     @property
     def is_round(self) -> bool:

@@ -46,7 +46,9 @@ def tube(
         side = side - (side @ t) * t  # carried along without a twist
         side /= np.linalg.norm(side)
         across = np.cross(t, side)
-        rings.append(p + radius * (np.outer(np.cos(angles), side) + np.outer(np.sin(angles), across)))
+        rings.append(
+            p + radius * (np.outer(np.cos(angles), side) + np.outer(np.sin(angles), across))
+        )
     return loft(rings)
 
 
@@ -78,9 +80,7 @@ def prism(
     return Mesh(np.concatenate([lower, upper]), faces.astype(np.int32))
 
 
-def wrapped(
-    outline: Sequence[Sequence[float]] | Array, low_m: float, high_m: float
-) -> Mesh:
+def wrapped(outline: Sequence[Sequence[float]] | Array, low_m: float, high_m: float) -> Mesh:
     """A prism over a convex outline with a picture wrapped around it once; its ends show a corner.
 
     The picture begins at the first point of the outline, and goes from the upper end to the lower.
@@ -89,8 +89,9 @@ def wrapped(
     mesh, count = prism(flat, low_m, high_m), len(flat)
     lengths = np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1)
     along = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
-    below, above = np.column_stack([along, np.ones(count + 1)]), np.column_stack(
-        [along, np.zeros(count + 1)]
+    below, above = (
+        np.column_stack([along, np.ones(count + 1)]),
+        np.column_stack([along, np.zeros(count + 1)]),
     )
     uv = np.concatenate([below, above, [[0.002, 0.002]]])
     k = np.arange(count)

@@ -46,7 +46,9 @@ class Mesh:
 
     def is_watertight(self) -> bool:
         """Whether every edge is shared by two faces that run along it in opposite directions."""
-        edges = np.concatenate([self.faces[:, [0, 1]], self.faces[:, [1, 2]], self.faces[:, [2, 0]]])
+        edges = np.concatenate(
+            [self.faces[:, [0, 1]], self.faces[:, [1, 2]], self.faces[:, [2, 0]]]
+        )
         ways = {(int(a), int(b)) for a, b in edges}
         return len(ways) == len(edges) and all((b, a) in ways for a, b in ways)
 
@@ -85,18 +87,22 @@ class Mesh:
         a, b, c = (self.points[self.faces[:, k]] for k in range(3))
         areas = np.cross(b - a, c - a)
         flat = areas / np.maximum(np.linalg.norm(areas, axis=1, keepdims=True), 1e-18)
-        around: list[list[int]] = [[] for _ in self.points]
-        for number, face in enumerate(self.faces.tolist()):
-            for corner in face:
-                around[corner].append(number)
-        least, groups = math.cos(crease_rad), dict[tuple[int, tuple[int, ...]], int]()
-        faces = np.empty_like(self.faces)
-        for number, face in enumerate(self.faces.tolist()):
-            for k, corner in enumerate(face):
-                beside = np.array(around[corner])
-                alike = tuple(beside[flat[beside] @ flat[number] > least].tolist())
-                faces[number, k] = groups.setdefault((corner, alike), len(groups))
-        return replace(self, points=self.points[[corner for corner, _ in groups]], faces=faces)
+        corners = self.faces.ravel()
+        order = np.argsort(corners, kind="stable")
+        starts = np.searchsorted(corners[order], corners)
+        counts = np.bincount(corners, minlength=len(self.points))[corners]
+        one = np.repeat(np.arange(len(corners)), counts)  # every pair of corners at one point
+        place = np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
+        other = order[starts[one] + place]
+        alike = np.einsum("ij,ij->i", flat[one // 3], flat[other // 3]) > math.cos(crease_rad)
+        # Corners at a point that have the same faces beside them stay one: a sum tells sets apart.
+        marks = np.random.default_rng(0).integers(2**63, size=len(corners), dtype=np.uint64)
+        sums = np.zeros(len(corners), dtype=np.uint64)
+        np.add.at(sums, one[alike], marks[other[alike]])
+        keys = np.column_stack([corners.astype(np.uint64), sums])
+        _, first, same = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        faces = same.reshape(-1, 3).astype(np.int32)
+        return replace(self, points=self.points[corners[first]], faces=faces)
 
     @property
     def volume_m3(self) -> float:

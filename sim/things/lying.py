@@ -33,8 +33,7 @@ def flat(form: Flat, color: str) -> Made:
         Look(head.moved(-centre), color),
     )
     contacts = tuple(
-        Contact(one.kind, one.half_m, _less(one.p, centre), one.quat_wxyz)
-        for one in _blocks(form)
+        Contact(one.kind, one.half_m, _less(one.p, centre), one.quat_wxyz) for one in _blocks(form)
     )
     matter = looks[0].mesh.matter(1.0).with_(looks[1].mesh.matter(1.0))
     x, y, z = (float(v) for v in high - low)
@@ -73,7 +72,9 @@ def bent(form: Bent, color: str) -> Made:
         piece("box", (0.3 * x, y, z), (sign * 0.35 * x, 0.0, 0.0), is_held=False)
         for sign in (-1.0, 1.0)
     )
-    return Made(tuple(looks), tuple(contacts), "box", size, body.matter(1.0), NOTHING, (held, *ends))
+    return Made(
+        tuple(looks), tuple(contacts), "box", size, body.matter(1.0), NOTHING, (held, *ends)
+    )
 
 
 def _ring(one: Section) -> Array:

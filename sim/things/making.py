@@ -159,4 +159,3 @@ def _handle(one: Handle | None, across: float, up: float) -> Handle | None:
 
 def _cap(one: Cap | None, up: float) -> Cap | None:
     return None if one is None else msgspec.structs.replace(one, from_m=one.from_m * up)
-

@@ -36,9 +36,7 @@ def packet(form: Packet, color: str, picture: Picture | None) -> Made:
     looks.append(Look(_gable(form, body_m), color))
     ridge = _block(0.35 * depth, width, body_m, height)
     held = piece("box", (depth, width, body_m), (0.0, 0.0, 0.5 * (body_m - height)))
-    over = piece(
-        "box", (0.7 * depth, width, form.gable_m), (0.0, 0.0, 0.5 * body_m), is_held=False
-    )
+    over = piece("box", (0.7 * depth, width, form.gable_m), (0.0, 0.0, 0.5 * body_m), is_held=False)
     if form.cap:
         top = body_m + 0.62 * form.gable_m
         looks.append(Look(lathe([(0.0, top - 0.02), (0.013, top - 0.02), (0.013, top + 0.004),

@@ -24,7 +24,9 @@ SOLE = 0.4
 """Radius of the flat that a fruit stands on, of its greatest."""
 
 
-def vessel(form: Vessel, color: str, picture: Picture | None, print_at: tuple[float, float]) -> Made:
+def vessel(
+    form: Vessel, color: str, picture: Picture | None, print_at: tuple[float, float]
+) -> Made:
     """A cup, a glass, a bowl, a plate."""
     rough = _from_axis(form.profile_m)
     outside = outlines.rounded(rough, form.smooth)
@@ -58,7 +60,9 @@ def vessel(form: Vessel, color: str, picture: Picture | None, print_at: tuple[fl
     )  # fmt: skip
 
 
-def closed(form: Closed, color: str, picture: Picture | None, print_at: tuple[float, float]) -> Made:
+def closed(
+    form: Closed, color: str, picture: Picture | None, print_at: tuple[float, float]
+) -> Made:
     """A bottle, a can, a jar."""
     rough = _from_axis(form.profile_m)
     outside = outlines.rounded(rough, form.smooth)
@@ -117,7 +121,9 @@ def fruit(form: Fruit, color: str) -> Made:
                (0.003, 0.0, dip + form.stem_m)]  # fmt: skip
         looks.append(Look(tube(way, (0.0015, 0.0013, 0.002), corners=6), "brown"))
     size = 2.0 * radius
-    held = piece("cylinder", (size, size, min(0.5 * height, radius)), (0.0, 0.0, belly - height / 2))
+    held = piece(
+        "cylinder", (size, size, min(0.5 * height, radius)), (0.0, 0.0, belly - height / 2)
+    )
     return Made(
         tuple(looks), tuple(contacts), "cylinder", (size, size, height), body.matter(1.0), NOTHING,
         (held,),
