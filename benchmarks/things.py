@@ -1,8 +1,8 @@
 """The catalogue of things in contact physics: do they stand still, and which can be brought.
 
-    python -m benchmarks.things standing
-    python -m benchmarks.things bringing --kinds mug,apple --variants 2 -j 1
-    python -m benchmarks.things speed
+python -m benchmarks.things standing
+python -m benchmarks.things bringing --kinds mug,apple --variants 2 -j 1
+python -m benchmarks.things speed
 """
 
 from __future__ import annotations
@@ -44,7 +44,13 @@ app = typer.Typer(add_completion=False)
 
 
 def thing(
-    name: str, *, variant: int, on: str, at_m: tuple[float, float], number: int = 0, yaw_deg: float = 0.0
+    name: str,
+    *,
+    variant: int,
+    on: str,
+    at_m: tuple[float, float],
+    number: int = 0,
+    yaw_deg: float = 0.0,
 ) -> Object:
     """An object of a kind."""
     one = made(name, variant)
@@ -68,7 +74,9 @@ def two_tables(name: str, *, variant: int, seed: int) -> World:
             Furniture(id="desk", kind="table", at_m=(-1.6, 0.0)),
         ),
         objects=(
-            thing(name, variant=variant, on="table", at_m=at, yaw_deg=float(rng.uniform(-180, 180))),
+            thing(
+                name, variant=variant, on="table", at_m=at, yaw_deg=float(rng.uniform(-180, 180))
+            ),
         ),
         start=Start(at_m=(0.0, float(rng.uniform(-0.5, 0.5))), yaw_deg=float(rng.uniform(-60, 60))),
     )
@@ -100,12 +108,21 @@ def bring(*, kind: str, variant: int, seed: int) -> Outcome:
         tilt_rad = math.acos(max(-1.0, min(1.0, lean)))
         on_desk = abs(after.p[0] + 1.6) < 0.32 and abs(after.p[2] - before.p[2]) < 0.02
         ok = on_desk and tilt_rad < TILT_RAD and placed.status == "succeeded" and _stands(runtime)
-        why = _why(placed) or ("" if ok else f"at {after.p}, tilted by {math.degrees(tilt_rad):.0f}")
+        why = _why(placed) or (
+            "" if ok else f"at {after.p}, tilted by {math.degrees(tilt_rad):.0f}"
+        )
         return {"ok": ok, "stage": "" if ok else "placing", "why": why,
                 "time_s": round(runtime.clock.now_s(), 1)}  # fmt: skip
 
 
-PLANNERS = ("no_grasp", "goal_in_collision", "out_of_reach", "no_stance", "no_path", "planner_timeout")
+PLANNERS = (
+    "no_grasp",
+    "goal_in_collision",
+    "out_of_reach",
+    "no_stance",
+    "no_path",
+    "planner_timeout",
+)
 
 
 def _carry_out(runtime: Any, context: SkillContext, wanted: SkillParams) -> SkillReport:
@@ -231,7 +248,9 @@ def _timed(names: list[str], *, real: bool, rounds: int) -> list[str]:
         name="many",
         rooms=(Room(id="room", at_m=(0.0, 0.0), size_m=(14.0, 8.0)),),
         furniture=tuple(
-            Furniture(id=f"table_{k}", kind="table", at_m=(-5.0 + 2.0 * k, 1.5), size_m=(0.8, 2.2, 0.72))
+            Furniture(
+                id=f"table_{k}", kind="table", at_m=(-5.0 + 2.0 * k, 1.5), size_m=(0.8, 2.2, 0.72)
+            )
             for k in range(5)
         ),
         objects=tuple(objects),

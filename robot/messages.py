@@ -384,6 +384,14 @@ class Piece(msgspec.Struct, frozen=True, kw_only=True):
     X_ShapePiece: SE3 = SE3()
     is_held: bool = True
 
+    @property
+    def radius_m(self) -> float:
+        """From the shape's axis to what of the piece is furthest away, as it is not turned."""
+        x, y, _ = self.X_ShapePiece.p
+        if self.kind == "cylinder":
+            return math.hypot(x, y) + 0.5 * self.size_m[0]
+        return math.hypot(abs(x) + 0.5 * self.size_m[0], abs(y) + 0.5 * self.size_m[1])
+
 
 INSIDE_M = 0.002
 """What reaches no further out of a shape does not stick out of it."""
@@ -432,11 +440,7 @@ class Shape(msgspec.Struct, frozen=True, kw_only=True):
         """Of the upright cylinder about its axis that holds all of it."""
         x, y, _ = self.size_m
         own = 0.5 * x if self.kind == "cylinder" else 0.5 * math.hypot(x, y)
-        reaches = [
-            math.hypot(*piece.X_ShapePiece.p[:2])
-            + (0.5 if piece.kind == "cylinder" else 0.5 * math.sqrt(2.0)) * max(piece.size_m[:2])
-            for piece in self.pieces
-        ]
+        reaches = [piece.radius_m for piece in self.pieces]
         return max([own, *reaches])
 
 

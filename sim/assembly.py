@@ -94,7 +94,7 @@ def _floor(spec: mujoco.MjSpec, world: World, paint: Paint) -> None:
 
 
 def set_light(spec: mujoco.MjSpec, bounds_m: tuple[float, float, float, float]) -> None:
-    """A soft sky over a rectangle (x_min, y_min, x_max, y_max), a lamp with shadows, one to fill."""
+    """A soft sky, a lamp with shadows and one to fill over x_min, y_min, x_max, y_max."""
     visual = spec.visual
     visual.headlight.ambient[:] = [0.44, 0.44, 0.44]
     visual.headlight.diffuse[:] = [0.24, 0.24, 0.24]

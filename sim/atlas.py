@@ -208,6 +208,6 @@ def _object_info(item: Object) -> ObjectInfo:
 
 def shape_of(item: Object) -> Shape:
     """What a planner knows of an object's form."""
-    pieces = made(item.kind, item.variant, item.color).pieces if item.kind else ()
+    pieces = made(item.kind, item.variant).pieces if item.kind else ()
     kind = "cylinder" if item.shape == "cylinder" else "box"
     return Shape(kind=kind, size_m=item.size_m, pieces=pieces)

@@ -27,7 +27,7 @@ LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
 def radius_m(item: Object) -> float:
     """Radius of the circle around an object seen from above."""
     if item.kind:
-        reach = made(item.kind, item.variant, item.color).radius_m
+        reach = made(item.kind, item.variant).radius_m
         return math.hypot(reach, item.size_m[2] / 2) if item.lies else reach
     if item.lies:
         return math.hypot(item.size_m[0], item.size_m[2]) / 2

@@ -34,7 +34,7 @@ def shape(body: Any, spec: mujoco.MjSpec, thing: Thing, paint: Paint) -> None:
     for number, look in enumerate(thing.looks):
         body.add_geom(
             type=mujoco.mjtGeom.mjGEOM_MESH,
-            meshname=_mesh(spec, f"thing/{thing.name}/{number}", look.mesh),
+            meshname=_mesh(spec, paint, f"thing/{thing.name}/{number}", look.mesh),
             material=_paint(paint, f"{thing.name}/{number}", look, material.gloss),
             contype=0, conaffinity=0, mass=0.0,
         )  # fmt: skip
@@ -57,9 +57,9 @@ def _half(part: Contact) -> list[float]:
     return [x, z, 0.0] if part.kind in ("cylinder", "capsule") else [x, y, z]
 
 
-def _mesh(spec: mujoco.MjSpec, name: str, form: Mesh) -> str:
+def _mesh(spec: mujoco.MjSpec, paint: Paint, name: str, form: Mesh) -> str:
     """A mesh of the scene, made once."""
-    if spec.mesh(name) is None:
+    if paint.is_first(name):
         mesh, form = spec.add_mesh(name=name), form.creased()
         mesh.uservert = form.points.astype(np.float32).ravel()
         mesh.userface = form.faces.ravel()

@@ -36,7 +36,9 @@ def sheet(kinds: Iterable[str], *, variant: int = 0) -> Image:
         light.castshadow = False  # its map is too coarse for a print on a can
     size = [APART_M * (len(names) + 4), 20.0, 0.1]
     spec.worldbody.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_PLANE, size=size, material=paint.plain("ground", (0.86,) * 3)
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=size,
+        material=paint.plain("ground", (0.86, 0.86, 0.86)),
     )
     for number, (name, thing) in enumerate(zip(names, things, strict=True)):
         item = Object(

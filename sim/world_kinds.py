@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from robot.config import nearest
 from robot.errors import Problem
 from robot.yaml_nodes import Node, of_data, text_node
@@ -54,7 +56,7 @@ def _complete(entry: Node) -> list[Problem]:
     return problems
 
 
-def _put(entry: Node, values: dict[str, object]) -> None:
+def _put(entry: Node, values: Mapping[str, object]) -> None:
     for name, value in values.items():
         if name not in entry.entries:
             entry.entries[name] = (text_node(name, entry), of_data(value, entry))

@@ -29,14 +29,16 @@ def band(
 
     Args:
         outside: what it is around.
-        low_m, high_m: from where to where it goes.
+        low_m: from where it goes,
+        high_m: and to where.
         thick_m: by how much it stands out; it reaches as far into what it is around.
         segments: around.
     """
-    radii, heights = np.asarray(outside, dtype=np.float64).T
+    outline: Array = np.asarray(outside, dtype=np.float64)
+    radii, heights = outline[:, 0], outline[:, 1]
     between = [z for z in heights.tolist() if low_m + 1e-4 < z < high_m - 1e-4]
-    levels = np.array([low_m, *between, high_m])
-    around = np.interp(levels, heights, radii)
+    levels: Array = np.array([low_m, *between, high_m])
+    around: Array = np.interp(levels, heights, radii)
     outer = np.column_stack([around + thick_m, levels])
     inner = np.column_stack([np.maximum(around - thick_m, 1e-4), levels])[::-1]
     mesh = _turned(np.concatenate([outer, inner, outer[:1]]), segments)

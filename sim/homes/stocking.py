@@ -114,9 +114,7 @@ def _plenty(
 ) -> list[tuple[Good, int]]:
     """Goods of all kinds of homes, those of this one first, in as many colours as there are."""
     found: list[Good] = []
-    for good in sorted(
-        shuffled(stored, rng), key=lambda good: good.category not in kind.goods
-    ):
+    for good in sorted(shuffled(stored, rng), key=lambda good: good.category not in kind.goods):
         if all(good.category.split()[-1] != other.category.split()[-1] for other in found):
             found.append(good)
     return [(good, len(_all_variants(good))) for good in found]

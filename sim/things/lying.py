@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -117,7 +118,7 @@ def _blocks(form: Flat) -> list[Contact]:
         last = ends[-1]
         ends.append(Section(x_m=last.x_m + form.tines_m, width_m=last.width_m,
                             thick_m=last.thick_m, z_m=last.z_m))  # fmt: skip
-    for a, b in zip(ends[:-1], ends[1:], strict=True):
+    for a, b in itertools.pairwise(ends):
         wide = 0.25 * (a.width_m + b.width_m)
         thick = 0.25 * max(a.thick_m + b.thick_m, 2 * THIN_M)
         za, zb = a.z_m - a.dish_m, b.z_m - b.dish_m

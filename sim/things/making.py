@@ -62,7 +62,7 @@ def made(name: str, variant: int = 0, color: str = "") -> Thing:
     x, y, z = plain.size_m
     low = np.array([0.0, 0.0, -z / 2])
     reach = max(
-        (float(np.linalg.norm(look.mesh.points[:, :2], axis=1).max()) for look in plain.looks)
+        float(np.linalg.norm(look.mesh.points[:, :2], axis=1).max()) for look in plain.looks
     )
     return Thing(
         name=f"{name}/{variant}/{color}",
@@ -123,10 +123,9 @@ def _lowered(matter: Matter, by_m: float) -> Matter:
 def _sized(form: AnyForm, across: float, up: float) -> AnyForm:
     """A form, wider and higher by such factors; walls stay as thick."""
     replace = msgspec.structs.replace
-    match form:
-        case Vessel() | Closed() | Fruit():
-            profile = tuple((r * across, z * up) for r, z in form.profile_m)
-            form = replace(form, profile_m=profile)
+    if isinstance(form, Vessel | Closed | Fruit):
+        profile = tuple((r * across, z * up) for r, z in form.profile_m)
+        form = replace(form, profile_m=profile)
     match form:
         case Vessel():
             return replace(form, floor_m=form.floor_m * up, handle=_handle(form.handle, across, up))

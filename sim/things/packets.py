@@ -39,9 +39,9 @@ def packet(form: Packet, color: str, picture: Picture | None) -> Made:
     over = piece("box", (0.7 * depth, width, form.gable_m), (0.0, 0.0, 0.5 * body_m), is_held=False)
     if form.cap:
         top = body_m + 0.62 * form.gable_m
-        looks.append(Look(lathe([(0.0, top - 0.02), (0.013, top - 0.02), (0.013, top + 0.004),
-                                 (0.012, top + 0.006), (0.0, top + 0.006)]).moved((0.22 * depth, 0.0, 0.0)),
-                          form.cap))  # fmt: skip
+        screw = lathe([(0.0, top - 0.02), (0.013, top - 0.02), (0.013, top + 0.004),
+                       (0.012, top + 0.006), (0.0, top + 0.006)])  # fmt: skip
+        looks.append(Look(screw.moved((0.22 * depth, 0.0, 0.0)), form.cap))
     contacts = (_block(depth, width, 0.0, body_m), ridge)
     return Made(tuple(looks), contacts, "box", form.size_m, matter, inner, (held, over))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -13,7 +14,7 @@ from sim.things.thing import Contact
 
 def along(way: Array, radius_m: float) -> list[Contact]:
     """One from each point to the next, shape (n, 3)."""
-    return [rod(a, b, radius_m) for a, b in zip(way[:-1], way[1:], strict=True)]
+    return [rod(a, b, radius_m) for a, b in itertools.pairwise(way)]
 
 
 def rod(start: Array, end: Array, radius_m: float) -> Contact:

@@ -140,7 +140,13 @@ def _lying(body: Mesh, color: str, radius: float, length: float) -> Made:
     )
     size: Vector3 = (length, 2 * radius, 2 * radius)
     held = piece("box", (0.6 * length, 2 * radius, 1.2 * radius), (0.0, 0.0, 0.0))
-    return Made((Look(mesh, color),), contacts, "box", size, mesh.matter(1.0), NOTHING, (held,))
+    ends = tuple(
+        piece("box", (0.2 * length, radius, radius), (at * length, 0.0, 0.0), is_held=False)
+        for at in (-0.4, 0.4)
+    )
+    return Made(
+        (Look(mesh, color),), contacts, "box", size, mesh.matter(1.0), NOTHING, (held, *ends)
+    )
 
 
 def _from_axis(profile: tuple[tuple[float, float], ...]) -> Array:
@@ -199,7 +205,7 @@ def _spout(cap: Cap, height: float) -> tuple[Mesh, Contact, Piece]:
     way = np.array([(0.0, 0.0, z), (0.6 * reach, 0.0, z + 0.003), (reach, 0.0, z - 0.006)])
     mesh = tube(way, (1.4 * radius, radius, 0.8 * radius))
     box = piece(
-        "box", (reach, 2 * radius, 4 * radius), (0.5 * reach, 0.0, z - height / 2), is_held=False
+        "box", (reach, 2 * radius, 2.4 * radius), (0.5 * reach, 0.0, z - height / 2), is_held=False
     )
     return mesh, rod(way[0], way[2], radius), box
 

@@ -68,9 +68,7 @@ def _draw(picture: Path, variant: int) -> None:
         REALITY.save_sheet(picture, variant=variant)
     except OSError as error:
         text = f"cannot be written: {error.strerror}"
-        raise ConfigError(
-            [Problem(text, str(picture), suggestion="choose another file")]
-        ) from None
+        raise ConfigError([Problem(text, str(picture), suggestion="choose another file")]) from None
 
 
 def _record(name: str) -> dict[str, object]:
