@@ -24,6 +24,8 @@ LYING_TILTS_RAD = (1.2, 0.9, 1.45)
 LOW_TILTS_RAD, LOW_COST = (0.35, 0.70, 0.95, 1.2, 1.45), 0.2
 TIP_HEIGHT_M = 0.008
 """Between the fingertips and what a low thing stands on [m]."""
+FLATTEST_M = TIP_HEIGHT_M + 0.003
+"""What is no higher lies below the fingertips."""
 STEEP_RAD = 0.7
 """From here on the palm is above a low thing: a long one is taken at its middle."""
 LYING_LIFT_M = 0.01
@@ -81,6 +83,14 @@ def pick_options(
         found = _box(shape, X_WO, X_WShape, gripping, limit_m=limit)
     if found:
         return found
+    height_m = 2.0 * float(np.abs(up) @ (0.5 * np.array(shape.size_m)))
+    if height_m < FLATTEST_M:
+        return failure(
+            "no_grasp",
+            f"it is {1000 * height_m:.0f} mm high, and the fingertips stay "
+            f"{1000 * TIP_HEIGHT_M:.0f} mm above what it lies on",
+            height_m=height_m,
+        )
     return failure(
         "no_grasp",
         f"it is {min(widths) * 100:.0f} cm wide and the hand opens {limit * 100:.0f} cm for it",
@@ -102,13 +112,16 @@ def _on_pieces(
         X_WPiece = X_WShape @ piece.X_ShapePiece
         own_half_m = 0.5 * float(np.abs(up) @ np.array(piece.size_m))
         below_m = X_WPiece.p[2] - own_half_m - (X_WShape.p[2] - half_m)
+        if below_m + 2.0 * own_half_m < FLATTEST_M:
+            continue
         part = Shape(kind=piece.kind, size_m=piece.size_m)
         if piece.kind == "box":
             ways = _box(part, X_WO, X_WPiece, gripping, limit_m=limit_m, below_m=below_m)
         elif piece.size_m[0] > limit_m:
             continue
         elif abs(up[2]) > UPRIGHT_COS:
-            headings = (None,) if shape.is_round else HEADINGS_RAD
+            turned = [wrap_angle(X_WShape.yaw_rad + turn) for turn in HEADINGS_RAD]
+            headings = [None] if shape.is_round else turned
             ways = [
                 way
                 for heading in headings
@@ -130,9 +143,11 @@ def _on_pieces(
 def _keeps_off(option: HandOption, shape: Shape, gripping: Gripping) -> bool:
     """Whether what sticks out of a shape is neither beside it, where fingers come, nor at the palm.
 
-    By boxes along the axes of G around each piece: a few millimetres more than the truth.
+    By boxes along the axes of G around each piece: a few millimetres more than the truth. What lies
+    is as long as its other pieces make it: fingers do not close on a part of that.
     """
-    for piece in shape.sticking_out:
+    rest = tuple(piece for piece in shape.pieces if not piece.is_held)
+    for piece in rest if shape.kind == "box" else shape.sticking_out:
         X_GP = option.X_GO @ shape.X_BodyShape @ piece.X_ShapePiece
         half = np.abs(X_GP.rotation()) @ (0.5 * np.array(piece.size_m))
         low, high = np.array(X_GP.p) - half, np.array(X_GP.p) + half

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from robot.messages import Piece
 from robot.se3 import Array, Vector3
 from sim.forms.loft import loft, tube
 from sim.forms.mesh import NOTHING, Mesh, joined
@@ -16,6 +17,8 @@ from sim.things.rods import along
 from sim.things.thing import Contact, Look, Made, piece
 
 CORNERS = 14
+HELD_M = 0.025
+"""To both sides of where a handle is highest, fingers may close on it."""
 TINE = 0.5
 """Width of a fork's tine, of its pitch."""
 
@@ -38,13 +41,30 @@ def flat(form: Flat, color: str) -> Made:
     )
     matter = looks[0].mesh.matter(1.0).with_(looks[1].mesh.matter(1.0))
     x, y, z = (float(v) for v in high - low)
-    middle = 0.5 * (sections[0].x_m + sections[form.grip].x_m) - centre[0]
-    handle = sections[: form.grip + 1]
-    length = sections[form.grip].x_m - sections[0].x_m
-    wide = max(one.width_m for one in handle)
-    held = piece("box", (length, wide, z), (float(middle), 0.0, 0.0))
-    rest = piece("box", (x - length, y, z), (float(middle) + x / 2, 0.0, 0.0), is_held=False)
-    return Made(looks, contacts, "box", (x, y, z), matter, NOTHING, (held, rest))
+    pieces = _pieces(form, float(centre[0]), (x, y, z))
+    return Made(looks, contacts, "box", (x, y, z), matter, NOTHING, pieces)
+
+
+def _pieces(form: Flat, centre_m: float, size_m: Vector3) -> tuple[Piece, ...]:
+    """The handle around its highest place, where a hand closes across it, and what is not that."""
+    handle = form.sections[: form.grip + 1]
+    first, last = form.sections[0].x_m, form.sections[-1].x_m + form.tines_m
+    middle = 0.5 * (first + last)
+    top = max(
+        handle, key=lambda one: (round(one.z_m + 0.5 * one.thick_m, 4), -abs(one.x_m - middle))
+    )
+    low, high = max(first, top.x_m - HELD_M), min(handle[-1].x_m + HELD_M, top.x_m + HELD_M)
+    foot_m = min(one.z_m - 0.5 * one.thick_m for one in form.sections)
+    tall = top.z_m + 0.5 * top.thick_m - foot_m
+    at = 0.5 * (tall - size_m[2])
+    wide = max([top.width_m, *(one.width_m for one in handle if low <= one.x_m <= high)])
+    found = [piece("box", (high - low, wide, tall), (0.5 * (low + high) - centre_m, 0.0, at))]
+    for start, end in ((first, low), (high, last)):
+        if end > start:
+            size = (end - start, size_m[1], size_m[2])
+            at_m = 0.5 * (start + end) - centre_m
+            found.append(piece("box", size, (at_m, 0.0, 0.0), is_held=False))
+    return tuple(found)
 
 
 def bent(form: Bent, color: str) -> Made:
