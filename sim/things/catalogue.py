@@ -100,7 +100,7 @@ class Fruit(Record, frozen=True, kw_only=True, tag="fruit", tag_field="form"):
     """Turned and solid, round; `lies`: on its side; `stem_m`: of a stalk on top."""
 
     profile_m: tuple[Point, ...]
-    smooth: int = 3
+    smooth: int = 2
     stem_m: float = 0.0
     lies: bool = False
 

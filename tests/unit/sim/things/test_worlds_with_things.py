@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from executive.skills.pick import Pick, PickParams
 from robot.errors import ConfigError
 from robot.model.description import load
 from sim import atlas, placing, world
@@ -175,3 +176,17 @@ def test_the_list_says_what_each_kind_weighs():
     low, high = found["milk_carton"].mass_kg
     assert 0.05 < low < high < 1.0
     assert all(one.source for one in found.values())
+
+
+@pytest.mark.parametrize(
+    ("kind", "cause"),
+    [("dinner_plate", "26 cm wide, the hand opens"), ("cereal_bowl", "16 cm wide"), ("mug", "")],
+)
+def test_what_no_hand_takes_is_refused_with_the_reason(read, kind, cause):
+    text = TEXT.replace("kind: apple", f"kind: {kind}").replace(
+        "at_m: [0.1, 0.3]", "at_m: [0, 0.4]"
+    )
+    found = SimulatedWorld(read(text)).map
+    refusal = Pick.refusal(PickParams(object_id="apple"), found, load("juno"))
+    assert (refusal is not None) is bool(cause)
+    assert refusal is None or cause in refusal.cause
