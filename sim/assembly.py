@@ -38,7 +38,7 @@ def compile_scene(
 def furnish(spec: mujoco.MjSpec, world: World) -> None:
     """Add floor, walls, furniture, people, objects and light to a scene."""
     paint = Paint(spec)
-    _light(spec, world)
+    set_light(spec, world.bounds_m)
     _floor(spec, world, paint)
     for room in world.rooms:
         for wall in atlas.walls(room):
@@ -93,8 +93,8 @@ def _floor(spec: mujoco.MjSpec, world: World, paint: Paint) -> None:
         )
 
 
-def _light(spec: mujoco.MjSpec, world: World) -> None:
-    """A soft sky, one lamp with shadows, one to fill."""
+def set_light(spec: mujoco.MjSpec, bounds_m: tuple[float, float, float, float]) -> None:
+    """A soft sky, a lamp with shadows and one to fill over x_min, y_min, x_max, y_max."""
     visual = spec.visual
     visual.headlight.ambient[:] = [0.44, 0.44, 0.44]
     visual.headlight.diffuse[:] = [0.24, 0.24, 0.24]
@@ -104,7 +104,7 @@ def _light(spec: mujoco.MjSpec, world: World) -> None:
     visual.global_.offwidth, visual.global_.offheight = 1920, 1080
     visual.map.znear, visual.map.zfar = 0.01, 40.0
     visual.map.shadowclip, visual.map.shadowscale = 1.6, 0.6
-    x_min, y_min, x_max, y_max = world.bounds_m
+    x_min, y_min, x_max, y_max = bounds_m
     x, y = (x_min + x_max) / 2, (y_min + y_max) / 2
     spec.stat.center[:] = [x, y, 0.6]
     spec.stat.extent = max(3.0, min(8.0, 0.6 * max(x_max - x_min, y_max - y_min)))

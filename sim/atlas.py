@@ -8,6 +8,8 @@ from robot.messages import ObjectInfo, Obstacle, PersonInfo, Place, Shape, World
 from robot.se3 import SE3
 from sim import furniture
 from sim.footprint import Footprint
+from sim.things import catalogue
+from sim.things.making import made
 from sim.world_schema import Furniture, Object, Person, Room, World
 
 WALL_M = 0.08
@@ -59,7 +61,12 @@ def room_footprint(room: Room) -> Footprint:
 
 def categories(world: World) -> dict[str, str]:
     """Every category, singular to plural; what the file leaves out gets an s."""
-    named = {item.category: item.category + "s" for item in world.objects}
+    named = {
+        item.category: catalogue.plural(item.kind)
+        if item.kind and catalogue.category(item.kind) == item.category
+        else f"{item.category}s"
+        for item in world.objects
+    }
     return {**named, **world.categories}
 
 
@@ -193,8 +200,14 @@ def _board_names(item: Furniture, level: str) -> list[str]:
 
 
 def _object_info(item: Object) -> ObjectInfo:
-    kind = "cylinder" if item.shape == "cylinder" else "box"
     return ObjectInfo(
         id=item.id, name=item.title, category=item.category, color=item.color,
-        shape=Shape(kind=kind, size_m=item.size_m), mass_kg=item.mass_kg, synonyms=item.synonyms,
+        shape=shape_of(item), mass_kg=item.mass_kg, synonyms=item.synonyms,
     )  # fmt: skip
+
+
+def shape_of(item: Object) -> Shape:
+    """What a planner knows of an object's form."""
+    pieces = made(item.kind, item.variant).pieces if item.kind else ()
+    kind = "cylinder" if item.shape == "cylinder" else "box"
+    return Shape(kind=kind, size_m=item.size_m, pieces=pieces)

@@ -13,10 +13,11 @@ import mujoco
 
 from robot.messages import Obstacle
 from robot.se3 import SE3
-from sim import atlas, furniture
+from sim import atlas, furniture, thing_bodies
 from sim.paint import Paint
 from sim.person_arm import ArmSide, links
 from sim.rays import UNSENSED
+from sim.things.making import made
 from sim.world_schema import Furniture, Object, Person
 
 FLOOR_FRICTION = [0.9, 0.01, 0.0005]
@@ -71,6 +72,9 @@ def add_object(spec: mujoco.MjSpec, item: Object, X_WO: SE3, paint: Paint) -> No
     """A free rigid body, its origin O in its middle."""
     body = _body(spec, f"object/{item.id}", X_WO)
     _free(body, f"object/{item.id}")
+    if item.kind:
+        thing_bodies.shape(body, spec, made(item.kind, item.variant, item.color), paint)
+        return
     x, y, z = (size / 2 for size in item.size_m)
     body.add_geom(
         name=f"object/{item.id}",

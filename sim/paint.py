@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from sim.palette import COLORS, FLOORS, Rgb
 
@@ -24,11 +26,40 @@ class Paint:
     def plain(self, name: str, rgb: Rgb, *, gloss: float = 0.0) -> str:
         """A one-colour material."""
         full = f"paint/{name}"
-        if full not in self._made:
-            self._made.add(full)
+        if self.is_first(full):
             self._spec.add_material(
                 name=full, rgba=[*rgb, 1.0], specular=gloss, shininess=0.2 + 0.5 * gloss
             )
+        return full
+
+    def is_first(self, name: str) -> bool:
+        """Whether nothing was made by this name before; from now on it is."""
+        fresh = name not in self._made
+        self._made.add(name)
+        return fresh
+
+    def glossy(self, name: str, gloss: float) -> str:
+        """The material of a palette colour with a gloss of its own."""
+        full = f"paint/{name}/{gloss:g}"
+        if self.is_first(full):
+            self._spec.add_material(
+                name=full, rgba=[*COLORS[name], 1.0], specular=gloss, shininess=0.2 + 0.5 * gloss
+            )
+        return full
+
+    def picture(self, name: str, pixels: NDArray[np.uint8], *, gloss: float) -> str:
+        """A picture for a mesh that says how it lies on it; shape (height, width, 3)."""
+        full = f"picture/{name}"
+        if self.is_first(full):
+            texture = self._spec.add_texture(
+                name=full, type=mujoco.mjtTexture.mjTEXTURE_2D, nchannel=3,
+                height=pixels.shape[0], width=pixels.shape[1],
+            )  # fmt: skip
+            texture.data = pixels.tobytes()
+            material = self._spec.add_material(
+                name=full, specular=gloss, shininess=0.2 + 0.5 * gloss
+            )
+            material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = full
         return full
 
     def floor(self, name: str, size_m: tuple[float, float]) -> str:

@@ -12,6 +12,7 @@ from robot.messages import Place
 from robot.se3 import SE3
 from sim import atlas
 from sim.footprint import Footprint, Point
+from sim.things.making import made
 from sim.world_schema import Object, Start, World
 
 GAP_M = 0.10  # between objects that are drawn at random: room for a hand around each
@@ -25,6 +26,9 @@ LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
 
 def radius_m(item: Object) -> float:
     """Radius of the circle around an object seen from above."""
+    if item.kind:
+        reach = made(item.kind, item.variant).radius_m
+        return math.hypot(reach, item.size_m[2] / 2) if item.lies else reach
     if item.lies:
         return math.hypot(item.size_m[0], item.size_m[2]) / 2
     return item.size_m[0] / 2 if item.shape == "cylinder" else math.hypot(*item.size_m[:2]) / 2

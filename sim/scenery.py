@@ -44,6 +44,7 @@ KINDS: dict[int, Kind] = {
 ROLES: dict[str, Role] = {
     "object": "object", "person": "person", "wall": "wall", "furniture": "furniture",
 }  # fmt: skip
+MESH = mujoco.mjtGeom.mjGEOM_MESH.value
 NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 """MuJoCo's own: a geom with it has that of its material."""
 WHERE_LIGHT, WHERE_DARK = (0.25, 0.25), (0.75, 0.25)
@@ -151,11 +152,30 @@ class _Reading:
         own, material = model.geom_rgba[number], int(model.geom_matid[number])
         if material >= 0 and np.allclose(own, NO_COLOUR):
             own = model.mat_rgba[material]
+        picture = self._picture(number)
+        if picture is not None and model.geom_type[number] == MESH:
+            own = (*(picture.mean(axis=(0, 1)) / 255.0), 1.0)  # nobody draws prints elsewhere
         red, green, blue, alpha = (round(float(one), 3) for one in own)
         return (red, green, blue, alpha)
 
     def _checker(self, number: int) -> tuple[Rgba, Rgba, tuple[float, float]] | None:
         """The two colours of a floor covering, and the size of its tiles."""
+        model, pixels = self._model, self._picture(number)
+        if pixels is None or model.geom_type[number] == MESH:
+            return None
+        height, width = pixels.shape[:2]
+
+        def at(where: tuple[float, float]) -> Rgba:
+            red, green, blue = pixels[int(where[1] * height)][int(where[0] * width)] / 255.0
+            return (round(float(red), 3), round(float(green), 3), round(float(blue), 3), 1.0)
+
+        repeat = model.mat_texrepeat[int(model.geom_matid[number])]
+        half = model.geom_size[number]
+        tile_m = (float(half[0] / repeat[0]), float(half[1] / repeat[1]))
+        return at(WHERE_LIGHT), at(WHERE_DARK), tile_m
+
+    def _picture(self, number: int) -> Any:
+        """The texture of a geom, shape (height, width, 3), 8 bit; None: it has none."""
         model = self._model
         material = int(model.geom_matid[number])
         if material < 0:
@@ -165,15 +185,7 @@ class _Reading:
             return None
         width, height = int(model.tex_width[texture]), int(model.tex_height[texture])
         start = int(model.tex_adr[texture])
-        pixels = model.tex_data[start : start + width * height * 3].reshape(height, width, 3)
-
-        def at(where: tuple[float, float]) -> Rgba:
-            red, green, blue = pixels[int(where[1] * height)][int(where[0] * width)] / 255.0
-            return (round(float(red), 3), round(float(green), 3), round(float(blue), 3), 1.0)
-
-        repeat, half = model.mat_texrepeat[material], model.geom_size[number]
-        tile_m = (float(half[0] / repeat[0]), float(half[1] / repeat[1]))
-        return at(WHERE_LIGHT), at(WHERE_DARK), tile_m
+        return model.tex_data[start : start + width * height * 3].reshape(height, width, 3)
 
     def _mesh(self, number: int) -> Mesh:
         model = self._model

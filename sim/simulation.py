@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin, Cast, Home
+from robot.reality.contract import Begin, Cast, Home, ThingKind
 from robot.reality.faults import Fault
 from robot.reality.studio import Studio
 from robot.reality.visual_scene import VisualScene
 from sim import atlas, placing, realities, world
 from sim.homes import catalogue
+from sim.things import catalogue as things
+from sim.things.making import made
 from sim.world_schema import World
 
 if TYPE_CHECKING:
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 
 _MADE = re.compile(r"(?P<kind>[a-z_]+):(?P<seed>[0-9]{1,9})")
 """The name of a home that is made."""
+SOME = 8
+"""Variants that say between what a kind weighs."""
 
 
 class Simulation:
@@ -50,11 +55,11 @@ class Simulation:
         Raises:
             ConfigError: as the contract says.
         """
-        made = _MADE.fullmatch(name_or_path)
-        if made:
+        by_seed = _MADE.fullmatch(name_or_path)
+        if by_seed:
             from sim.homes.home import home  # scipy's graphs, which nothing else here needs
 
-            entries = home(made["kind"], int(made["seed"])).world
+            entries = home(by_seed["kind"], int(by_seed["seed"])).world
         else:
             entries = world.load(name_or_path)
         if vary_seed is not None:
@@ -74,12 +79,36 @@ class Simulation:
         rooms: int | None = None,
         things: int | None = None,
         is_lived_in: bool = False,
+        has_forms: bool = False,
     ) -> Home:
         """Make a home. Raises ConfigError for an unknown kind, and where none is that large."""
         from sim.homes.home import Size
-        from sim.homes.made import made
+        from sim.homes.made import made as made_home
 
-        return made(kind, seed, file=file, size=Size(rooms, things), is_lived_in=is_lived_in)
+        size = Size(rooms, things)
+        return made_home(
+            kind, seed, file=file, size=size, is_lived_in=is_lived_in, has_forms=has_forms
+        )
+
+    def things(self) -> list[ThingKind]:
+        """What the catalogue of things has (sim/things/kinds)."""
+        return [
+            ThingKind(
+                name=name, category=thing.category, family=family, size_m=thing.size_m,
+                mass_kg=(min(masses), max(masses)), colors=kind.colors, source=kind.source,
+            )
+            for family, kinds in things.families().items()
+            for name, kind in kinds.items()
+            for thing in [made(name)]
+            for masses in [[made(name, variant).mass_kg for variant in range(SOME)]]
+        ]  # fmt: skip
+
+    def save_sheet(self, path: Path, *, variant: int = 0) -> None:
+        """Draw all of them. Raises OSError where the file cannot be written."""
+        from sim.render import save_picture  # MuJoCo
+        from sim.thing_sheet import sheet
+
+        save_picture(path, sheet(things.kinds(), variant=variant))
 
     def cast(self, kind: str, *, seed: int) -> Cast:
         """Fill the roles of a campaign in a home. Raises ConfigError for an unknown kind."""
@@ -116,8 +145,12 @@ class SimulatedWorld:
         self.map = atlas.world_map(entries)
 
     def content(self) -> bytes:
-        """Everything in it."""
-        return msgspec.json.encode(self.entries)
+        """Everything in it; keys that came later count only where they are used."""
+        content = msgspec.to_builtins(self.entries)
+        for item in content["objects"]:
+            if not item["kind"]:
+                del item["kind"], item["variant"]
+        return msgspec.json.encode(content)
 
     def objects(self) -> Mapping[str, Begin]:
         """Where every object begins, by id."""

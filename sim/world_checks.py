@@ -85,7 +85,7 @@ def _words(world: World) -> Iterator[Finding]:
         where = f"$.objects[{index}]"
         yield from _known(f"{where}.color", "color", item.color, COLORS)
         yield from _known(f"{where}.shape", "shape", item.shape, ("box", "cylinder"))
-        if world.categories:
+        if world.categories and not item.kind:
             yield from _known(f"{where}.category", "category", item.category, world.categories)
     for index, item in enumerate(world.people):
         yield from _known(f"$.people[{index}].color", "color", item.color, COLORS)
@@ -202,6 +202,8 @@ def _fits(item: Object, place: Place, where: str) -> Iterator[Finding]:
     if item.lies and item.shape != "cylinder":
         hint = "give a box the size it has as it lies"
         yield Finding(f"{where}.lies", f"{item.title} is a box, and only cylinders lie", hint)
+    elif item.lies and not atlas.shape_of(item).is_round:
+        yield Finding(f"{where}.lies", f"{item.title} is not round all about, and does not lie")
     if item.height_m > place.clearance_m:
         free = f"there are {place.clearance_m:.2f} m"
         yield Finding(f"{where}.size_m", f"{item.title} is too high for the {place.name}", free)

@@ -14,7 +14,7 @@ from typing import Any
 from robot import config, misfits, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.yaml_nodes import Node, of_data, text_node
-from sim import world_checks
+from sim import world_checks, world_kinds
 from sim.world_checks import Finding
 from sim.world_schema import World
 
@@ -40,10 +40,11 @@ def read(path: Path) -> World:
         ConfigError: with everything that is wrong, by file and line, and the nearest valid name.
     """
     node = yaml_nodes.read(path)
+    unlike = world_kinds.complete(node)
     try:
-        world, problems = config.convert(node, World), list[Problem]()
+        world, problems = config.convert(node, World), unlike
     except ConfigError as error:
-        world, problems = None, error.problems
+        world, problems = None, [*unlike, *error.problems]
     mended = _Mended(node)
     if mended.is_sound():
         problems = [*problems, *_deeper(mended)]

@@ -81,6 +81,8 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     `at_m` is measured in the place, from its middle; left out, a free spot is drawn from the seed.
     What `lies` is a cylinder on its side, its axis along its heading; `size_m` is as it stands.
+    A `kind` of the catalogue (sim/things) has a form of its own; with the `variant` it says what
+    the file leaves out: category, color, shape, size and mass.
     """
 
     category: str
@@ -92,6 +94,8 @@ class Object(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
     at_m: tuple[q.Place, q.Place] | None = None
     yaw_deg: q.Heading = 0.0
     lies: bool = False
+    kind: str = ""
+    variant: Annotated[int, Meta(ge=0, le=999_999)] = 0
 
     @property
     def height_m(self) -> float:

@@ -79,13 +79,17 @@ class Pick(ScriptedSkill[PickParams]):
         if info is None:
             text = f"there is no object {wanted.object_id!r} in this world"
             return failure("unknown_object", text)
-        width_m = min(info.shape.size_m[:2])
+        holds = info.shape.held_pieces
+        width_m = min(min(one.size_m[:2]) for one in holds or (info.shape,))
         opening_m = (
             max(hand.max_opening_m for hand in robot.hands.values()) - robot.handy.gripping.spare_m
         )
         if width_m > opening_m:
             text = f"{info.full_name} is {width_m * 100:.0f} cm wide, the hand opens to hold "
             return failure("no_grasp", f"{text}{opening_m * 100:.0f} cm", width_m=width_m)
+        if not holds:
+            text = f"{info.full_name} has no upright sides for fingers to close on"
+            return failure("no_grasp", text)
         most_kg = robot.arms.max_lift_kg
         if info.mass_kg > most_kg:
             text = f"{info.full_name} weighs {info.mass_kg:g} kg, a hand carries {most_kg:g} kg"

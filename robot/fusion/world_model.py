@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -113,7 +114,7 @@ class WorldModel:
             side, X_GO = hold
             hand, seen = hands.get(side), name in self._just_seen
             holds = hand is not None and _fits(hand, shape, X_GO)
-            if hand is not None and holds and not (seen and _is_far(hand, track.X_WO)):
+            if hand is not None and holds and not (seen and _is_far(hand, shape, track.X_WO)):
                 self._holds[name] = hold
                 X_WO = hand.X_WG @ X_GO
                 self._tracks[name] = msgspec.structs.replace(track, X_WO=X_WO, held_by=side)
@@ -166,7 +167,8 @@ def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE
     """The hand that has an object between its fingers, and the object in it (X_GO)."""
     for side, hand in hands.items():
         X_GO = hand.X_WG.inverse() @ X_WO
-        if math.hypot(*X_GO.p) < hand.gripping.held_within_m and _fits(hand, shape, X_GO):
+        within = _inside(shape, X_GO).away_m < hand.gripping.held_within_m
+        if within and _fits(hand, shape, X_GO):
             return side, X_GO
     return None
 
@@ -176,13 +178,32 @@ def _fits(hand: Hand, shape: Shape, X_GO: SE3) -> bool:
 
     Not along its other sides: an open hand around a box of 6 x 10 cm is as wide as it is deep.
     """
-    across = np.abs((X_GO @ shape.X_BodyShape).rotation()[1])
-    width_m = shape.size_m[int(np.argmax(across))]
-    return abs(hand.opening_m - width_m) < hand.gripping.gap_m
+    return abs(hand.opening_m - _inside(shape, X_GO).width_m) < hand.gripping.gap_m
 
 
-def _is_far(hand: Hand, X_WO: SE3) -> bool:
-    return math.dist(hand.X_WG.p, X_WO.p) > hand.gripping.lost_beyond_m
+def _is_far(hand: Hand, shape: Shape, X_WO: SE3) -> bool:
+    X_GO = hand.X_WG.inverse() @ X_WO
+    return _inside(shape, X_GO).away_m > hand.gripping.lost_beyond_m
+
+
+class _Inside(NamedTuple):
+    """What is between the fingers: how far its middle is from the grasp point, and its width."""
+
+    away_m: float
+    width_m: float
+
+
+def _inside(shape: Shape, X_GO: SE3) -> _Inside:
+    """The piece that can be held and is next to the grasp point; a shape without pieces is one."""
+    if not shape.pieces:
+        across = np.abs((X_GO @ shape.X_BodyShape).rotation()[1])
+        return _Inside(math.hypot(*X_GO.p), shape.size_m[int(np.argmax(across))])
+    found: list[_Inside] = []
+    for piece in shape.held_pieces:
+        X_GP = X_GO @ shape.X_BodyShape @ piece.X_ShapePiece
+        across = np.abs(X_GP.rotation()[1])
+        found.append(_Inside(math.hypot(*X_GP.p), piece.size_m[int(np.argmax(across))]))
+    return min(found, default=_Inside(math.inf, math.inf))
 
 
 class View:

@@ -15,7 +15,7 @@ from robot.planning.reach import Targets
 from robot.planning.requests import Held
 from robot.planning.robot_body import UPRIGHT, Body
 from robot.planning.scene import HELD, Scene
-from robot.planning.solids import solid
+from robot.planning.solids import grasped, piece_id
 from robot.planning.stances import Candidates, posture_of
 from robot.se3 import SE3, Array
 
@@ -55,8 +55,9 @@ class Checker:
         self.lean = self._reaching.leans[int(candidate.lean[0])]
         option: HandOption = problem.options[int(candidate.option[0])]
         self.option = option
+        self._grasped = piece_id(problem.object_id, option.piece)
         at = main.pose(0) @ option.X_GO @ problem.shape.X_BodyShape
-        self.free = scenes.get(problem.others, thing=solid(problem.object_id, SE3(), problem.shape))
+        self.free = scenes.get(problem.others, thing=grasped(problem.object_id, problem.shape))
         self.free.move_thing(at)
         hand = self.body.description.hands[side]
         self._hand_names = (hand.body, *hand.finger_bodies, HELD)
@@ -70,7 +71,7 @@ class Checker:
             q_main,
             self.opened,
             clearance_m=TOUCH_CLEARANCE_M,
-            allowed=self.problem.object_id,
+            allowed=self._grasped,
             rest=True,
         )
 
@@ -81,7 +82,7 @@ class Checker:
             q_middle,
             self.opened,
             clearance_m=TOUCH_CLEARANCE_M,
-            allowed=self.problem.object_id,
+            allowed=self._grasped,
         )
 
     @property

@@ -7,7 +7,7 @@ so that an upright object stays upright. A tilted approach comes down from above
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -24,12 +24,18 @@ LYING_TILTS_RAD = (1.2, 0.9, 1.45)
 LOW_TILTS_RAD, LOW_COST = (0.35, 0.70, 0.95, 1.2, 1.45), 0.2
 TIP_HEIGHT_M = 0.008
 """Between the fingertips and what a low thing stands on [m]."""
+FLATTEST_M = TIP_HEIGHT_M + 0.003
+"""What is no higher lies below the fingertips."""
 STEEP_RAD = 0.7
 """From here on the palm is above a low thing: a long one is taken at its middle."""
 LYING_LIFT_M = 0.01
 """The grasp is at least so far above the axis of what lies: a thin one further, as the fingertips
 stay clear of the table."""
 UPRIGHT_COS = 0.95
+HEADINGS_RAD = tuple(math.tau * k / 16 for k in range(16))
+"""From where a hand comes to what is round and has a handle."""
+OFF_MIDDLE_COST_PER_M = 1.0
+"""Of a piece that is so far from the middle of the whole: what is held there turns in the hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +50,7 @@ class HandOption:
         opening_m: width between the fingers.
         back_m: length of the approach (or retreat) along x of G.
         cost: how little it is liked, 0 best.
+        piece: which piece of the shape the fingers close on; None: it has none.
     """
 
     R0: Array
@@ -53,6 +60,7 @@ class HandOption:
     opening_m: float
     back_m: float
     cost: float
+    piece: int | None = None
 
 
 def pick_options(
@@ -62,7 +70,10 @@ def pick_options(
     X_WShape = X_WO @ shape.X_BodyShape
     up = X_WShape.rotation()[2]
     limit = hand.max_opening_m - gripping.slack_m
-    if shape.kind == "cylinder":
+    if shape.pieces:
+        widths = [min(piece.size_m[:2]) for piece in shape.held_pieces or (shape,)]
+        found = _on_pieces(shape, X_WO, X_WShape, gripping, limit_m=limit)
+    elif shape.kind == "cylinder":
         widths = [shape.size_m[0]]
         stands = abs(up[2]) > UPRIGHT_COS
         around = _standing_cylinder if stands else _lying_cylinder
@@ -72,12 +83,80 @@ def pick_options(
         found = _box(shape, X_WO, X_WShape, gripping, limit_m=limit)
     if found:
         return found
+    height_m = 2.0 * float(np.abs(up) @ (0.5 * np.array(shape.size_m)))
+    if height_m < FLATTEST_M:
+        return failure(
+            "no_grasp",
+            f"it is {1000 * height_m:.0f} mm high, and the fingertips stay "
+            f"{1000 * TIP_HEIGHT_M:.0f} mm above what it lies on",
+            height_m=height_m,
+        )
     return failure(
         "no_grasp",
         f"it is {min(widths) * 100:.0f} cm wide and the hand opens {limit * 100:.0f} cm for it",
         width_m=min(widths),
         opening_m=limit,
     )
+
+
+def _on_pieces(
+    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping, *, limit_m: float
+) -> list[HandOption]:
+    """On each piece that can be held, clear of what sticks out of the shape."""
+    found: list[HandOption] = []
+    up = X_WShape.rotation()[2]
+    half_m = 0.5 * float(np.abs(up) @ np.array(shape.size_m))
+    for number, piece in enumerate(shape.pieces):
+        if not piece.is_held:
+            continue
+        X_WPiece = X_WShape @ piece.X_ShapePiece
+        own_half_m = 0.5 * float(np.abs(up) @ np.array(piece.size_m))
+        below_m = X_WPiece.p[2] - own_half_m - (X_WShape.p[2] - half_m)
+        if below_m + 2.0 * own_half_m < FLATTEST_M:
+            continue
+        part = Shape(kind=piece.kind, size_m=piece.size_m)
+        if piece.kind == "box":
+            ways = _box(part, X_WO, X_WPiece, gripping, limit_m=limit_m, below_m=below_m)
+        elif piece.size_m[0] > limit_m:
+            continue
+        elif abs(up[2]) > UPRIGHT_COS:
+            turned = [wrap_angle(X_WShape.yaw_rad + turn) for turn in HEADINGS_RAD]
+            headings = [None] if shape.is_round else turned
+            ways = [
+                way
+                for heading in headings
+                for way in _standing_cylinder(
+                    part, X_WO, X_WPiece, gripping, heading=heading, below_m=below_m
+                )
+            ]
+        else:
+            ways = _lying_cylinder(part, X_WO, X_WPiece, gripping, below_m=below_m)
+        off_m = math.dist(X_WPiece.p, X_WShape.p)
+        found += [
+            replace(way, piece=number, cost=way.cost + OFF_MIDDLE_COST_PER_M * off_m)
+            for way in ways
+            if _keeps_off(way, shape, gripping)
+        ]
+    return found
+
+
+def _keeps_off(option: HandOption, shape: Shape, gripping: Gripping) -> bool:
+    """Whether what sticks out of a shape is neither beside it, where fingers come, nor at the palm.
+
+    By boxes along the axes of G around each piece: a few millimetres more than the truth. What lies
+    is as long as its other pieces make it: fingers do not close on a part of that.
+    """
+    rest = tuple(piece for piece in shape.pieces if not piece.is_held)
+    for piece in rest if shape.kind == "box" else shape.sticking_out:
+        X_GP = option.X_GO @ shape.X_BodyShape @ piece.X_ShapePiece
+        half = np.abs(X_GP.rotation()) @ (0.5 * np.array(piece.size_m))
+        low, high = np.array(X_GP.p) - half, np.array(X_GP.p) + half
+        if low[2] > gripping.finger_half_m or high[2] < -gripping.finger_half_m:
+            continue
+        beside = high[1] > 0.5 * option.opening_m or low[1] < -0.5 * option.opening_m
+        if (beside and low[0] < gripping.fingertip_m) or low[0] < -gripping.hold_depth_m:
+            return False
+    return True
 
 
 def held_option(
@@ -140,9 +219,9 @@ def _option(
     )
 
 
-def _lifts(height_m: float, gripping: Gripping) -> list[tuple[float, float]]:
+def _lifts(height_m: float, gripping: Gripping, below_m: float = 0.0) -> list[tuple[float, float]]:
     """Grasp heights relative to the middle of a standing object, with their costs."""
-    lowest = gripping.lowest_m - 0.5 * height_m
+    lowest = max(gripping.lowest_m - below_m, gripping.finger_half_m) - 0.5 * height_m
     highest = 0.5 * height_m - 0.015
     if highest < lowest:
         return [(min(highest, 0.0) if highest > -0.5 * height_m else 0.0, 0.1)]
@@ -155,17 +234,22 @@ def _is_low(height_m: float, gripping: Gripping) -> bool:
     return height_m < gripping.lowest_m + gripping.low_m
 
 
-def _ways_down(height_m: float, gripping: Gripping) -> list[tuple[float, float, float]]:
-    """Tilts and lifts of the hand on what stands, with their costs; low things from above, too."""
-    low = _is_low(height_m, gripping)
+def _ways_down(
+    height_m: float, gripping: Gripping, below_m: float = 0.0
+) -> list[tuple[float, float, float]]:
+    """Tilts and lifts of the hand on what stands, with their costs; low things from above, too.
+
+    `below_m` is how far its foot is above what all of it stands on.
+    """
+    low = _is_low(below_m + height_m, gripping)
     ways = [
         (tilt, lift, tilt_cost + lift_cost)
         for tilt, tilt_cost in zip(TILTS_RAD, TILT_COST, strict=True)
-        for lift, lift_cost in _lifts(height_m, gripping)
+        for lift, lift_cost in _lifts(height_m, gripping, below_m)
         if tilt == 0.0 or not low
     ]
     for tilt in LOW_TILTS_RAD if low else ():
-        ways.append((tilt, _clear_lift_m(tilt, 0.5 * height_m, gripping), LOW_COST))
+        ways.append((tilt, _clear_lift_m(tilt, below_m + 0.5 * height_m, gripping), LOW_COST))
     return ways
 
 
@@ -176,7 +260,13 @@ def _clear_lift_m(tilt: float, middle_m: float, gripping: Gripping) -> float:
 
 
 def _standing_cylinder(
-    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping
+    shape: Shape,
+    X_WO: SE3,
+    X_WShape: SE3,
+    gripping: Gripping,
+    *,
+    heading: float | None = None,
+    below_m: float = 0.0,
 ) -> list[HandOption]:
     diameter, _, height = shape.size_m
     centre = np.array(X_WShape.p)
@@ -185,18 +275,20 @@ def _standing_cylinder(
             X_WO,
             centre,
             gripping,
-            heading=None,
+            heading=heading,
             tilt=tilt,
             lift=lift,
             depth=0.5 * diameter,
             width=diameter,
             cost=cost,
         )
-        for tilt, lift, cost in _ways_down(height, gripping)
+        for tilt, lift, cost in _ways_down(height, gripping, below_m)
     ]
 
 
-def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping) -> list[HandOption]:
+def _lying_cylinder(
+    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping, *, below_m: float = 0.0
+) -> list[HandOption]:
     """From above, the fingers on both sides of it.
 
     A hand that looks along its axis can set it upright again; the other way round it cannot well.
@@ -211,7 +303,7 @@ def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping) 
             gripping,
             heading=wrap_angle(along + turn),
             tilt=tilt,
-            lift=max(LYING_LIFT_M, _clear_lift_m(tilt, 0.5 * diameter, gripping)),
+            lift=max(LYING_LIFT_M, _clear_lift_m(tilt, below_m + 0.5 * diameter, gripping)),
             depth=0.5 * diameter,
             width=diameter,
             cost=0.2 if turn == 0.0 else 0.5,
@@ -222,7 +314,13 @@ def _lying_cylinder(shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping) 
 
 
 def _box(
-    shape: Shape, X_WO: SE3, X_WShape: SE3, gripping: Gripping, *, limit_m: float
+    shape: Shape,
+    X_WO: SE3,
+    X_WShape: SE3,
+    gripping: Gripping,
+    *,
+    limit_m: float,
+    below_m: float = 0.0,
 ) -> list[HandOption]:
     """On two opposite upright faces that are near enough to each other."""
     rotation = X_WShape.rotation()
@@ -236,8 +334,10 @@ def _box(
         direction = rotation[:, approach]
         yaw = math.atan2(direction[1], direction[0])
         reach_m = 0.5 * shape.size_m[approach]
-        for turn, (tilt, lift, cost) in product((0.0, math.pi), _ways_down(height, gripping)):
-            over = _is_low(height, gripping) and tilt >= STEEP_RAD
+        for turn, (tilt, lift, cost) in product(
+            (0.0, math.pi), _ways_down(height, gripping, below_m)
+        ):
+            over = _is_low(below_m + height, gripping) and tilt >= STEEP_RAD
             result.append(
                 _option(
                     X_WO,

@@ -25,6 +25,7 @@ from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
 from robot.planning.robot_body import Body
+from robot.planning.solids import PIECE
 from robot.planning.stances import Candidates, propose
 from robot.planning.trials import passing
 
@@ -136,7 +137,9 @@ UNMAPPED = re.compile(r"(in_view|unmapped)_[0-9]+")
 def _fails_by(blockers: list[str]) -> str:
     """What ways of a hand that are none have in common, the more frequent first."""
     touched = [
-        "something in the way" if UNMAPPED.fullmatch(one) else one.replace("_", " ")
+        "something in the way"
+        if UNMAPPED.fullmatch(one)
+        else one.partition(PIECE)[0].replace("_", " ")
         for one in blockers
         if one != END
     ]

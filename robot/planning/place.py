@@ -61,8 +61,8 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
             there = ", there where it is wanted," if request.spots else ""
             return failure(
                 "no_free_spot",
-                f"the {place.name} has no free spot{there} {200 * _radius(shape):.0f} cm wide",
-                width_m=2 * _radius(shape),
+                f"the {place.name} has no free spot{there} {200 * shape.radius_m:.0f} cm wide",
+                width_m=2 * shape.radius_m,
                 objects=float(len(objects)),
             )
     names = {info.id: info.name for info in around.map.objects}
@@ -116,15 +116,9 @@ def _yaws(request: PlaceRequest) -> tuple[float, ...] | None:
     return tuple(yaw + k * math.pi / 2 for k in range(4))
 
 
-def _radius(shape: Shape) -> float:
-    """Of the circle around an upright shape, seen from above [m]."""
-    x, y, _ = shape.size_m
-    return 0.5 * x if shape.kind == "cylinder" else 0.5 * math.hypot(x, y)
-
-
 def _on_surface(place: Place, shape: Shape, wanted: tuple[tuple[float, float], ...]) -> Array:
     """Points of the surface far enough from its edges, shape (m, 2) in P: those wanted, or all."""
-    radius = _radius(shape)
+    radius = shape.radius_m
     half = [max(0.0, 0.5 * size - radius - EDGE_M) for size in place.size_m]
     if min(place.size_m) < 2 * radius:
         return np.zeros((0, 2))
@@ -150,7 +144,7 @@ def _free_spots(
 
     Spots away from other things and near the middle of the place are liked. Shapes (m, 3), (m,).
     """
-    radius = _radius(shape)
+    radius = shape.radius_m
     x, y = spots[:, 0], spots[:, 1]
     z = 0.5 * shape.size_m[2] - shape.X_BodyShape.p[2]
     local = np.stack([x, y, np.full_like(x, z)], axis=1)
@@ -160,7 +154,7 @@ def _free_spots(
         if abs(thing.X_WO.p[2] - place.X_WP.p[2]) > 0.3:
             continue
         distance = np.hypot(spots[:, 0] - thing.X_WO.p[0], spots[:, 1] - thing.X_WO.p[1])
-        gap = np.minimum(gap, distance - _radius(thing.shape))
+        gap = np.minimum(gap, distance - thing.shape.radius_m)
     cost = 0.15 * np.hypot(x, y) + 0.6 * np.maximum(0.0, 0.25 - gap)
     cost = cost + 0.05 * np.random.default_rng(seed).random(len(cost))
     free = gap > max(radius, gripping.half_width_m) + gripping.beside_m

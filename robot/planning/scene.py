@@ -57,9 +57,9 @@ class Scene:
         robot: RobotDescription,
         solids: tuple[Solid, ...] = (),
         held: tuple[Side, Held] | None = None,
-        thing: Solid | None = None,
+        thing: tuple[Solid, ...] = (),
     ) -> None:
-        """Compile the model; `thing` is one more solid, which `move_thing` can put elsewhere."""
+        """Compile the model; `thing` are solids on one body, which `move_thing` puts elsewhere."""
         self.robot = robot
         self.model, self._owner = _compile(robot, solids, held, thing)
         self.data = mujoco.MjData(self.model)
@@ -112,7 +112,7 @@ class Scene:
             qpos[driven] = poly[0] + poly[1] * qpos[driver]
 
     def move_thing(self, X_WG: SE3) -> None:
-        """Put the movable solid elsewhere."""
+        """Put the movable solids elsewhere."""
         self.data.mocap_pos[0] = X_WG.p
         self.data.mocap_quat[0] = X_WG.quat_wxyz
 
@@ -227,7 +227,7 @@ class Scene:
         return found
 
 
-_Key: TypeAlias = tuple[tuple[Solid, ...], tuple[Side, Held] | None, Solid | None]
+_Key: TypeAlias = tuple[tuple[Solid, ...], tuple[Side, Held] | None, tuple[Solid, ...]]
 
 
 class SceneCache:
@@ -243,7 +243,7 @@ class SceneCache:
         self,
         solids: tuple[Solid, ...],
         held: tuple[Side, Held] | None = None,
-        thing: Solid | None = None,
+        thing: tuple[Solid, ...] = (),
     ) -> Scene:
         """A scene of these; its poses and clearance are whatever was asked for last."""
         key = (solids, held, thing)
@@ -283,7 +283,7 @@ def _compile(
     robot: RobotDescription,
     solids: tuple[Solid, ...],
     held: tuple[Side, Held] | None,
-    thing: Solid | None,
+    thing: tuple[Solid, ...],
 ) -> tuple[mujoco.MjModel, list[str]]:
     """The model, and the owner of each geom: a body's name, `held`, or `solid:` and an id."""
     spec = _robot_spec(robot)
@@ -298,23 +298,27 @@ def _compile(
         _shape(
             geom, load.shape.kind, load.shape.size_m, X_HandG @ load.X_GO @ load.shape.X_BodyShape
         )
+        for piece in load.shape.sticking_out:
+            more = hand.add_geom(contype=1, conaffinity=1, name=f"{HELD}{len(hand.geoms)}")
+            X_GP = load.X_GO @ load.shape.X_BodyShape @ piece.X_ShapePiece
+            _shape(more, piece.kind, piece.size_m, X_HandG @ X_GP)
         for finger in robot.hands[side].finger_bodies:
             spec.add_exclude(bodyname1=robot.hands[side].body, bodyname2=finger)
-    if thing is not None:
+    if thing:
         body = spec.worldbody.add_body(name="thing", mocap=True)
-        body.pos, body.quat = np.array(thing.X_WG.p), np.array(thing.X_WG.quat_wxyz)
-        geom = body.add_geom(name="thing", contype=0, conaffinity=1)
-        _shape(geom, thing.kind, thing.size_m, SE3())
+        for index, part in enumerate(thing):
+            geom = body.add_geom(name=f"thing/{index}", contype=0, conaffinity=1)
+            _shape(geom, part.kind, part.size_m, part.X_WG)
     model = spec.compile()
     owners: list[str] = []
     for geom in range(model.ngeom):
         name = model.geom(geom).name
         if name.startswith("solid/"):
             owners.append("solid:" + solids[int(name.removeprefix("solid/"))].id)
-        elif name == HELD:
+        elif name.startswith(HELD):
             owners.append(HELD)
-        elif name == "thing" and thing is not None:
-            owners.append("solid:" + thing.id)
+        elif name.startswith("thing/"):
+            owners.append("solid:" + thing[int(name.removeprefix("thing/"))].id)
         else:
             owners.append(model.body(int(model.geom_bodyid[geom])).name)
     return model, owners

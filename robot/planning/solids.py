@@ -7,10 +7,12 @@ from typing import Literal
 import msgspec
 import numpy as np
 
-from robot.messages import Shape
+from robot.messages import Piece, Shape
 from robot.planning.requests import Surroundings
 from robot.se3 import SE3, Array
 
+PIECE = "/"
+"""Between the id of a thing and the number of its piece."""
 PERSON_HEIGHT_M = 1.8
 """Of a person who stands, as an obstacle."""
 
@@ -48,6 +50,8 @@ def solids_of(around: Surroundings) -> tuple[Solid, ...]:
     for thing in around.objects:
         if thing.id not in around.ignored:
             found.append(solid(thing.id, thing.X_WO, thing.shape))
+            X_WS = thing.X_WO @ thing.shape.X_BodyShape
+            found += [solid_piece(thing.id, X_WS, one) for one in thing.shape.sticking_out]
     return tuple(found)
 
 
@@ -56,6 +60,25 @@ def people_of(around: Surroundings) -> Array:
     people = [person for person in around.map.people if person.id not in around.ignored]
     circles = [(*person.X_WO.p[:2], person.radius_m) for person in people]
     return np.array(circles, dtype=np.float64).reshape(-1, 3)
+
+
+def solid_piece(id: str, X_WS: SE3, piece: Piece) -> Solid:
+    """A piece of a shape at X_WS."""
+    return Solid(id=id, kind=piece.kind, size_m=piece.size_m, X_WG=X_WS @ piece.X_ShapePiece)
+
+
+def grasped(id: str, shape: Shape) -> tuple[Solid, ...]:
+    """What a hand closes on, in the shape's frame; each piece has an id of its own (`piece_id`)."""
+    if not shape.pieces:
+        return (Solid(id=id, kind=shape.kind, size_m=shape.size_m, X_WG=SE3()),)
+    return tuple(
+        solid_piece(piece_id(id, number), SE3(), piece) for number, piece in enumerate(shape.pieces)
+    )
+
+
+def piece_id(id: str, number: int | None) -> str:
+    """The id of a piece of a thing (None: of the thing)."""
+    return id if number is None else f"{id}{PIECE}{number}"
 
 
 def solid(id: str, X_WO: SE3, shape: Shape) -> Solid:

@@ -19,7 +19,7 @@ from robot.reality.faults import Fault
 from robot.reality.studio import Renderer, RobotCamera, Studio
 from robot.reality.truth import Check, Verdict
 from robot.reality.visual_scene import VisualScene
-from robot.se3 import SE3
+from robot.se3 import SE3, Vector3
 
 
 class Reality(Protocol):
@@ -65,6 +65,7 @@ class Reality(Protocol):
         rooms: int | None = None,
         things: int | None = None,
         is_lived_in: bool = False,
+        has_forms: bool = False,
     ) -> Home:
         """Make a home, always the same of a kind and a seed.
 
@@ -75,9 +76,22 @@ class Reality(Protocol):
             rooms: how many; None: as usual for the kind.
             things: how many; None: as usual.
             is_lived_in: as untidy as where people live.
+            has_forms: with things that have their real forms.
 
         Raises:
             ConfigError: there is no such kind, with the nearest name, or none of that size.
+        """
+        ...
+
+    def things(self) -> list[ThingKind]:
+        """Kinds of things with real forms that a world may have."""
+        ...
+
+    def save_sheet(self, path: Path, *, variant: int = 0) -> None:
+        """Draw all of them, and write that as PNG, or as JPEG where its name says so.
+
+        Raises:
+            OSError: if the file cannot be written.
         """
         ...
 
@@ -95,6 +109,25 @@ class Home(NamedTuple):
 
     world: str
     tasks: str
+
+
+class ThingKind(NamedTuple):
+    """A kind of thing: its name in a world file, and what people call it.
+
+    Attributes:
+        size_m: of the usual one, without what sticks out of it.
+        mass_kg: from and to.
+        colors: that it has, the usual one first.
+        source: where its size is from.
+    """
+
+    name: str
+    category: str
+    family: str
+    size_m: Vector3
+    mass_kg: tuple[float, float]
+    colors: tuple[str, ...]
+    source: str
 
 
 class Cast(NamedTuple):

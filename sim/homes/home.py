@@ -11,7 +11,7 @@ import numpy as np
 
 from robot.errors import ConfigError, Problem
 from sim.footprint import Point
-from sim.homes import choosing, layout, lived_in
+from sim.homes import choosing, formed, layout, lived_in
 from sim.homes.catalogue import HomeKind, Someone, home_kind, stock
 from sim.homes.draws import shuffled
 from sim.homes.furnishing import furnished
@@ -61,6 +61,7 @@ def home(
     size: Size = Size(),  # noqa: B008, it is frozen
     *,
     is_lived_in: bool = False,
+    has_forms: bool = False,
 ) -> Home:
     """Make a home; nobody changes it afterwards.
 
@@ -69,6 +70,7 @@ def home(
         seed: of all that is drawn.
         size: of how many rooms and things.
         is_lived_in: as untidy as where people live (`sim.homes.lived_in`).
+        has_forms: with things of real forms (`sim.homes.formed`).
 
     Raises:
         ConfigError: there is no such kind, none of that size, or no home of it was found for this
@@ -79,7 +81,9 @@ def home(
     for attempt in range(TRIES):
         entropy = [seed, zlib.crc32(kind_name.encode()), attempt, *[1] * is_lived_in]
         rng = np.random.default_rng(entropy)
-        made = _attempt(kind, f"{kind_name}_{seed}", rng, size, is_lived_in=is_lived_in)
+        made = _attempt(
+            kind, f"{kind_name}_{seed}", rng, size, is_lived_in=is_lived_in, has_forms=has_forms
+        )
         if made is not None:
             return made
     cure = "take another seed" if size == Size() else "take another seed, more rooms, fewer things"
@@ -95,10 +99,17 @@ def _check(kind: HomeKind, name: str, size: Size) -> None:
 
 
 def _attempt(
-    kind: HomeKind, name: str, rng: np.random.Generator, size: Size, *, is_lived_in: bool
+    kind: HomeKind,
+    name: str,
+    rng: np.random.Generator,
+    size: Size,
+    *,
+    is_lived_in: bool,
+    has_forms: bool,
 ) -> Home | None:
     """One draw; None if not everything in it can be reached, or not all that is wanted is there."""
     kind = lived_in.of_kind(kind, rng) if is_lived_in else kind
+    kind = formed.of_kind(kind) if has_forms else kind
     chosen = choosing.chosen(kind, rng, count=size.rooms)
     rooms = layout.rooms(chosen, rng)
     kinds = {room.id: room for room in chosen.rooms}
@@ -117,8 +128,10 @@ def _attempt(
     start = _start(world, spots, ground, rng, room_m=room_m, most_m=most_m)
     if len(reached) < LEAST_SURFACES or not spots or start is None:
         return None
-    objects = stocked(kind, reached, rng, count=size.things, is_lived_in=is_lived_in)
-    goods = {good.category: good for good in stock().goods}
+    objects = stocked(
+        kind, reached, rng, count=size.things, is_lived_in=is_lived_in, has_forms=has_forms
+    )
+    goods = {good.category: good for good in formed.goods()}
     plurals = {item.category: goods[item.category].plural for item in objects}
     world = msgspec.structs.replace(
         world, spots=spots, start=start, objects=objects, categories=plurals

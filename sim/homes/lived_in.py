@@ -144,4 +144,6 @@ def on_its_side(item: Object, rng: np.random.Generator) -> Object:
     """Something long and round, perhaps lying."""
     if item.shape != "cylinder" or item.size_m[2] < LONG * item.size_m[0] or rng.random() >= LIES:
         return item
+    if not atlas.shape_of(item).is_round:
+        return item
     return msgspec.structs.replace(item, lies=True, yaw_deg=float(5 * rng.integers(-35, 37)))

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import msgspec
 import numpy as np
 
-from sim.homes import lived_in
+from sim import atlas
+from sim.homes import formed, lived_in
 from sim.homes.catalogue import Good, HomeKind, stock
 from sim.homes.draws import one_of, shuffled
 from sim.homes.surfaces import DEEP_M, RIM_M, Surface
@@ -47,6 +48,7 @@ def stocked(
     *,
     count: int | None = None,
     is_lived_in: bool = False,
+    has_forms: bool = False,
 ) -> tuple[Object, ...]:
     """Things, each with a spot, reachable; no two share colour and category, or a name.
 
@@ -56,13 +58,16 @@ def stocked(
         rng: of what is drawn.
         count: how many are wanted (fewer where they find no room); None: as usual.
         is_lived_in: some of them lie on their side.
+        has_forms: they have the forms of the catalogue of things.
     """
     there: dict[str, list[Object]] = {surface.place.id: [] for surface in surfaces}
     found: list[Object] = []
     length_m = sum(surface.place.size_m[1] for surface in surfaces)
     full_per_m = max(MOST_PER_M, CROWDED * (count or 0) / length_m)
-    for good, most in _wanted(kind, rng) if count is None else _plenty(kind, rng):
+    stored = formed.goods() if has_forms else stock().goods
+    for good, most in _wanted(kind, rng, stored) if count is None else _plenty(kind, rng, stored):
         size, mass_kg = _sized(good, rng)
+        variant = int(rng.integers(formed.VARIANTS)) if has_forms else 0
         variants = good.variants if count is None else _all_variants(good)
         for word, color in shuffled(variants, rng)[:most]:
             if len(found) == count:
@@ -72,6 +77,7 @@ def stocked(
                 id=name, category=good.category, color=color, shape=good.shape, size_m=size,
                 mass_kg=mass_kg, on="", synonyms=good.synonyms if most == 1 else (),
             )  # fmt: skip
+            bare = formed.shaped(bare, variant) if has_forms else bare
             bare = lived_in.on_its_side(bare, rng) if is_lived_in else bare
             usual = kind.goods.get(good.category, ())
             item = _put(bare, usual, surfaces, there, rng, full_per_m=full_per_m)
@@ -81,12 +87,14 @@ def stocked(
     return tuple(found)
 
 
-def _wanted(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
+def _wanted(
+    kind: HomeKind, rng: np.random.Generator, stored: Sequence[Good]
+) -> list[tuple[Good, int]]:
     """Goods of a home with how many of each.
 
     None is called by the last word of another: whoever counts "cans" counts no paint cans.
     """
-    goods = {good.category: good for good in stock().goods}
+    goods = {good.category: good for good in stored}
     found: list[Good] = []
     for name in shuffled(kind.goods, rng):
         good = goods[name]
@@ -101,12 +109,12 @@ def _wanted(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
     ]
 
 
-def _plenty(kind: HomeKind, rng: np.random.Generator) -> list[tuple[Good, int]]:
+def _plenty(
+    kind: HomeKind, rng: np.random.Generator, stored: Sequence[Good]
+) -> list[tuple[Good, int]]:
     """Goods of all kinds of homes, those of this one first, in as many colours as there are."""
     found: list[Good] = []
-    for good in sorted(
-        shuffled(stock().goods, rng), key=lambda good: good.category not in kind.goods
-    ):
+    for good in sorted(shuffled(stored, rng), key=lambda good: good.category not in kind.goods):
         if all(good.category.split()[-1] != other.category.split()[-1] for other in found):
             found.append(good)
     return [(good, len(_all_variants(good))) for good in found]
@@ -142,6 +150,8 @@ def _put(
             at, gap_m = _anywhere(item, surface, rng), APART_M
         if surface.takes(item, at, others, gap_m=gap_m):
             yaw = float(5 * rng.integers(-4, 5)) if item.shape == "box" else item.yaw_deg
+            if item.kind and not item.lies and not atlas.shape_of(item).is_round:
+                yaw = float(5 * rng.integers(-35, 37))
             return msgspec.structs.replace(item, on=surface.place.id, at_m=at, yaw_deg=yaw)
     return None
 

@@ -11,6 +11,8 @@ import msgspec
 
 from sim.homes.home import Home
 from sim.homes.tasks import Task
+from sim.world_kinds import OWN
+from sim.world_schema import Object
 
 GROUPS = ("rooms", "spots", "furniture", "objects", "people")
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_ ./-]*")
@@ -48,6 +50,8 @@ def _entry(item: msgspec.Struct) -> dict[str, Any]:
         value = getattr(item, field.name)
         if field.required or value != field.default:
             found[field.name] = msgspec.to_builtins(value)
+    if isinstance(item, Object) and item.kind:  # which says the rest
+        found = {key: value for key, value in found.items() if key not in OWN}
     return found
 
 

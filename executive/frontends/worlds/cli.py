@@ -11,7 +11,8 @@ from executive.frontends.options import AsJson, Seed
 
 app = typer.Typer(
     invoke_without_command=True,
-    help="List the worlds that come along with what is in them, or make homes from a seed.",
+    help="List the worlds that come along with what is in them, the things that a world may have, "
+    "or make homes from a seed.",
 )
 
 
@@ -27,6 +28,33 @@ def worlds(context: typer.Context, *, as_json: AsJson = False) -> None:
         from executive.frontends.worlds import commands
 
         raise typer.Exit(commands.list_all(as_json=as_json))
+
+
+@app.command()
+def things(
+    *,
+    picture: Annotated[
+        Path | None,
+        typer.Option("--picture", "-p", help="Draw all of them into this file (PNG or JPEG)."),
+    ] = None,
+    variant: Annotated[
+        int, typer.Option("--variant", min=0, max=999_999, help="Which one of each to draw.")
+    ] = 0,
+    as_json: AsJson = False,
+) -> None:
+    """List the things with real forms that a world may have: sizes, weights, colours.
+
+    [bold]Examples[/bold]
+
+      humanoid worlds things
+
+      humanoid worlds things --picture things.png
+
+      humanoid worlds things --picture others.png --variant 3
+    """
+    from executive.frontends.worlds import commands
+
+    raise typer.Exit(commands.things(picture=picture, variant=variant, as_json=as_json))
 
 
 @app.command(no_args_is_help=True)
@@ -50,6 +78,13 @@ def new(
             "--lived-in",
             help="Chairs drawn up, deep tables, odd boards, things on their side and flat ones, "
             "somebody in a doorway.",
+        ),
+    ] = False,
+    real_things: Annotated[
+        bool,
+        typer.Option(
+            "--real-things",
+            help="Cups with handles, bottles with necks, fruit: humanoid worlds things lists them.",
         ),
     ] = False,
     output: Annotated[
@@ -78,6 +113,8 @@ def new(
       humanoid worlds new --kind clinic --rooms 12 --things 300 --out large.yaml
 
       humanoid worlds new --kind flat --seed 7 --lived-in --out mine.yaml --tasks mine.tasks.yaml
+
+      humanoid worlds new --kind flat --seed 7 --real-things --out flat7.yaml
     """
     from executive.frontends.worlds import commands
 
@@ -90,5 +127,6 @@ def new(
             rooms=rooms,
             things=things,
             lived_in=lived_in,
+            real_things=real_things,
         )
     )

@@ -8,6 +8,7 @@ from pathlib import Path
 from executive.frontends.composition_root import REALITY
 from executive.frontends.new_files import put, refuse_taken
 from executive.frontends.output import say, write, write_json
+from executive.frontends.view import PICTURES
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
@@ -26,9 +27,48 @@ def list_all(*, as_json: bool = False) -> int:
         places = ", ".join(place.name for place in world_map.places)
         say(f"{name}\n  objects: {objects or 'none'}\n  places:  {places or 'none'}")
     say("Write your own: docs/worlds.md; use it with --world FILE.")
+    say("What can be in it besides boxes and cylinders: humanoid worlds things.")
     kinds = ", ".join(REALITY.home_kinds())
     say(f"Or have one made: humanoid worlds new --kind KIND --seed N ({kinds}).")
     return ExitStatus.DONE
+
+
+def things(*, picture: Path | None, variant: int, as_json: bool) -> int:
+    """Say which kinds of things there are, and draw them.
+
+    Raises:
+        ConfigError: the picture cannot be written.
+    """
+    if picture is not None:
+        _draw(picture, variant)
+    found = REALITY.things()
+    if as_json:
+        write_json({"things": [one._asdict() for one in found]})
+        return ExitStatus.DONE
+    for family in dict.fromkeys(one.family for one in found):
+        say(family)
+        for one in found:
+            if one.family == family:
+                sizes = " x ".join(f"{100 * size:.1f}" for size in one.size_m)
+                low, high = (round(1000 * mass) for mass in one.mass_kg)
+                mass = f"{low} g" if low == high else f"{low} to {high} g"
+                say(f"  {one.name}  {sizes} cm, {mass}; {', '.join(one.colors)}")
+    say("Use one in a world file: {id: my_mug, kind: mug, on: table} (docs/worlds.md).")
+    if picture is not None:
+        say(f"Done: {picture}")
+    return ExitStatus.DONE
+
+
+def _draw(picture: Path, variant: int) -> None:
+    if picture.suffix.lower() not in PICTURES:
+        cure = f"call it {picture.stem or 'things'}.png"
+        text = f"pictures are written as {', '.join(PICTURES)}"
+        raise ConfigError([Problem(text, str(picture), suggestion=cure)])
+    try:
+        REALITY.save_sheet(picture, variant=variant)
+    except OSError as error:
+        text = f"cannot be written: {error.strerror}"
+        raise ConfigError([Problem(text, str(picture), suggestion="choose another file")]) from None
 
 
 def _record(name: str) -> dict[str, object]:
@@ -53,6 +93,7 @@ def new(
     rooms: int | None = None,
     things: int | None = None,
     lived_in: bool = False,
+    real_things: bool = False,
 ) -> int:
     """Make a home, and print it or write it down with its tasks.
 
@@ -76,6 +117,7 @@ def new(
         rooms=rooms,
         things=things,
         is_lived_in=lived_in,
+        has_forms=real_things,
     )
     if output is None:
         write(home.world)

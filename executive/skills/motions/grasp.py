@@ -20,9 +20,9 @@ FALLEN_RAD = 0.3
 
 
 def aim(plan: PickPlan, info: ObjectInfo, X_WO: SE3) -> SE3:
-    """X_WG of the planned grasp of an object at X_WO; a standing cylinder may have been turned."""
+    """X_WG of the planned grasp of an object at X_WO; what is round may have been turned."""
     planned = _planned(plan)
-    if info.shape.kind == "cylinder" and max(tilt(X_WO), tilt(planned)) < FALLEN_RAD:
+    if info.shape.is_round and max(tilt(X_WO), tilt(planned)) < FALLEN_RAD:
         return SE3(X_WO.p, planned.quat_wxyz) @ plan.X_OG
     return X_WO @ plan.X_OG
 

@@ -82,3 +82,23 @@ def test_the_worlds_are_listed_for_programs_too(capsys):
     assert {"id": "anna", "name": "anna"} in kitchen["people"]
     assert "table" in [place["id"] for place in kitchen["places"]]
     assert found["kinds"] == list(REALITY.home_kinds())
+
+
+def test_the_things_are_listed_and_drawn(tmp_path, capsys):
+    drawn = tmp_path / "things.png"
+    assert commands.things(picture=drawn, variant=2, as_json=False) == 0
+    said = capsys.readouterr().out
+    assert "wine_bottle" in said
+    assert "kind: mug" in said
+    assert drawn.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_things_are_listed_for_programs(capsys):
+    assert commands.things(picture=None, variant=0, as_json=True) == 0
+    found = json.loads(capsys.readouterr().out)["things"]
+    assert {"name", "family", "size_m", "mass_kg", "colors", "source"} <= set(found[0])
+
+
+def test_a_sheet_that_is_no_picture_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="pictures are written as"):
+        commands.things(picture=tmp_path / "things.txt", variant=0, as_json=False)

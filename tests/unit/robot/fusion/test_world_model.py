@@ -7,7 +7,16 @@ import numpy as np
 import pytest
 
 from robot.fusion.world_model import FORGET_S, FRAMES_TO_MISS, Hand, WorldModel
-from robot.messages import DepthImage, ObjectInfo, Obstacle, PersonInfo, Shape, Sighting, Sightings
+from robot.messages import (
+    DepthImage,
+    ObjectInfo,
+    Obstacle,
+    PersonInfo,
+    Piece,
+    Shape,
+    Sighting,
+    Sightings,
+)
 from robot.model import description
 from robot.se3 import SE3
 
@@ -220,3 +229,48 @@ def test_who_was_not_seen_for_long_by_any_sensor_has_gone_somewhere(ann):
 def test_who_was_never_seen_is_where_the_map_says_for_good(ann):
     ann.bump((), 1000.0)
     assert not ann.people()[0].missing
+
+
+BANANA = Shape(
+    kind="box",
+    size_m=(0.19, 0.068, 0.036),
+    pieces=(
+        Piece(kind="box", size_m=(0.08, 0.036, 0.036)),
+        Piece(
+            kind="box",
+            size_m=(0.05, 0.068, 0.036),
+            X_ShapePiece=SE3((0.07, 0.0, 0.0)),
+            is_held=False,
+        ),
+    ),
+)
+BOTTLE = Shape(
+    kind="cylinder",
+    size_m=(0.075, 0.075, 0.30),
+    pieces=(
+        Piece(kind="cylinder", size_m=(0.075, 0.075, 0.2), X_ShapePiece=SE3((0, 0, -0.05))),
+        Piece(kind="cylinder", size_m=(0.03, 0.03, 0.1), X_ShapePiece=SE3((0, 0, 0.10))),
+    ),
+)
+
+
+def test_fingers_open_around_the_middle_of_a_banana_do_not_hold_it(model):
+    """They are 8 cm apart, as they come: about as wide as all of it is, bent as it is."""
+    model.know((msgspec.structs.replace(CUP, shape=BANANA),))
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    X_WO = cup(model).X_WO
+    model.feel({"right": Hand(X_WO, 0.081, GRIPPING)})
+    assert cup(model).held_by is None
+    model.feel({"right": Hand(X_WO, 0.036, GRIPPING)})
+    assert cup(model).held_by == "right"
+
+
+def test_a_bottle_is_held_by_its_neck_too(model):
+    """Fingers 3 cm apart, 10 cm above its middle, hold it; around its belly they do not."""
+    model.know((msgspec.structs.replace(CUP, shape=BOTTLE),))
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    X_WO = cup(model).X_WO
+    above = X_WO.rotation()[:, 2] * 0.10 + np.array(X_WO.p)
+    for p, opening_m, holds in ((X_WO.p, 0.03, False), (tuple(above.tolist()), 0.03, True)):
+        model.feel({"right": Hand(SE3(p, X_WO.quat_wxyz), opening_m, GRIPPING)})
+        assert (cup(model).held_by == "right") is holds

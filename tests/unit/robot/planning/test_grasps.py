@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from robot.failures import Failure
-from robot.messages import Shape
+from robot.messages import Piece, Shape
 from robot.planning.grasps import HandOption, held_option, pick_options
 from robot.planning.robot_body import Body
 from robot.se3 import SE3
@@ -105,3 +105,74 @@ def test_a_held_thing_is_put_down_as_it_is_held(body: Body) -> None:
     turn = SE3.from_xy_yaw(0.0, 0.0, option.headings[0])
     X_OG = turn @ SE3.from_rotation(option.R0, option.offset)
     assert np.allclose((X_OG @ X_GO).matrix(), SE3.from_xy_yaw(0, 0, 0.5).matrix(), atol=1e-9)
+
+
+MUG = Shape(
+    kind="cylinder",
+    size_m=(0.08, 0.08, 0.10),
+    pieces=(
+        Piece(kind="cylinder", size_m=(0.08, 0.08, 0.10)),
+        Piece(
+            kind="box", size_m=(0.03, 0.01, 0.06), X_ShapePiece=SE3((0.055, 0, 0)), is_held=False
+        ),
+    ),
+)
+BOTTLE = Shape(
+    kind="cylinder",
+    size_m=(0.08, 0.08, 0.30),
+    pieces=(
+        Piece(kind="cylinder", size_m=(0.08, 0.08, 0.20), X_ShapePiece=SE3((0, 0, -0.05))),
+        Piece(kind="cylinder", size_m=(0.03, 0.03, 0.10), X_ShapePiece=SE3((0, 0, 0.10))),
+    ),
+)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 2.0])
+def test_no_finger_comes_where_a_handle_is(body: Body, yaw: float) -> None:
+    """The hand is never across from it, and never behind it; beyond the fingertips it may be."""
+    X_WO = SE3.from_xy_yaw(1.0, 2.0, yaw, z_m=0.8)
+    found = options(body, MUG, X_WO)
+    headings = {
+        round(math.remainder(o.headings[0] - yaw, math.tau), 2) for o in found if o.headings
+    }
+    assert all(option.headings for option in found)
+    assert headings
+    assert all(abs(math.cos(heading)) > 0.8 for heading in headings)
+    for option in found:
+        turn = SE3.from_xy_yaw(0.0, 0.0, (option.headings or (0.0,))[0])
+        X_WG = SE3(X_WO.p) @ turn @ SE3.from_rotation(option.R0, option.offset)
+        assert np.allclose((X_WG @ option.X_GO).matrix(), X_WO.matrix(), atol=1e-6)
+
+
+def test_a_bottle_is_held_by_its_belly_or_its_neck(body: Body) -> None:
+    found = options(body, BOTTLE)
+    heights = {option.piece: [] for option in found}
+    for option in found:
+        assert option.headings is None  # it is round
+        heights[option.piece].append(option.offset[2])
+        assert option.opening_m == (0.08, 0.03)[option.piece or 0]
+    assert set(heights) == {0, 1}
+    assert max(heights[0]) <= 0.05
+    assert min(heights[1]) >= 0.05
+    assert min(min(found_m) for found_m in heights.values()) >= -0.15 + 0.035 - 1e-9
+
+
+def test_a_plate_has_nothing_to_hold(body: Body) -> None:
+    robot = body.description
+    flat = Piece(kind="cylinder", size_m=(0.26, 0.26, 0.02), is_held=False)
+    plate = Shape(kind="cylinder", size_m=(0.26, 0.26, 0.02), pieces=(flat,))
+    found = pick_options(plate, AT, hand=robot.hands["right"], gripping=robot.handy.gripping)
+    assert isinstance(found, Failure)
+    assert found.code == "no_grasp"
+
+
+def test_a_piece_is_held_as_a_shape_of_its_size_would_be(body: Body) -> None:
+    plain = Shape(kind="cylinder", size_m=(0.07, 0.07, 0.12))
+    whole = Piece(kind="cylinder", size_m=(0.07, 0.07, 0.12))
+    pieced = Shape(kind="cylinder", size_m=(0.07, 0.07, 0.12), pieces=(whole,))
+    for one, other in zip(options(body, plain), options(body, pieced), strict=True):
+        assert np.allclose(one.offset, other.offset)
+        assert np.allclose(one.R0, other.R0)
+        assert (one.headings, one.opening_m, one.cost) == pytest.approx(
+            (other.headings, other.opening_m, other.cost)
+        )

@@ -60,8 +60,9 @@ def test_a_held_thing_moves_with_the_hand(body: Body) -> None:
 
 
 def test_a_thing_can_be_moved_without_a_new_model(body: Body) -> None:
-    ball = Solid(id="ball", kind="cylinder", size_m=(0.1, 0.1, 0.1), X_WG=SE3((3.0, 0.0, 0.3)))
-    scene = Scene(body.description, (), None, ball)
+    ball = Solid(id="ball", kind="cylinder", size_m=(0.1, 0.1, 0.1), X_WG=SE3())
+    scene = Scene(body.description, (), None, (ball,))
+    scene.move_thing(SE3((3.0, 0.0, 0.3)))
     assert not _touched(body, scene)
     scene.move_thing(SE3((0.0, 0.0, 0.3)))
     scene.move_thing(SE3((0.1, 0.1, 0.3)))

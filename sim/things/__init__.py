@@ -1,0 +1,1 @@
+"""Household things with the forms that they have: a catalogue, and how each of them is made."""
