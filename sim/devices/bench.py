@@ -35,6 +35,13 @@ class Bench:
         """Whose time goes by."""
         return (*self.motors.values(), *self.others)
 
+    def advance(self, until_s: float) -> None:
+        """Let time go by up to a moment."""
+        for wire in self.wires.values():
+            wire.advance(until_s)
+        for device in self.devices:
+            device.live(until_s)
+
 
 def build(
     wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, Flaw] | None = None
@@ -60,13 +67,15 @@ def build(
         if (flaw := flaws.get(name)) is not None:
             motors[name].suffer(flaw)
             if flaw == "twin":
-                others.append(_motor(joint, wires[joint.bus], later_s=LATER_S))
+                others.append(_motor(joint, wires[joint.bus], ahead_rad=0.1, later_s=LATER_S))
     return Bench(wires, motors, tuple(others))
 
 
-def _motor(joint: JointMotor, wire: Wire, *, later_s: float = 0.0) -> Damiao:
+def _motor(
+    joint: JointMotor, wire: Wire, *, ahead_rad: float = 0.0, later_s: float = 0.0
+) -> Damiao:
     middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
-    shaft = FreeShaft(q_rad=middle_rad, spring_nm_rad=0.3)
+    shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
     shaft.qd_rad_s = SWING_RAD_S
     sold = joint.expected
     return Damiao(
