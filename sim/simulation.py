@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin, Cast, Home
+from robot.reality.contract import Begin, Cast, EmulatedBuses, Home
 from robot.reality.faults import Fault
 from robot.reality.studio import Studio
 from robot.reality.visual_scene import VisualScene
@@ -87,6 +88,12 @@ class Simulation:
         from sim.homes.home import home
 
         return cast(home(kind, seed), seed)
+
+    def motors(self, file: Path, *, flaws: Mapping[str, str]) -> EmulatedBuses:
+        """Emulate the motors of a joint map. Raises ConfigError as `sim.devices.bench.build`."""
+        from sim.devices.emulated import EmulatedMotors
+
+        return EmulatedMotors(file, flaws=flaws)
 
 
 class SimulatedWorld:

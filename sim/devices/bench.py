@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import cast
 
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.errors import ConfigError, Problem
@@ -43,9 +44,7 @@ class Bench:
             device.live(until_s)
 
 
-def build(
-    wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, Flaw] | None = None
-) -> Bench:
+def build(wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, str] | None = None) -> Bench:
     """The motors of a map, in the middle of their joints' ranges and swinging a little.
 
     Args:
@@ -65,7 +64,7 @@ def build(
     for name, joint in wanted.joints.items():
         motors[name] = _motor(joint, wires[joint.bus])
         if (flaw := flaws.get(name)) is not None:
-            motors[name].suffer(flaw)
+            motors[name].suffer(cast("Flaw", flaw))
             if flaw == "twin":
                 others.append(_motor(joint, wires[joint.bus], ahead_rad=0.1, later_s=LATER_S))
     return Bench(wires, motors, tuple(others))

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from robot.clock import Clock
 from robot.drivers.motors.can.frames import Frame
-from robot.drivers.motors.can.interview import Answers, exchange, read_registers
+from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.mit11 import ENABLED, Ranges, Target
 from robot.drivers.motors.can.ports import Heard, Ports
 from robot.errors import DriverError
 
-TRIES = 3
 DAMPING_NM_S = 2.0
 """Of a motor that nobody commands any more; most take up to 5."""
 
@@ -59,13 +58,13 @@ def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: floa
     if not asked:
         return []
     missing = dict(asked)
-    for _ in range(TRIES):
+    for wait_s in WAITS_S:
         frames: list[tuple[str, Frame]] = []
         for one in missing.values():
             if (asking := one.family.asking) is not None:
                 units = round(timeout_s / asking.settings.watchdog_unit_s)
                 frames.append((one.bus, asking.write(one.id, asking.settings.watchdog, units)))
-        exchange(ports, clock, frames, lambda _: None)
+        exchange(ports, clock, frames, lambda _: None, wait_s=wait_s)
         answers = {name: Answers() for name in missing}
         for number in {_watchdog(one) for one in missing.values()}:
             read_registers(ports, clock, missing, answers, number)
@@ -105,12 +104,12 @@ def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) 
         if told is not None:
             status[name] = told.status
 
-    for _ in range(TRIES):
+    for wait_s in WAITS_S:
         missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
         if not missing:
             break
         frames = [(one.bus, one.family.enable(one.id)) for one in missing]
-        exchange(ports, clock, frames, take)
+        exchange(ports, clock, frames, take, wait_s=wait_s)
     return status
 
 

@@ -22,6 +22,7 @@ from robot.drivers.motors.can.mit11 import ENABLED, Target
 from robot.drivers.motors.can.ports import Ports, PythonCan
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
+from robot.drivers.motors.can.speed_check import SpeedCheck
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -122,6 +123,11 @@ class CanMotors(Closing):
         """Become the one that commands these buses; False while another one does."""
         self._opened()
         return self._claim.take()
+
+    @property
+    def speeds(self) -> SpeedCheck:
+        """How reported speeds compare with reported positions."""
+        return self._watch.speeds
 
     def reset(self) -> None:
         """Forget every alarm, also latched ones; motors that let go are armed by the next command.

@@ -14,7 +14,8 @@ from robot.drivers.motors.can.ports import Heard, Ports
 
 ANSWERS_WITHIN_S = 0.008
 """To a frame that had to wait for all others of its bus: they take 0.14 ms each."""
-TRIES = 3
+WAITS_S = (ANSWERS_WITHIN_S, 2 * ANSWERS_WITHIN_S, 10 * ANSWERS_WITHIN_S)
+"""For one try after the other: an adapter on USB, or a busy machine, may take its time."""
 
 
 @dataclass
@@ -97,10 +98,10 @@ def read_registers(
             answers[name].answered_as.add(heard.frame.id)
 
     missing = dict(joints)
-    for _ in range(TRIES):
+    for wait_s in WAITS_S:
         counted: dict[str, int] = {}
         frames = [(one.bus, _asking(one).read(one.id, number)) for one in missing.values()]
-        exchange(ports, clock, frames, take)
+        exchange(ports, clock, frames, take, wait_s=wait_s)
         for name, count in counted.items():
             answers[name].replies = max(answers[name].replies, count)
         missing = {name: one for name, one in missing.items() if name not in counted}
@@ -122,24 +123,29 @@ def _feedback(
         answers[name].feedback = one.family.feedback(heard.frame.data, ranges)
 
     frames = [(one.bus, _asking(one).refresh(one.id)) for one in joints.values()]
-    for _ in range(TRIES):
-        exchange(ports, clock, frames, take)
+    for wait_s in WAITS_S:
+        exchange(ports, clock, frames, take, wait_s=wait_s)
         if all(answers[name].feedback for name in joints if answers[name].registers):
             return
 
 
 def exchange(
-    ports: Ports, clock: Clock, frames: list[tuple[str, Frame]], take: Callable[[Heard], None]
+    ports: Ports,
+    clock: Clock,
+    frames: list[tuple[str, Frame]],
+    take: Callable[[Heard], None],
+    *,
+    wait_s: float = ANSWERS_WITHIN_S,
 ) -> None:
     """Send frames as the queues take them, and hear everything for a while after the last."""
     waiting = list(frames)
-    until_s = clock.now_s() + ANSWERS_WITHIN_S * max(1, len(frames) // 16)
+    until_s = clock.now_s() + wait_s * max(1, len(frames) // 16)
     while waiting and clock.now_s() < until_s:
         waiting = [(bus, frame) for bus, frame in waiting if not ports.send(bus, frame)]
         if waiting:
             for heard in ports.receive(clock.now_s() + 0.001):
                 take(heard)
-    until_s = clock.now_s() + ANSWERS_WITHIN_S
+    until_s = clock.now_s() + wait_s
     while clock.now_s() < until_s:
         for heard in ports.receive(until_s):
             take(heard)

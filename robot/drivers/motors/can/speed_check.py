@@ -58,6 +58,6 @@ class SpeedCheck:
         far = larger > SLACK_RAD
         self.moved = self.moved | far
         self._gone += np.where(far, np.abs(gone), 0.0)
-        self._said += np.where(far, np.abs(self._told), 0.0)
+        self._said += np.where(far, self._told * np.sign(gone), 0.0)
         self._began, self._began_s = q.copy(), stamp_s
         self._told[:] = 0.0
