@@ -128,13 +128,13 @@ class Damiao:
 
     def hear(self, frame: CanFrame, now_s: float) -> None:
         """A frame of somebody else's went by."""
-        if frame.extended or len(frame.data) != 8:
+        if frame.id not in (self.registers[8], 0x7FF) or frame.extended or len(frame.data) != 8:
             return
         if frame.id == 0x7FF:
             if frame.data[0] | frame.data[1] << 8 == int(self.registers[8]):
                 self.live(now_s)
                 self._of_registers(frame.data, now_s)
-        elif frame.id == int(self.registers[8]):
+        else:
             self.live(now_s)
             self._heard_s = now_s
             self._obey(frame.data)

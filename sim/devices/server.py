@@ -17,6 +17,8 @@ from sim.devices.wire import NEVER, CanFrame, Node, Wire
 QUEUE_FRAMES = 10
 """Of a program's transmit queue: socketcan's `txqueuelen`."""
 LONGEST_WAIT_S = 0.01
+SHORTEST_WAIT_S = 0.0001
+"""A frame is told so much late at most: to wake up for each of six buses' would take a core."""
 LIVE_EVERY_S = 0.001
 """Devices live up to every frame that they hear; in between now and then, too."""
 
@@ -93,7 +95,7 @@ class CanServer(Closing):
     def step(self, until_s: float) -> None:
         """Wait for a program or for the next thing on a wire, and play up to now."""
         next_s = min((wire.next_s for wire in self._wires), default=until_s)
-        wait_s = max(0.0, min(next_s, until_s) - self._clock.now_s())
+        wait_s = max(SHORTEST_WAIT_S, min(next_s, until_s) - self._clock.now_s())
         waiting = [fd for fd, program in self._programs.items() if program.node.has_room]
         readable, _, _ = select.select([*self._listening, *waiting], [], [], wait_s)
         now_s = self._clock.now_s()

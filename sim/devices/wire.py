@@ -44,6 +44,7 @@ class Node:
         is_off: it took itself off the bus, until `restart`.
         garbles: how many of its next frames nobody can read.
         dropped: frames that its full queue did not take.
+        ready_s: when its first frame wants the wire; `NEVER` if there is none.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class Node:
         self.is_off = False
         self.garbles = 0
         self.dropped = 0
+        self.ready_s = NEVER
         self._room = room
         self._queue: deque[tuple[float, CanFrame]] = deque()
 
@@ -63,17 +65,14 @@ class Node:
         """Whether its queue takes another frame."""
         return len(self._queue) < self._room
 
-    @property
-    def ready_s(self) -> float:
-        """When its first frame wants the wire; `NEVER` if there is none."""
-        return self._queue[0][0] if self._queue and not self.is_off else NEVER
-
     def send(self, frame: CanFrame, at_s: float) -> bool:
         """Queue a frame, to go out at a time or later; False if there is no room."""
         if self.is_off or not self.has_room:
             self.dropped += 1
             return False
         self._queue.append((at_s, frame))
+        if len(self._queue) == 1:
+            self.ready_s = at_s
         return True
 
     def restart(self) -> None:
@@ -88,6 +87,7 @@ class Node:
     def sent(self) -> None:
         """It went through."""
         self._queue.popleft()
+        self.ready_s = self._queue[0][0] if self._queue else NEVER
         self.transmit_errors = max(0, self.transmit_errors - 1)
 
     def failed(self, *, unheard: bool = False) -> None:
@@ -98,6 +98,7 @@ class Node:
         if self.transmit_errors >= OFF_AT:
             self.is_off = True
             self._queue.clear()
+            self.ready_s = NEVER
             self.on_off()
 
 
@@ -146,7 +147,10 @@ class Wire:
         """When the next thing happens; `NEVER` if nobody wants to send."""
         if self._ends_s < NEVER:
             return self._ends_s
-        return max(self.now_s, min((node.ready_s for node in self.nodes), default=NEVER))
+        first_s = NEVER
+        for node in self.nodes:
+            first_s = min(first_s, node.ready_s)
+        return first_s if first_s > self.now_s else self.now_s
 
     def advance(self, until_s: float) -> None:
         """Play what happens up to a time."""
@@ -161,8 +165,10 @@ class Wire:
     def _begin(self) -> None:
         """Arbitration: whoever is ready begins at once, and the lowest identifier goes on."""
         ready = [node for node in self.nodes if node.ready_s <= self.now_s]
-        best = min(node.first().priority() for node in ready)
-        self._senders = [node for node in ready if node.first().priority() == best]
+        if len(ready) > 1:
+            best = min(node.first().priority() for node in ready)
+            ready = [node for node in ready if node.first().priority() == best]
+        self._senders = ready
         bits = self._senders[0].first().bits()
         spoilt = self._spoilt()
         took_s = self._bit_s * (bits + (ERROR_BITS if spoilt else 0))
@@ -171,6 +177,8 @@ class Wire:
 
     def _spoilt(self) -> bool:
         """Whether nobody can read it: two say different things at once, or one is broken."""
+        if len(self._senders) == 1:
+            return self._senders[0].garbles > 0
         frames = {node.first() for node in self._senders}
         return len(frames) > 1 or any(node.garbles for node in self._senders)
 
@@ -194,5 +202,6 @@ class Wire:
         for node in senders:
             node.sent()
         for node in others:
-            node.receive_errors = max(0, node.receive_errors - 1)
+            if node.receive_errors:
+                node.receive_errors -= 1
             node.hears(frame, self.now_s)
