@@ -88,7 +88,7 @@ class Limiter:
         over = total > most
         if count := int(np.count_nonzero(over)) or int(np.count_nonzero(tau_ff != command.tau_ff)):
             self.clipped["torque"] += count
-            scale = np.where(over, most / np.maximum(total, 1e-12), 1.0)
+            scale = np.divide(most, total, out=np.ones_like(total), where=over)
             kp, kd, tau_ff = kp * scale, kd * scale, tau_ff * scale
         self._last, self._last_s = np.where(kp > 0.0, q_des, measured.q), command.stamp_s
         return MotorCommand(command.stamp_s, q_des, qd_des, tau_ff, kp, kd)

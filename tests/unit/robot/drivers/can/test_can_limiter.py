@@ -1,5 +1,6 @@
 """The limiter: whatever comes in leaves inside every limit."""
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
@@ -119,7 +120,7 @@ def test_a_joint_behind_its_stop_is_brought_back_from_the_stop_on():
 )
 def test_warmth_takes_torque_back(celsius: float, share: float):
     measured = Measured(np.zeros(N), np.zeros(N), np.full(N, celsius))
-    got = Limiter(JOINTS).apply(make(tau_ff=40.0), measured)
+    got = Limiter(JOINTS).apply(make(tau_ff=90.0), measured)
     np.testing.assert_allclose(got.tau_ff, 40.0 * share)
 
 
@@ -134,6 +135,17 @@ def test_what_is_not_finite_is_refused_and_the_target_before_counts_on(field: st
             limiter.apply(command, rest())
     got = limiter.apply(make(0.002, q_des=1.0, kp=1.0), rest())
     np.testing.assert_allclose(got.q_des, 0.03 + SPEED * PERIOD_S)
+
+
+def test_gains_behind_a_gear_may_be_larger_by_its_square():
+    geared = {
+        name: msgspec.structs.replace(joint, gear=2.0) for name, joint in JOINTS.joints.items()
+    }
+    got = Limiter(msgspec.structs.replace(JOINTS, joints=geared)).apply(
+        make(kp=1e6, kd=1e6), rest()
+    )
+    np.testing.assert_allclose(got.kp, 4.0 * KP)
+    np.testing.assert_allclose(got.kd, 4.0 * KD)
 
 
 def test_a_wrong_shape_is_refused():
