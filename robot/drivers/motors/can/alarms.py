@@ -10,7 +10,7 @@ class Level(IntEnum):
     """What is done, from nothing to the most.
 
     HOLD: every joint keeps its last target. SIT: the robot should be lowered; until something above
-    does that, it holds. DAMP: no stiffness, velocity target zero.
+    does that, it holds.
     """
 
     OK = 0
@@ -18,7 +18,6 @@ class Level(IntEnum):
     DERATE = 2
     HOLD = 3
     SIT = 4
-    DAMP = 5
 
 
 class Alarm(NamedTuple):

@@ -232,7 +232,7 @@ class CanMotors(Closing):
         if level < Level.HOLD:
             self._held = None
             return command
-        if level >= Level.DAMP or self._sent is None:
+        if self._sent is None:
             return MotorCommand.damping(len(q), command.stamp_s)
         if self._held is None:
             last = self._sent

@@ -18,6 +18,7 @@ from robot.errors import DriverError
 BUS_OFF = 0x40
 """In the identifier of an error frame (linux/can/error.h)."""
 MOST_A_CALL = 64
+"""Frames of one bus: whoever floods it must not hold up the others."""
 FULL = (errno.ENOBUFS, errno.EAGAIN)
 
 
@@ -100,7 +101,9 @@ class PythonCan(Closing):
             name = self._by_fd[fd]
             bus = self._opened[name]
             try:
-                while len(heard) < MOST_A_CALL and (message := bus.recv(0)) is not None:
+                for _ in range(MOST_A_CALL):
+                    if (message := bus.recv(0)) is None:
+                        break
                     heard.extend(_told(name, message))
             except (can.CanError, OSError) as error:
                 raise DriverError(f"the bus {name!r} went away: {error}") from None

@@ -87,7 +87,7 @@ class Watch:
     def _one(self, index: int, name: str, heard: Reception, *, is_armed: bool) -> None:
         one = self._motors[index]
         alarms = [
-            *self._silence(index, name, one, heard),
+            *self._silence(index, name, one, heard, is_armed=is_armed),
             *self._status(heard.status[index], name, one, is_armed=is_armed),
             *self._heat(float(heard.temperature_c[index]), name, one),
         ]
@@ -113,9 +113,12 @@ class Watch:
         else:
             self._troubled.discard(name)
 
-    def _silence(self, index: int, name: str, one: JointMotor, heard: Reception) -> list[Alarm]:
+    def _silence(
+        self, index: int, name: str, one: JointMotor, heard: Reception, *, is_armed: bool
+    ) -> list[Alarm]:
         misses = int(heard.misses[index])
-        if misses < SILENT_PERIODS:
+        waits = not is_armed and one.family.asking is None  # it answers to commands only
+        if misses < SILENT_PERIODS or waits:
             return []
         text = f"silent for {misses} periods (motor {one.id} on {one.bus})"
         cure = "check its power, its cable, and its bus for errors"

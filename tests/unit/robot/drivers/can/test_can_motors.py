@@ -6,9 +6,11 @@ import pytest
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import mit11
 from robot.drivers.motors.can.alarms import Level
+from robot.drivers.motors.can.driver import CanMotors
 from robot.errors import DriverError
+from sim.devices.direct import DirectPorts
 from sim.devices.wire import CanFrame
-from tests.fakes.can_rig import Rig, arm, limbs
+from tests.fakes.can_rig import ARM, Rig, arm, limbs, with_channels_of_its_own
 
 PERIOD_S = 0.002
 QUIET_S = 0.0015
@@ -406,6 +408,19 @@ def test_the_bus_is_as_busy_as_computed(rig: Rig):
         share = (wire.busy_s - before[0]) / (rig.clock.now_s() - before[1])
     assert share == pytest.approx(rig.joints.load("arm"), rel=0.01)
     assert share == pytest.approx(3 * 500 * 270e-6, rel=0.01)
+
+
+def test_motors_that_cannot_be_asked_are_silent_without_alarm_until_they_are_commanded(tmp_path):
+    ranges = "ranges: {position_rad: 12.5, velocity_rad_s: 30, torque_nm: 10}"
+    rig = Rig(arm(tmp_path))
+    asked = arm(tmp_path, ARM.replace("model: DM4310", f"model: AK80-9, {ranges}"))
+    driver = CanMotors(
+        with_channels_of_its_own(asked), rig.clock, ports=lambda: DirectPorts(rig.bench, rig.clock)
+    )
+    with driver:
+        for _ in range(30):
+            driver.read()
+        assert driver.alarms.level == Level.OK
 
 
 def test_a_damaged_command_does_not_exist():
