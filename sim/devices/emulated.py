@@ -10,13 +10,16 @@ from pathlib import Path
 from typing import Self
 
 from robot.bringup import private_folder
+from robot.clock import WallClock
 from robot.closing import Closing
 from robot.drivers.motors.can import joint_map
 from robot.errors import ProcessError
 from sim.devices import bench
+from sim.devices.main import READY
 
 INTERFACE = "humanoid"
 STOPS_WITHIN_S = 3.0
+POLL_S = 0.005
 
 
 class EmulatedMotors(Closing):
@@ -48,12 +51,14 @@ class EmulatedMotors(Closing):
         self._child = subprocess.Popen(
             [sys.executable, "-m", "sim.devices.main", str(os.getpid()), str(self._file),
              str(self._folder.path), *flaws],
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, start_new_session=True,
+            stdin=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
-        assert self._child.stdout is not None
-        if not self._child.stdout.readline():
-            self.close()
-            raise ProcessError("the emulated motors did not start; the lines above say why")
+        clock = WallClock()
+        while not (self._folder.path / READY).exists():
+            if self._child.poll() is not None:
+                self.close()
+                raise ProcessError("the emulated motors did not start; the lines above say why")
+            clock.sleep_until(clock.now_s() + POLL_S)
         return self
 
     def close(self) -> None:
@@ -66,8 +71,6 @@ class EmulatedMotors(Closing):
             except subprocess.TimeoutExpired:
                 child.kill()
                 child.wait()
-            if child.stdout is not None:
-                child.stdout.close()
         folder, self._folder = self._folder, None
         if folder is not None:
             private_folder.remove(folder)

@@ -12,6 +12,8 @@ from sim.devices import bench
 from sim.devices.server import CanServer
 
 STOP_SEEN_EVERY_S = 0.1
+READY = "ready"
+"""A file that says that all sockets are there."""
 
 
 def main(parent_pid: str, file: str, folder: str, *flaws: str) -> None:
@@ -24,8 +26,7 @@ def main(parent_pid: str, file: str, folder: str, *flaws: str) -> None:
     paths = [Path(folder) / f"bus{index}" for index in range(len(wanted.buses))]
     wires = list(zip(paths, built.wires.values(), strict=True))
     with CanServer(wires, built.devices, clock) as server:
-        sys.stdout.write("ready\n")
-        sys.stdout.flush()
+        (Path(folder) / READY).touch()
         while not stop:
             server.serve(clock.now_s() + STOP_SEEN_EVERY_S)
 
