@@ -98,12 +98,12 @@ def read_registers(
             answers[name].answered_as.add(heard.frame.id)
 
     missing = dict(joints)
-    for wait_s in WAITS_S:
-        counted: dict[str, int] = {}
+    counted: dict[str, int] = {}
+    for before, wait_s in enumerate(WAITS_S):
         frames = [(one.bus, _asking(one).read(one.id, number)) for one in missing.values()]
         exchange(ports, clock, frames, take, wait_s=wait_s)
-        for name, count in counted.items():
-            answers[name].replies = max(answers[name].replies, count)
+        for name in missing.keys() & counted.keys():  # one asked twice may answer twice, late
+            answers[name].replies = max(answers[name].replies, counted[name] - before)
         missing = {name: one for name, one in missing.items() if name not in counted}
         if not missing:
             return
