@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin, Cast, Home, ThingKind
+from robot.reality.contract import Begin, Cast, EmulatedBuses, Home, ThingKind
 from robot.reality.faults import Fault
 from robot.reality.studio import Studio
 from robot.reality.visual_scene import VisualScene
@@ -116,6 +116,12 @@ class Simulation:
         from sim.homes.home import home
 
         return cast(home(kind, seed), seed)
+
+    def motors(self, file: Path, *, flaws: Mapping[str, str]) -> EmulatedBuses:
+        """Emulate the motors of a joint map. Raises ConfigError as `sim.devices.bench.build`."""
+        from sim.devices.emulated import EmulatedMotors
+
+        return EmulatedMotors(file, flaws=flaws)
 
 
 class SimulatedWorld:

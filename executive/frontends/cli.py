@@ -20,6 +20,7 @@ from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
 from executive.frontends.missions import cli as missions
+from executive.frontends.motors import cli as motors
 from executive.frontends.new_files import refuse_inputs
 from executive.frontends.options import (
     AsJson,
@@ -272,6 +273,7 @@ recordings.register(app)
 consoles.register(app)
 films.register(app)
 sensors_cli.register(app)
+motors.register(app)
 configs.register(app, settings)
 
 

@@ -26,7 +26,7 @@ LIBRARIES = {
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
     "scipy": "scipy", "typer": "typer", "rich": "rich",
     "pocketsphinx": "pocketsphinx",
-    "yaml": "pyyaml", "rapidfuzz": "rapidfuzz", "symspellpy": "symspellpy",
+    "can": "python-can", "yaml": "pyyaml", "rapidfuzz": "rapidfuzz", "symspellpy": "symspellpy",
 }  # fmt: skip
 """Module to distribution."""
 

@@ -18,6 +18,7 @@ PANELS = {
     ),
     "Sentences, worlds, robots": ("parse", "worlds", "model"),
     "Recordings of real sensors": ("map", "sensors", "people", "detect", "calibrate"),
+    "Motors, real and emulated": ("motors",),
     "This installation": ("doctor", "config"),
 }  # fmt: skip
 _ORDER = [name for names in PANELS.values() for name in names]

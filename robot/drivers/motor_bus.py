@@ -66,7 +66,8 @@ class MotorState:
         age_s: how old each motor's feedback was at the stamp, shape (n,); where replies come one
             by one, a lost one is seen here. Not to be written to.
         watchdog: True where the firmware damps because commands stopped coming.
-        command_stamp_s: stamp of the last command the firmware took, -inf if none.
+        command_stamp_s: stamp of the last command the firmware took, -inf if none; on a bus whose
+            frames carry no stamp, the last that this driver sent.
     """
 
     stamp_s: float

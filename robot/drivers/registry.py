@@ -75,6 +75,12 @@ def _simulated_motors(wiring: Wiring) -> MotorBus:
     return make(wiring)
 
 
+def _can_motors(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.can.driver import make
+
+    return make(wiring)
+
+
 def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
     from robot.drivers.imu.simulated import make
 
@@ -123,7 +129,7 @@ def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | Non
     return make(wiring)
 
 
-MOTORS = Family("motors", {SIMULATED: _simulated_motors})
+MOTORS = Family("motors", {SIMULATED: _simulated_motors, "can": _can_motors})
 
 # What the controller reads in every period (`robot.drivers.body_devices`).
 IMU = Family("imu", {SIMULATED: _simulated_imu})

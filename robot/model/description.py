@@ -297,7 +297,8 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
 def shipped() -> list[str]:
     """Names of the robots that come along."""
-    return sorted(entry.parent.name for entry in SHIPPED.glob("*/*.yaml"))
+    found = SHIPPED.glob("*/*.yaml")
+    return sorted(entry.stem for entry in found if entry.stem == entry.parent.name)
 
 
 def load(name_or_path: str = "juno") -> RobotDescription:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from robot.bus.topics import Topic
+from robot.closing import Closing
 from robot.drivers.wiring import SimulatedPlant
 from robot.messages import Message, WorldMap
 from robot.model.description import RobotDescription
@@ -101,6 +102,32 @@ class Reality(Protocol):
         Raises:
             ConfigError: as `home` does.
         """
+        ...
+
+    def motors(self, file: Path, *, flaws: Mapping[str, str]) -> EmulatedBuses:
+        """Emulate the motors of a joint map; it begins by entering.
+
+        Args:
+            file: the joint map.
+            flaws: what is wrong with whom, by joint.
+
+        Raises:
+            ConfigError: with everything that is wrong in the file or in the flaws.
+        """
+        ...
+
+
+class EmulatedBuses(Closing, Protocol):
+    """Emulated CAN buses, in a process of their own until closed."""
+
+    @property
+    def interface(self) -> str:
+        """Of python-can, by which they are reached."""
+        ...
+
+    @property
+    def channels(self) -> Mapping[str, str]:
+        """What each bus of the joint map is reached by there."""
         ...
 
 

@@ -1,0 +1,169 @@
+"""What the commands of `humanoid motors` do."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from rich.console import Group
+from rich.live import Live
+from rich.text import Text
+
+from executive.frontends.composition_root import REALITY
+from executive.frontends.motors import tables
+from executive.frontends.output import say, table_screen, write_json
+from robot.bringup import motor_tools
+from robot.bringup.motor_tools import Buses, Check, Joints
+from robot.clock import WallClock
+from robot.errors import ConfigError, Problem
+from robot.exit_status import ExitStatus
+
+
+class Asked(NamedTuple):
+    """The options that all commands have."""
+
+    robot: str
+    map_file: Path | None
+    emulated: bool
+    fail: tuple[str, ...]
+    as_json: bool
+
+
+def scan_channels(channels: list[str], interface: str, *, up_to: int, as_json: bool) -> int:
+    """Look who is on CAN interfaces; returns the exit status.
+
+    Raises:
+        DriverError: if one of them cannot be opened.
+    """
+    buses = motor_tools.buses_at(channels, interface)
+    return _scan(buses, up_to=up_to, joints=None, as_json=as_json, label="")
+
+
+def scan(asked: Asked, *, up_to: int) -> int:
+    """Look who is on the buses of a joint map; returns the exit status."""
+    with _joints(asked) as (joints, label):
+        return _scan(joints.buses, up_to=up_to, joints=joints, as_json=asked.as_json, label=label)
+
+
+def _scan(buses: Buses, *, up_to: int, joints: Joints | None, as_json: bool, label: str) -> int:
+    found = motor_tools.scan(buses, WallClock(), up_to=up_to, joints=joints)
+    twins = [one for one in found if one.replies > 1]
+    status = ExitStatus.FAILED if twins or not found else ExitStatus.DONE
+    if as_json:
+        write_json({"emulated": bool(label), "motors": found})
+        return status
+    if found:
+        table_screen().print(tables.of_scan(found))
+    for one in twins:
+        say(f"{one.replies} motors answer to {one.id} on {one.bus}: unplug one, change its id")
+    if not found:
+        say("Nobody answers: are the motors powered, is the bus terminated, is its bit rate right?")
+    say(f"{len(found)} identifiers of 1 to {up_to} answer on {len(buses)} buses{label}.")
+    return status
+
+
+def read(asked: Asked) -> int:
+    """Say what every motor measures; returns the exit status."""
+    with _joints(asked) as (joints, label):
+        rows = motor_tools.read(joints, WallClock())
+    silent = [row.joint for row in rows if row.status == "silent"]
+    status = ExitStatus.FAILED if silent else ExitStatus.DONE
+    if asked.as_json:
+        write_json({"emulated": bool(label), "joints": rows})
+        return status
+    table_screen().print(tables.of_readings(rows))
+    say(f"{len(rows) - len(silent)} of {len(rows)} motors answered{label}.")
+    if silent:
+        say("humanoid motors check says what may be wrong with the others.")
+    return status
+
+
+def check(asked: Asked, *, for_s: float) -> int:
+    """Compare motors with their map; returns the exit status."""
+    with _joints(asked) as (joints, label):
+        if not asked.as_json:
+            say(f"Asking {len(joints.joints)} motors{label}, then reading for {for_s:g} s.")
+        found = motor_tools.check(joints, WallClock(), for_s=for_s)
+    status = ExitStatus.FAILED if found.is_grave else ExitStatus.DONE
+    if asked.as_json:
+        write_json({"emulated": bool(label), "is_grave": found.is_grave, "check": found})
+        return status
+    table_screen().print(tables.of_loads(found.loads))
+    _tell(found)
+    if found.is_grave:
+        say("Not one motor may be enabled before that is put right.")
+    else:
+        say(f"All {found.joints} motors are what the map says{label}.")
+    return status
+
+
+def _tell(found: Check) -> None:
+    still = [one for one in found.findings if one.code == "not_moved"]
+    for one in found.findings:
+        if one in still:
+            continue
+        mark, style = ("no", "red") if one.is_grave else ("--", "yellow")
+        say(f"{mark}  {one.joint}: {one.text}", styled=(mark, style))
+        say(f"    cure: {one.cure}", styled=("    cure:", "dim"))
+    if still:
+        names = ", ".join(one.joint for one in still)
+        say(f"--  {still[0].text}: {names}", styled=("--", "yellow"))
+        say(f"    cure: {still[0].cure}", styled=("    cure:", "dim"))
+    if found.answered is not None:
+        say(f"ok  {found.answered:.2%} of all replies came within their period")
+
+
+def watch(asked: Asked, *, for_s: float, every_s: float) -> int:
+    """Show what joints measure, again and again; returns the exit status."""
+    with _joints(asked) as (joints, label):
+        shown = motor_tools.watch(joints, WallClock(), every_s=every_s, for_s=for_s)
+        with suppress(KeyboardInterrupt):
+            _show(shown, as_json=asked.as_json, label=label)
+    return ExitStatus.DONE
+
+
+def _show(shown: motor_tools.Watched, *, as_json: bool, label: str) -> None:
+    if as_json:
+        for rows, alarms in shown:
+            write_json({"emulated": bool(label), "joints": rows, "alarms": alarms})
+        return
+    screen = table_screen()
+    if not screen.is_terminal:
+        for rows, alarms in shown:
+            screen.print(tables.of_readings(rows))
+            say("\n".join(alarms or (f"all is well{label}",)))
+        return
+    with Live(console=screen, auto_refresh=False, vertical_overflow="crop") as live:
+        for rows, alarms in shown:
+            words = Text("\n".join(alarms) or f"all is well{label}", "red" if alarms else "green")
+            live.update(Group(tables.of_readings(rows), words), refresh=True)
+
+
+@contextmanager
+def _joints(asked: Asked) -> Generator[tuple[Joints, str]]:
+    """The joint map, and how it is said that its motors are emulated where they are.
+
+    Raises:
+        ConfigError: with everything that is wrong in the map and in what was asked.
+    """
+    path = motor_tools.map_path(asked.robot, asked.map_file)
+    if not asked.emulated:
+        if asked.fail:
+            cure = "add --emulated, or leave --fail out"
+            raise ConfigError([Problem("only emulated motors fail on request", suggestion=cure)])
+        yield motor_tools.load_map(path), ""
+        return
+    with REALITY.motors(path, flaws=_flaws(asked.fail)) as buses:
+        yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
+
+
+def _flaws(fail: tuple[str, ...]) -> Mapping[str, str]:
+    wrong = [one for one in fail if "=" not in one]
+    if wrong:
+        cure = "write JOINT=FLAW, as in left_knee=silent"
+        raise ConfigError(
+            [Problem(f"--fail {one!r} names no flaw", suggestion=cure) for one in wrong]
+        )
+    return dict(one.split("=", 1) for one in fail)

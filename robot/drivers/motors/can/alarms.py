@@ -1,0 +1,84 @@
+"""What is wrong with motors and buses, and what is done about it: the most severe wins."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+
+class Level(IntEnum):
+    """What is done, from nothing to the most.
+
+    HOLD: every joint keeps its last target. SIT: the robot should be lowered; until something above
+    does that, it holds.
+    """
+
+    OK = 0
+    WARN = 1
+    DERATE = 2
+    HOLD = 3
+    SIT = 4
+
+
+class Alarm(NamedTuple):
+    """One thing wrong.
+
+    Attributes:
+        code: for programs, as in `silent`.
+        who: the joint or the bus.
+        level: what is done.
+        cause, cure: for people.
+        is_latched: whether only `reset` ends it.
+    """
+
+    code: str
+    who: str
+    level: Level
+    cause: str
+    cure: str
+    is_latched: bool = False
+
+    def __str__(self) -> str:
+        """As a line for people."""
+        return f"{self.who}: {self.cause} ({self.cure})"
+
+
+BY_STATUS: dict[str, Level] = {
+    "over_current": Level.HOLD,
+    "overload": Level.HOLD,
+}
+"""What a motor's fault leads to; one that is not named here: SIT, latched."""
+
+
+class Alarms:
+    """The alarms that are on, by code and by whom they concern."""
+
+    def __init__(self) -> None:
+        """None yet."""
+        self._on: dict[tuple[str, str], Alarm] = {}
+
+    @property
+    def level(self) -> Level:
+        """The most severe."""
+        return max((alarm.level for alarm in self._on.values()), default=Level.OK)
+
+    @property
+    def on(self) -> tuple[Alarm, ...]:
+        """All of them, the most severe first."""
+        return tuple(sorted(self._on.values(), key=lambda alarm: -alarm.level))
+
+    def sound(self, alarm: Alarm) -> None:
+        """Begin one; one that is latched stays, whatever comes after it."""
+        key = alarm.code, alarm.who
+        before = self._on.get(key)
+        if before is None or not before.is_latched or alarm.level > before.level:
+            self._on[key] = alarm
+
+    def quiet(self, code: str, who: str) -> None:
+        """End one, unless it is latched."""
+        if self._on and (alarm := self._on.get((code, who))) and not alarm.is_latched:
+            del self._on[code, who]
+
+    def reset(self) -> None:
+        """End all of them: what is still wrong sounds again."""
+        self._on.clear()

@@ -1,0 +1,120 @@
+"""Enabling all motors or none, and leaving them so that they damp by themselves."""
+
+from __future__ import annotations
+
+from robot.clock import Clock
+from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.mit11 import ENABLED, Ranges, Target
+from robot.drivers.motors.can.ports import Heard, Ports
+from robot.errors import DriverError
+
+DAMPING_NM_S = 2.0
+"""Of a motor that nobody commands any more; most take up to 5."""
+
+
+def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> None:
+    """Set every watchdog, then enable every motor, with zero torque.
+
+    Raises:
+        DriverError: naming each motor that did not do so, and why; then all are disabled again.
+    """
+    silent = _set_watchdogs(ports, clock, joints, joints.watchdog_s)
+    if silent:
+        text = "these motors did not take their watchdog, nothing is enabled: "
+        raise DriverError(f"{text}{', '.join(silent)} (look at their bus for lost frames)")
+    clears = [
+        (one.bus, one.family.clear_fault(one.id))
+        for one in joints.joints.values()
+        if one.family.clear_fault is not None
+    ]
+    exchange(ports, clock, clears, lambda _: None)
+    status = _enable(ports, clock, joints, ranges)
+    refused = [
+        f"{name} {_told(joints.joints[name], status.get(name))}"
+        for name in joints.joints
+        if status.get(name) != ENABLED
+    ]
+    if refused:
+        frames = [(one.bus, one.family.disable(one.id)) for one in joints.joints.values()]
+        exchange(ports, clock, frames, lambda _: None)
+        raise DriverError(f"all motors are disabled again: {', '.join(refused)}")
+
+
+def leave_damping(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> None:
+    """Let every motor damp, and switch its watchdog off: it would let the joint go."""
+    frames: list[tuple[str, Frame]] = []
+    for one, most in zip(joints.joints.values(), ranges, strict=True):
+        kd = min(one.family.kd_max, DAMPING_NM_S / (one.gear * one.gear))
+        frames.append((one.bus, one.family.command(one.id, most, Target(0.0, 0.0, 0.0, kd, 0.0))))
+    exchange(ports, clock, frames, lambda _: None)
+    _set_watchdogs(ports, clock, joints, 0.0)
+
+
+def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: float) -> list[str]:
+    """Write them and read them back; who did not take it."""
+    asked = {name: one for name, one in joints.joints.items() if one.family.asking is not None}
+    if not asked:
+        return []
+    missing = dict(asked)
+    for wait_s in WAITS_S:
+        frames: list[tuple[str, Frame]] = []
+        for one in missing.values():
+            if (asking := one.family.asking) is not None:
+                units = round(timeout_s / asking.settings.watchdog_unit_s)
+                frames.append((one.bus, asking.write(one.id, asking.settings.watchdog, units)))
+        exchange(ports, clock, frames, lambda _: None, wait_s=wait_s)
+        answers = {name: Answers() for name in missing}
+        for number in {_watchdog(one) for one in missing.values()}:
+            read_registers(ports, clock, missing, answers, number)
+        missing = {
+            name: one
+            for name, one in missing.items()
+            if answers[name].registers.get(_watchdog(one)) != _units(one, timeout_s)
+        }
+        if not missing:
+            return []
+    return list(missing)
+
+
+def _watchdog(joint: JointMotor) -> int:
+    return joint.family.asking.settings.watchdog if joint.family.asking is not None else 0
+
+
+def _units(joint: JointMotor, timeout_s: float) -> int:
+    asking = joint.family.asking
+    return 0 if asking is None else round(timeout_s / asking.settings.watchdog_unit_s)
+
+
+def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, int]:
+    """The status of each after it was told to: of those that answered."""
+    by_reply = {
+        (one.bus, one.answers_as): (name, most)
+        for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
+    }
+    status: dict[str, int] = {}
+
+    def take(heard: Heard) -> None:
+        found = None if heard.frame is None else by_reply.get((heard.bus, heard.frame.id))
+        if found is None or heard.frame is None:
+            return
+        name, most = found
+        told = joints.joints[name].family.feedback(heard.frame.data, most)
+        if told is not None:
+            status[name] = told.status
+
+    for wait_s in WAITS_S:
+        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
+        if not missing:
+            break
+        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
+        exchange(ports, clock, frames, take, wait_s=wait_s)
+    return status
+
+
+def _told(joint: JointMotor, code: int | None) -> str:
+    if code is None:
+        return "does not answer (power, cable, id)"
+    status = joint.family.status(code)
+    return f"is {status.code.replace('_', ' ')}" + (f" ({status.cure})" if status.cure else "")

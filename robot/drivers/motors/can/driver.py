@@ -1,0 +1,294 @@
+"""Motors on CAN buses as a `MotorBus`: asked at the start, limited, watched, told what is wrong."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from typing import Self
+
+import numpy as np
+
+from robot.clock import Clock
+from robot.closing import Closing
+from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
+from robot.drivers.motors.can import arming, joint_map, watching
+from robot.drivers.motors.can.alarms import Alarms, Level
+from robot.drivers.motors.can.claim import Claim
+from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.gearing import Gearing
+from robot.drivers.motors.can.interview import interview
+from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.can.limiter import Limiter, Measured
+from robot.drivers.motors.can.mit11 import ENABLED, Target
+from robot.drivers.motors.can.ports import Ports, PythonCan
+from robot.drivers.motors.can.reception import Reception
+from robot.drivers.motors.can.sending import TransmitQueue
+from robot.drivers.motors.can.speed_check import SpeedCheck
+from robot.drivers.motors.can.verdicts import verdicts
+from robot.drivers.wiring import Wiring
+from robot.errors import DriverError
+from robot.se3 import Array
+
+LOOKS = 4
+"""A period, for what came in: to wake up for every reply would take a third of a core more."""
+
+
+def make(wiring: Wiring) -> MotorBus:
+    """The motors that `can.yaml` beside the description names.
+
+    Raises:
+        ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
+    """
+    found = joint_map.load(wiring.robot.path().with_name(joint_map.FILE))
+    joints = joint_map.of_robot(found, wiring.robot.motor_names)
+    return CanMotors(joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock))
+
+
+class CanMotors(Closing):
+    """All motors of a joint map.
+
+    A command is sent once, replies are awaited until the next period begins. What they tell, and
+    that they do not, sounds `alarms`; from HOLD on it is those that decide what is sent.
+
+    Attributes:
+        joints: the map, in the order of every array.
+        alarms: what is wrong now.
+        late: periods that began late by more than one.
+    """
+
+    capabilities = MIT_MODE
+
+    def __init__(self, joints: JointMap, clock: Clock, *, ports: Callable[[], Ports]) -> None:
+        """Know the motors; nothing is opened."""
+        self.joints = joints
+        self.alarms = Alarms()
+        self.late = 0
+        self._clock, self._opens = clock, ports
+        self._motors = list(joints.joints.values())
+        self._turns = _turns(joints)
+        self._gearing, self.limiter = Gearing(joints), Limiter(joints)
+        self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
+        self.queues = {bus: TransmitQueue(bus) for bus in joints.buses}
+        self._ports: Ports | None = None
+        self._is_armed = False
+        self._asked = False
+        self._asks = True
+        self._sent: MotorCommand | None = None
+        self._held: MotorCommand | None = None
+        self._tick_s = 0.0
+
+    def __enter__(self) -> Self:
+        """Open the buses, and ask every motor who it is; nothing is enabled.
+
+        Raises:
+            DriverError: if a bus cannot be opened, or a motor is not what the map says: with
+                everything that disagrees.
+        """
+        ports = self._opens()
+        ports.__enter__()
+        try:
+            answers = interview(ports, self._clock, self.joints)
+            if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
+                raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
+        except DriverError:
+            ports.close()
+            raise
+        self._ports = ports
+        self.ranges = [
+            found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
+            else one.expected
+            for name, one in self.joints.joints.items()
+        ]  # fmt: skip
+        self._most: Array = np.array(self.ranges).T
+        self.reception = Reception(self.joints, self.ranges)
+        self._watch = watching.Watch(self.joints, self.alarms)
+        self._tick_s = self._clock.now_s() + self.joints.period_s
+        for _ in range(watching.SILENT_PERIODS):
+            self.read()
+        return self
+
+    def close(self) -> None:
+        """Leave the motors damping for themselves, if they are commanded from here, and close."""
+        ports, self._ports = self._ports, None
+        if ports is None:
+            return
+        try:
+            if self._is_armed:
+                arming.leave_damping(ports, self._clock, self.joints, self.ranges)
+        finally:
+            self._is_armed = False
+            self._claim.release()
+            ports.close()
+
+    def claim(self) -> bool:
+        """Become the one that commands these buses; False while another one does."""
+        self._opened()
+        return self._claim.take()
+
+    @property
+    def speeds(self) -> SpeedCheck:
+        """How reported speeds compare with reported positions."""
+        return self._watch.speeds
+
+    def reset(self) -> None:
+        """Forget every alarm, also latched ones; motors that let go are armed by the next command.
+
+        What is still wrong sounds again.
+        """
+        self.alarms.reset()
+        self._watch.forget()
+        self._is_armed, self._held, self._sent = False, None, None
+        self.limiter.forget()
+
+    # --- read ------------------------------------------------------------------------------------
+
+    def read(self) -> MotorState:
+        """The state at the end of this period. Raises DriverError if a bus went away."""
+        ports = self._opened()
+        commands = self._asked
+        if not commands and self._asks:
+            self._ask()
+        now_s = self._clock.now_s()
+        if now_s > self._tick_s + self.joints.period_s:
+            self.late += 1
+            self._tick_s = now_s
+        until_s = self._tick_s
+        while True:
+            look_s = self._clock.now_s() + self.joints.period_s / LOOKS
+            self._clock.sleep_until(min(until_s, look_s))
+            for heard in ports.receive(0.0):
+                now_s = self._clock.now_s()
+                if heard.frame is None:
+                    self._watch.bus_off(heard.bus)
+                else:
+                    self.reception.take(heard.bus, heard.frame, now_s)
+            if any(queue.waiting for queue in self.queues.values()):
+                self._flush(ports)
+            if self._clock.now_s() >= until_s:
+                break
+        self._tick_s = until_s + self.joints.period_s
+        self._asked = False
+        state = self._state()
+        if not commands:  # two replies: another program commands, and all hear what it is told
+            alone = self.reception.most_replies < 2 if self._asks else self.reception.misses.any()
+            self._asks = bool(alone)
+        return state
+
+    def _state(self) -> MotorState:
+        now_s, heard = self._clock.now_s(), self.reception
+        heard.end_period()
+        q, qd, tau = heard.at_joints(self._gearing)
+        self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
+        status = self._motors[0].family.status
+        let_go = any(status(code).code == watching.LOST for code in set(heard.status))
+        return MotorState(
+            stamp_s=now_s,
+            q=q,
+            qd=qd,
+            tau=tau,
+            temperature_c=heard.temperature_c.copy(),
+            age_s=now_s - heard.heard_s,
+            watchdog=not self._is_armed or let_go,
+            command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
+        )
+
+    def _ask(self) -> None:
+        """Ask every motor for feedback: nobody commanded since the last reading."""
+        for one in self._motors:
+            asking: Asking | None = one.family.asking
+            if asking is not None:
+                self.queues[one.bus].put(one.id, asking.refresh(one.id))
+        self._flush(self._opened())
+
+    # --- write -----------------------------------------------------------------------------------
+
+    def write(self, command: MotorCommand) -> MotorCommand:
+        """Send a command, limited; returns what the frames say.
+
+        While an alarm says HOLD or SIT, the last targets are sent in its place.
+
+        Raises:
+            DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
+                driver commands, or a motor cannot be enabled.
+        """
+        ports = self._opened()
+        self.limiter.check(command)
+        if not self.claim():
+            raise DriverError("another controller commands the motors")
+        if not self._is_armed:
+            arming.arm(ports, self._clock, self.joints, self.ranges)
+            self._is_armed = True
+            self.reception.status = [ENABLED] * len(self._motors)
+            self._tick_s = self._clock.now_s() + self.joints.period_s
+        q, qd, _ = self.reception.at_joints(self._gearing)
+        measured = Measured(q, qd, self.reception.temperature_c)
+        limited = self.limiter.apply(self._decided(command, q), measured)
+        self._sent = self._send(ports, limited)
+        return self._sent
+
+    def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
+        """The command, or what an alarm wants in its place."""
+        level = self.alarms.level
+        if level < Level.HOLD:
+            self._held = None
+            return command
+        if self._sent is None:
+            return MotorCommand.damping(len(q), command.stamp_s)
+        if self._held is None:
+            last = self._sent
+            q_des = np.where(last.kp > 0.0, last.q_des, q)
+            self._held = MotorCommand(0.0, q_des, np.zeros_like(q), last.tau_ff, last.kp, last.kd)
+        held = self._held
+        return MotorCommand(command.stamp_s, held.q_des, held.qd_des, held.tau_ff, held.kp, held.kd)
+
+    def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
+        gearing, most = self._gearing, self._most
+        columns = (
+            np.clip(gearing.motor_q(command.q_des), -most[0], most[0]),
+            np.clip(gearing.motor_qd(command.qd_des), -most[1], most[1]),
+            command.kp / gearing.stiffness,
+            command.kd / gearing.stiffness,
+            np.clip(gearing.motor_tau(command.tau_ff), -most[2], most[2]),
+        )
+        for queue in self.queues.values():
+            queue.forget()
+        rows = list(zip(*(column.tolist() for column in columns), strict=True))
+        frames: list[bytes] = [b""] * len(rows)
+        now_s = self._clock.now_s()
+        for index in self._turns:  # the first of every bus, then the second: all are busy at once
+            one = self._motors[index]
+            frame = one.family.command(one.id, self.ranges[index], Target(*rows[index]))
+            frames[index] = frame.data
+            queue = self.queues[one.bus]
+            queue.put(one.id, frame)
+            queue.flush(ports, now_s)
+        self._asked = True
+        said = [
+            one.family.target(data, ranges)
+            for one, data, ranges in zip(self._motors, frames, self.ranges, strict=True)
+        ]
+        q, qd, kp, kd, tau = np.array(said).T
+        return MotorCommand(
+            command.stamp_s, gearing.joint_q(q), gearing.joint_qd(qd), gearing.joint_tau(tau),
+            kp * gearing.stiffness, kd * gearing.stiffness,
+        )  # fmt: skip
+
+    def _flush(self, ports: Ports) -> None:
+        now_s = self._clock.now_s()
+        for queue in self.queues.values():
+            queue.flush(ports, now_s)
+
+    def _opened(self) -> Ports:
+        if self._ports is None:
+            raise DriverError("the motors are not open")
+        return self._ports
+
+
+def _turns(joints: JointMap) -> list[int]:
+    """Indices of joints: the first of every bus, then the second of every bus, and so on."""
+    on_bus: Counter[str] = Counter()
+    ranks: list[int] = []
+    for one in joints.joints.values():
+        ranks.append(on_bus[one.bus])
+        on_bus[one.bus] += 1
+    return sorted(range(len(ranks)), key=ranks.__getitem__)

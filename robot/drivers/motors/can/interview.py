@@ -1,0 +1,161 @@
+"""What motors say of themselves when they are asked: before anything is enabled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from robot.clock import Clock
+from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.mit11 import Feedback, Ranges
+from robot.drivers.motors.can.ports import Heard, Ports
+
+ANSWERS_WITHIN_S = 0.008
+"""To a frame that had to wait for all others of its bus: they take 0.14 ms each."""
+WAITS_S = (ANSWERS_WITHIN_S, 2 * ANSWERS_WITHIN_S, 10 * ANSWERS_WITHIN_S)
+"""For one try after the other: an adapter on USB, or a busy machine, may take its time."""
+
+
+@dataclass
+class Answers:
+    """Of one joint's motor.
+
+    Attributes:
+        registers: values by number.
+        answered_as: identifiers that it answered under.
+        replies: the most replies that came to one question: two of one identifier are two motors.
+        feedback: its state, at its shaft; None if it did not tell.
+    """
+
+    registers: dict[int, float] = field(default_factory=dict[int, float])
+    answered_as: set[int] = field(default_factory=set[int])
+    replies: int = 0
+    feedback: Feedback | None = None
+
+    def ranges(self, asking: Asking) -> Ranges | None:
+        """What its frames stand for; None if it did not tell."""
+        numbers = asking.settings.ranges
+        if any(number not in self.registers for number in numbers):
+            return None
+        return Ranges(*(self.registers[number] for number in numbers))
+
+
+def interview(ports: Ports, clock: Clock, joints: JointMap) -> dict[str, Answers]:
+    """Ask every motor of a map; those that cannot be asked say nothing.
+
+    Raises:
+        DriverError: if a bus is down.
+    """
+    asked = {name: one for name, one in joints.joints.items() if one.family.asking is not None}
+    answers = {name: Answers() for name in joints.joints}
+    if not asked:
+        return answers
+    settings = _asking(next(iter(asked.values()))).settings
+    numbers = (
+        *settings.ranges, settings.mode, settings.watchdog, settings.version,
+        settings.over_temperature,
+    )  # fmt: skip
+    for one_a_bus in _turns(asked):
+        read_registers(ports, clock, one_a_bus, answers, settings.own_id)
+    for number in numbers:
+        read_registers(ports, clock, asked, answers, number)
+    _feedback(ports, clock, asked, answers)
+    return answers
+
+
+def _turns(joints: Mapping[str, JointMotor]) -> list[dict[str, JointMotor]]:
+    """One joint of each bus at a time: on a full bus, two that say the same at once are one."""
+    turns: list[dict[str, JointMotor]] = []
+    counts: dict[str, int] = {}
+    for name, one in joints.items():
+        turn = counts[one.bus] = counts.get(one.bus, -1) + 1
+        if turn == len(turns):
+            turns.append({})
+        turns[turn][name] = one
+    return turns
+
+
+def read_registers(
+    ports: Ports,
+    clock: Clock,
+    joints: Mapping[str, JointMotor],
+    answers: dict[str, Answers],
+    number: int,
+) -> None:
+    """Ask all of these for one register; those that did not answer, again."""
+    by_motor = {(one.bus, one.id): name for name, one in joints.items()}
+
+    def take(heard: Heard) -> None:
+        reply = None if heard.frame is None else _asking_any(joints).reply(heard.frame.data)
+        if reply is None or heard.frame is None or reply.register != number:
+            return
+        name = by_motor.get((heard.bus, reply.motor_id))
+        if name is not None:
+            counted[name] = counted.get(name, 0) + 1
+            answers[name].registers[number] = reply.value
+            answers[name].answered_as.add(heard.frame.id)
+
+    missing = dict(joints)
+    counted: dict[str, int] = {}
+    for before, wait_s in enumerate(WAITS_S):
+        frames = [(one.bus, _asking(one).read(one.id, number)) for one in missing.values()]
+        exchange(ports, clock, frames, take, wait_s=wait_s)
+        for name in missing.keys() & counted.keys():  # one asked twice may answer twice, late
+            answers[name].replies = max(answers[name].replies, counted[name] - before)
+        missing = {name: one for name, one in missing.items() if name not in counted}
+        if not missing:
+            return
+
+
+def _feedback(
+    ports: Ports, clock: Clock, joints: Mapping[str, JointMotor], answers: dict[str, Answers]
+) -> None:
+    by_reply = {(one.bus, one.answers_as): name for name, one in joints.items()}
+
+    def take(heard: Heard) -> None:
+        name = None if heard.frame is None else by_reply.get((heard.bus, heard.frame.id))
+        if name is None or heard.frame is None:
+            return
+        one = joints[name]
+        ranges = answers[name].ranges(_asking(one)) or one.expected
+        answers[name].feedback = one.family.feedback(heard.frame.data, ranges)
+
+    frames = [(one.bus, _asking(one).refresh(one.id)) for one in joints.values()]
+    for wait_s in WAITS_S:
+        exchange(ports, clock, frames, take, wait_s=wait_s)
+        if all(answers[name].feedback for name in joints if answers[name].registers):
+            return
+
+
+def exchange(
+    ports: Ports,
+    clock: Clock,
+    frames: list[tuple[str, Frame]],
+    take: Callable[[Heard], None],
+    *,
+    wait_s: float = ANSWERS_WITHIN_S,
+) -> None:
+    """Send frames as the queues take them, and hear everything for a while after the last."""
+    waiting = list(frames)
+    until_s = clock.now_s() + wait_s * max(1, len(frames) // 16)
+    while waiting and clock.now_s() < until_s:
+        waiting = [(bus, frame) for bus, frame in waiting if not ports.send(bus, frame)]
+        if waiting:
+            for heard in ports.receive(clock.now_s() + 0.001):
+                take(heard)
+    until_s = clock.now_s() + wait_s
+    while clock.now_s() < until_s:
+        for heard in ports.receive(until_s):
+            take(heard)
+
+
+def _asking(joint: JointMotor) -> Asking:
+    asking = joint.family.asking
+    assert asking is not None
+    return asking
+
+
+def _asking_any(joints: Mapping[str, JointMotor]) -> Asking:
+    return _asking(next(iter(joints.values())))

@@ -1,0 +1,275 @@
+"""Which motor moves which joint: `can.yaml` beside a robot's description, or a file of its own.
+
+rate_hz: 500
+buses:
+  left_leg: {channel: can0}
+joints:
+  left_knee: {bus: left_leg, model: DM8009, id: 4, sign: -1, offset_rad: 0.12, gear: 1.5,
+              lower_rad: 0, upper_rad: 2.4, velocity_limit_rad_s: 16, torque_limit_nm: 60}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+from robot import config, yaml_nodes
+from robot import quantities as q
+from robot.drivers.motors.can import load as bus_load
+from robot.drivers.motors.can.families import FAMILIES, Family
+from robot.drivers.motors.can.frames import BITRATE_HZ
+from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
+from robot.drivers.motors.can.models import MODELS
+from robot.errors import ConfigError, Problem
+
+FILE = "can.yaml"
+REPLIES_ABOVE = 16
+"""A motor answers under its identifier plus this, where nobody changed it."""
+WATCHDOG_PERIODS = 3
+
+Identifier: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MOST_ID)]
+Bitrate: TypeAlias = Annotated[int, msgspec.Meta(ge=10_000, le=1_000_000, extra={"unit": "bit/s"})]
+Rate: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=2000, extra={"unit": "Hz"})]
+Watchdog: TypeAlias = Annotated[float, msgspec.Meta(ge=0.005, le=1.0, extra={"unit": "s"})]
+
+
+class Bus(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A CAN bus as python-can opens it.
+
+    Attributes:
+        channel: `can0`, or what the interface calls it.
+        interface: of python-can; socketcan on a robot.
+        bitrate_hz: what it was set up with.
+    """
+
+    channel: q.Line
+    interface: q.Line = "socketcan"
+    bitrate_hz: Bitrate = BITRATE_HZ
+
+
+class MotorRanges(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a motor's registers are expected to hold, where that is not as the model is sold."""
+
+    position_rad: q.TurnRate
+    velocity_rad_s: q.TurnRate
+    torque_nm: q.Torque
+
+
+class JointMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The motor of one joint: q_joint = sign * q_motor / gear + offset_rad.
+
+    Attributes:
+        bus: one of `buses`.
+        model: a row of `robot.drivers.motors.can.models`.
+        id: it listens for this (decimal).
+        reply_id: it answers under this; 0: its `id` plus 16.
+        sign: -1 where the joint turns the other way.
+        offset_rad: the joint's angle where the motor says 0.
+        gear: turns of the motor's output for one of the joint (a belt behind it).
+        lower_rad, upper_rad: the joint is sent nowhere else.
+        velocity_limit_rad_s, torque_limit_nm: of the joint.
+        over_temperature_c: it is derated above, and let go where its own limit is.
+        ranges: what its registers hold.
+    """
+
+    bus: str
+    model: str
+    id: Identifier
+    reply_id: Annotated[int, msgspec.Meta(ge=0, le=MOST_ID)] = 0
+    sign: Literal[1, -1] = 1
+    offset_rad: q.Joint = 0.0
+    gear: q.Ratio = 1.0
+    lower_rad: q.Joint
+    upper_rad: q.Joint
+    velocity_limit_rad_s: q.TurnRate
+    torque_limit_nm: q.Torque
+    over_temperature_c: q.Heat = 80.0
+    ranges: MotorRanges | None = None
+
+    @property
+    def answers_as(self) -> int:
+        """The identifier of its replies."""
+        return self.reply_id or self.id + REPLIES_ABOVE
+
+    @property
+    def family(self) -> Family:
+        """How it is spoken to."""
+        return FAMILIES[MODELS[self.model].family]
+
+    @property
+    def expected(self) -> Ranges:
+        """What its registers are expected to hold."""
+        known = self.ranges or MODELS[self.model]
+        return Ranges(known.position_rad, known.velocity_rad_s, known.torque_nm)
+
+    def motor_rad(self, joint_rad: float) -> float:
+        """The motor's angle at one of the joint's."""
+        return self.sign * self.gear * (joint_rad - self.offset_rad)
+
+    def joint_rad(self, motor_rad: float) -> float:
+        """The joint's angle at one of the motor's."""
+        return self.sign * motor_rad / self.gear + self.offset_rad
+
+
+class JointMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All motors of a robot, or of a part of one.
+
+    Attributes:
+        rate_hz: how often each is commanded.
+        watchdog_s: a motor lets go after so long without a command; written into it at the start.
+        buses: by name.
+        joints: by name, in the order of every array.
+        file: where it was read, for people.
+    """
+
+    rate_hz: Rate
+    watchdog_s: Watchdog = 0.02
+    buses: dict[str, Bus]
+    joints: dict[str, JointMotor]
+    file: str = ""
+
+    @property
+    def period_s(self) -> float:
+        """Between two commands."""
+        return 1.0 / self.rate_hz
+
+    def on(self, bus: str) -> dict[str, JointMotor]:
+        """The joints of a bus."""
+        return {name: joint for name, joint in self.joints.items() if joint.bus == bus}
+
+    def load(self, bus: str) -> float:
+        """The share of its time that a bus is busy."""
+        bitrate_hz = self.buses[bus].bitrate_hz
+        return sum(
+            bus_load.load(
+                1, self.rate_hz, is_extended=joint.family.is_extended, bitrate_hz=bitrate_hz
+            )
+            for joint in self.on(bus).values()
+        )
+
+
+def load(path: Path | str) -> JointMap:
+    """Read a map.
+
+    Raises:
+        ConfigError: with everything that is wrong in it, each with its line and a cure.
+    """
+    node = yaml_nodes.read(path, begin_with="rate_hz: 500")
+    found = msgspec.structs.replace(config.convert(node, JointMap), file=str(path))
+    places = [*_names(found), *_identifiers(found), *_limits(found), *_loads(found)]
+    if places:
+        raise ConfigError([config.place(node, where).problem(*what) for where, *what in places])
+    return found
+
+
+def of_robot(found: JointMap, motors: Sequence[str]) -> JointMap:
+    """A map with its joints in a robot's motor order.
+
+    Raises:
+        ConfigError: if it lacks a motor, or has one that the robot has not.
+    """
+    missing = [name for name in motors if name not in found.joints]
+    foreign = [name for name in found.joints if name not in motors]
+    problems = [
+        Problem(f"no motor moves the joint {name!r}", found.file, suggestion="add it to joints")
+        for name in missing
+    ]
+    problems += [
+        Problem(
+            f"the robot has no motor {name!r}", found.file, suggestion=config.nearest(name, motors)
+        )
+        for name in foreign
+    ]
+    if problems:
+        raise ConfigError(problems)
+    return msgspec.structs.replace(found, joints={name: found.joints[name] for name in motors})
+
+
+Wrong: TypeAlias = tuple[str, str, str]
+"""A place in the file, what is wrong there, the cure."""
+
+
+def _names(found: JointMap) -> Iterator[Wrong]:
+    if not found.joints:
+        yield "$.joints", "no joint stands here", "name one, see docs/hardware.md"
+    for name, joint in found.joints.items():
+        where = f"$.joints.{name}"
+        if joint.bus not in found.buses:
+            cure = config.nearest(joint.bus, list(found.buses)) or "add it to buses"
+            yield f"{where}.bus", f"there is no bus {joint.bus!r}", cure
+        if joint.model not in MODELS:
+            cure = config.nearest(joint.model, list(MODELS)) or f"one of {', '.join(MODELS)}"
+            yield f"{where}.model", f"unknown model {joint.model!r}", cure
+        elif joint.family.asking is None and joint.ranges is None:
+            text = f"a {joint.model} cannot be asked what its frames stand for"
+            yield f"{where}.model", text, "say its ranges, as the maker's tool shows them"
+
+
+def _identifiers(found: JointMap) -> Iterator[Wrong]:
+    """Two that share an identifier answer at once, and neither can be told from the other."""
+    for bus in found.buses:
+        taken: dict[int, str] = {}
+        for name, joint in found.on(bus).items():
+            for key, number in (("id", joint.id), ("reply_id", joint.answers_as)):
+                if number in taken:
+                    text = f"{number} on the bus {bus!r} is {taken[number]}'s already"
+                    place = key if key == "id" or joint.reply_id else "id"
+                    cure = f"give {name} an {key} of its own, in the motor and here"
+                    yield f"$.joints.{name}.{place}", text, cure
+                taken.setdefault(number, name)
+
+
+def _limits(found: JointMap) -> Iterator[Wrong]:
+    """A limit that the motor cannot meet, or that its frames cannot say."""
+    if found.watchdog_s < WATCHDOG_PERIODS * found.period_s:
+        text = f"the watchdog ends after {found.watchdog_s * 1000:g} ms, a late period is enough"
+        cure = f"at least {WATCHDOG_PERIODS} periods: {WATCHDOG_PERIODS * found.period_s:g}"
+        yield "$.watchdog_s", text, cure
+    for name, joint in found.joints.items():
+        if joint.model not in MODELS:
+            continue
+        where, most = f"$.joints.{name}", joint.expected
+        if joint.lower_rad >= joint.upper_rad:
+            yield f"{where}.lower_rad", "lower_rad is not below upper_rad", "exchange them"
+            continue
+        for key, angle in (("lower_rad", joint.lower_rad), ("upper_rad", joint.upper_rad)):
+            turned = joint.motor_rad(angle)
+            if abs(turned) > most.position_rad:
+                text = f"there the motor is at {turned:.2f} rad, and its frames say {most[0]:g}"
+                yield f"{where}.{key}", text, "narrow the limit, or correct gear and offset_rad"
+        speed, torque = most.velocity_rad_s / joint.gear, most.torque_nm * joint.gear
+        if joint.velocity_limit_rad_s > speed * 1.0001:
+            text = f"a {joint.model} at gear {joint.gear:g} gives {speed:.3g} rad/s at most"
+            yield f"{where}.velocity_limit_rad_s", text, f"{speed:.3g} or less"
+        if joint.torque_limit_nm > torque * 1.0001:
+            text = f"a {joint.model} at gear {joint.gear:g} gives {torque:.3g} N m at most"
+            yield f"{where}.torque_limit_nm", text, f"{torque:.3g} or less"
+
+
+def _loads(found: JointMap) -> Iterator[Wrong]:
+    """A bus that cannot carry what it is asked to."""
+    if any(joint.model not in MODELS for joint in found.joints.values()):
+        return
+    for bus, settings in found.buses.items():
+        joints, share = found.on(bus), found.load(bus)
+        if share <= bus_load.MOST_LOAD:
+            continue
+        wide = any(joint.family.is_extended for joint in joints.values())
+        needed = bus_load.buses_needed(
+            len(joints), found.rate_hz, is_extended=wide, bitrate_hz=settings.bitrate_hz
+        )
+        most = bus_load.most_joints(found.rate_hz, is_extended=wide, bitrate_hz=settings.bitrate_hz)
+        text = f"{len(joints)} joints at {found.rate_hz} Hz fill it to {share:.0%}"
+        cure = (
+            f"{needed} buses are needed, {most} joints each, or {_slower(found, bus)} Hz"
+            if needed
+            else f"no number of buses is enough; {_slower(found, bus)} Hz is"
+        )
+        yield f"$.buses.{bus}", f"{text}, at most {bus_load.MOST_LOAD:.0%} is safe", cure
+
+
+def _slower(found: JointMap, bus: str) -> int:
+    return int(found.rate_hz * bus_load.MOST_LOAD / found.load(bus))

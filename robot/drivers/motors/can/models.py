@@ -1,0 +1,56 @@
+"""Models of motors, as data: what their makers say of them, and where.
+
+What a motor's frames stand for is read from the motor itself; these are what it is compared with,
+and what an emulated one begins with. Public tables differ (that of the DM4340 says 8 rad/s in
+LeRobot's, 10 in `damiao-motor`'s): what is in force is whatever the motor says.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Model(NamedTuple):
+    """A model of motor.
+
+    Attributes:
+        family: how it is spoken to (`robot.drivers.motors.can.families`).
+        position_rad, velocity_rad_s, torque_nm: the largest its frames can say, as it is sold; the
+            torque is its peak.
+        source: of these figures.
+    """
+
+    family: str
+    position_rad: float
+    velocity_rad_s: float
+    torque_nm: float
+    source: str
+
+
+_DAMIAO = "Damiao's Limit_Param table, as in damiao-motor 1.0.6"
+_LEROBOT = f"{_DAMIAO} and LeRobot's damiao tables"
+_AK = "T-Motor, AK series module driver manual, MIT mode: ranges by model"
+
+MODELS: dict[str, Model] = {
+    "DM3507": Model("damiao", 12.566, 50, 5, _DAMIAO),
+    "DM4310": Model("damiao", 12.5, 30, 10, _LEROBOT),
+    "DM4310P": Model("damiao", 12.5, 50, 10, _DAMIAO),
+    "DM4340": Model("damiao", 12.5, 10, 28, f"{_DAMIAO}; LeRobot's says 8 rad/s"),
+    "DM4340P": Model("damiao", 12.5, 10, 28, _DAMIAO),
+    "DM6006": Model("damiao", 12.5, 45, 20, _DAMIAO),
+    "DM8006": Model("damiao", 12.5, 45, 40, _DAMIAO),
+    "DM8009": Model("damiao", 12.5, 45, 54, _LEROBOT),
+    "DM10010L": Model("damiao", 12.5, 25, 200, _LEROBOT),
+    "DM10010": Model("damiao", 12.5, 20, 200, _DAMIAO),
+    "DMH3510": Model("damiao", 12.5, 280, 1, _DAMIAO),
+    "DMG6215": Model("damiao", 12.5, 45, 10, _DAMIAO),
+    "DMH6220": Model("damiao", 12.5, 45, 10, _DAMIAO),
+    "DMJH11": Model("damiao", 12.5, 10, 12, _DAMIAO),
+    "DM6248P": Model("damiao", 12.566, 20, 120, _DAMIAO),
+    "AK10-9": Model("tmotor", 12.5, 50, 65, _AK),
+    "AK60-6": Model("tmotor", 12.5, 45, 15, _AK),
+    "AK70-10": Model("tmotor", 12.5, 50, 25, _AK),
+    "AK80-6": Model("tmotor", 12.5, 76, 12, _AK),
+    "AK80-9": Model("tmotor", 12.5, 50, 18, _AK),
+    "AK80-64": Model("tmotor", 12.5, 8, 144, _AK),
+}

@@ -1,0 +1,120 @@
+"""Whether what motors say of themselves is what the joint map says of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.interview import Answers
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.watching import LOST
+
+SAME_SHARE = 1e-4
+"""Registers are single floats; a range that somebody changed differs by more."""
+SLACK_RAD = 0.05
+"""So far behind its limit a joint may stand: its end stop is softer than its limit."""
+
+
+class Finding(NamedTuple):
+    """Something about one joint's motor.
+
+    Attributes:
+        joint: its name.
+        code: for programs.
+        text: what is so, with what was expected and what was read.
+        cure: what a person does about it.
+        is_grave: whether nothing may be enabled.
+    """
+
+    joint: str
+    code: str
+    text: str
+    cure: str
+    is_grave: bool = True
+
+    def __str__(self) -> str:
+        """As a line for people."""
+        return f"{self.joint}: {self.text} ({self.cure})"
+
+
+def verdicts(joints: JointMap, answers: Mapping[str, Answers]) -> list[Finding]:
+    """All that disagrees, in the map's order."""
+    found: list[Finding] = []
+    for name, joint in joints.joints.items():
+        asking = joint.family.asking
+        if asking is not None:
+            answer = answers[name]
+            found += (
+                Finding(name, code, text, cure, is_grave=grave)
+                for code, text, cure, grave in _of_one(joint, asking, answer)
+            )
+    return found
+
+
+def _of_one(
+    joint: JointMotor, asking: Asking, answer: Answers
+) -> Iterator[tuple[str, str, str, bool]]:
+    where = f"motor {joint.id} on the bus {joint.bus!r}"
+    if not answer.registers:
+        cure = "check its power, its cable and its id; `humanoid motors scan` lists who is there"
+        yield "silent", f"{where} does not answer", cure, True
+        return
+    if answer.replies > 1:
+        text = f"{answer.replies} motors answer as {where}"
+        yield "duplicate_id", text, "leave one plugged in, and give it another id", True
+    if answer.answered_as - {joint.answers_as}:
+        others = ", ".join(map(str, sorted(answer.answered_as - {joint.answers_as})))
+        text = f"{where} answers under {others}, and not under {joint.answers_as}"
+        yield "reply_id", text, f"write reply_id: {others} into the map, or change it there", True
+    yield from _registers(joint, asking, answer)
+    yield from _state(joint, asking, answer)
+
+
+def _registers(
+    joint: JointMotor, asking: Asking, answer: Answers
+) -> Iterator[tuple[str, str, str, bool]]:
+    settings, values = asking.settings, answer.registers
+    words = zip(("position", "velocity", "torque"), settings.ranges, joint.expected, strict=True)
+    for what, number, wanted in words:
+        read = values.get(number)
+        if read is None:
+            text = f"its {what} range could not be read (register {number})"
+            yield "range_unread", text, "try again; look at the bus for lost frames", True
+        elif not math.isclose(read, wanted, rel_tol=SAME_SHARE):
+            text = f"its {what} range is {read:g} (register {number}), the map expects {wanted:g}"
+            cure = f"write {wanted:g} into the register, or its ranges into the map"
+            yield "wrong_range", text, cure, True
+    mode = values.get(settings.mode)
+    if mode is not None and int(mode) != settings.right_mode:
+        text = f"it is in mode {int(mode)}, and must be in {settings.right_mode}"
+        cure = f"write {settings.right_mode} into register {settings.mode}"
+        yield "wrong_mode", text, cure, True
+    hot_c = values.get(settings.over_temperature)
+    if hot_c is not None and hot_c < joint.over_temperature_c:
+        text = f"it lets go at {hot_c:g} °C, before the map's {joint.over_temperature_c:g}"
+        yield "trips_early", text, f"set over_temperature_c under {hot_c:g} in the map", False
+
+
+def _state(
+    joint: JointMotor, asking: Asking, answer: Answers
+) -> Iterator[tuple[str, str, str, bool]]:
+    state, ranges = answer.feedback, answer.ranges(asking)
+    if state is None or ranges is None:
+        yield "no_state", "it does not tell its state", "check the bus for lost frames", True
+        return
+    status = joint.family.status(state.status)
+    if status.is_fault:
+        grave = status.code != LOST
+        yield status.code, f"it reports {status.code.replace('_', ' ')}", status.cure, grave
+    q_rad = joint.joint_rad(state.q_rad)
+    if joint.lower_rad - SLACK_RAD <= q_rad <= joint.upper_rad + SLACK_RAD:
+        return
+    text = f"it stands at {q_rad:.2f} rad, outside {joint.lower_rad:g} to {joint.upper_rad:g}"
+    mirrored = 2.0 * joint.offset_rad - q_rad
+    if joint.lower_rad <= mirrored <= joint.upper_rad:
+        cure = f"is its sign {-joint.sign}? then it stands at {mirrored:.2f} rad"
+        yield "sign", text, cure, True
+        return
+    yield "offset", text, "measure offset_rad, or bring the joint between its stops", True

@@ -1,0 +1,100 @@
+"""Motors on a bench: what a joint map says there is, emulated, each with a shaft of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import cast
+
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.errors import ConfigError, Problem
+from robot.misfits import nearest
+from sim.devices.damiao import FLAWS, Damiao, Flaw
+from sim.devices.shaft import FreeShaft
+from sim.devices.wire import Wire
+
+LATER_S = 30e-6
+SWING_RAD_S = 0.4
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Emulated buses with their motors.
+
+    Attributes:
+        wires: by the map's names of buses.
+        motors: by the map's names of joints.
+        others: what is there and in no map: a second motor with the same identifier.
+    """
+
+    wires: Mapping[str, Wire]
+    motors: Mapping[str, Damiao]
+    others: tuple[Damiao, ...] = ()
+
+    @property
+    def devices(self) -> tuple[Damiao, ...]:
+        """Whose time goes by."""
+        return (*self.motors.values(), *self.others)
+
+    def advance(self, until_s: float) -> None:
+        """Let time go by up to a moment."""
+        for wire in self.wires.values():
+            wire.advance(until_s)
+        for device in self.devices:
+            device.live(until_s)
+
+
+def build(wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, str] | None = None) -> Bench:
+    """The motors of a map, in the middle of their joints' ranges and swinging a little.
+
+    Args:
+        wanted: the map.
+        now_s: when their time begins.
+        flaws: what is wrong with whom, by joint.
+
+    Raises:
+        ConfigError: if a joint or a flaw is unknown, or a motor's family is not emulated.
+    """
+    flaws = flaws or {}
+    _check(wanted, flaws)
+    buses = wanted.buses.items()
+    wires = {name: Wire(bitrate_hz=bus.bitrate_hz, now_s=now_s) for name, bus in buses}
+    motors: dict[str, Damiao] = {}
+    others: list[Damiao] = []
+    for name, joint in wanted.joints.items():
+        motors[name] = _motor(joint, wires[joint.bus])
+        if (flaw := flaws.get(name)) is not None:
+            motors[name].suffer(cast("Flaw", flaw))
+            if flaw == "twin":
+                others.append(_motor(joint, wires[joint.bus], ahead_rad=0.1, later_s=LATER_S))
+    return Bench(wires, motors, tuple(others))
+
+
+def _motor(
+    joint: JointMotor, wire: Wire, *, ahead_rad: float = 0.0, later_s: float = 0.0
+) -> Damiao:
+    middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
+    shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
+    shaft.qd_rad_s = SWING_RAD_S
+    sold = joint.expected
+    return Damiao(
+        wire, shaft, joint.id, joint.answers_as, sold.position_rad, sold.velocity_rad_s,
+        sold.torque_nm, later_s=later_s,
+    )  # fmt: skip
+
+
+def _check(wanted: JointMap, flaws: Mapping[str, str]) -> None:
+    problems: list[Problem] = []
+    for name, flaw in flaws.items():
+        if name not in wanted.joints:
+            cure = nearest(name, list(wanted.joints))
+            problems.append(Problem(f"there is no joint {name!r}", suggestion=cure))
+        if flaw not in FLAWS:
+            cure = nearest(flaw, list(FLAWS)) or f"one of {', '.join(FLAWS)}"
+            problems.append(Problem(f"unknown flaw {flaw!r}", suggestion=cure))
+    for name, joint in wanted.joints.items():
+        if joint.family.asking is None:
+            text = f"{name}: a {joint.model} is not emulated"
+            problems.append(Problem(text, wanted.file, suggestion="Damiao's are"))
+    if problems:
+        raise ConfigError(problems)

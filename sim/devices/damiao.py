@@ -1,0 +1,250 @@
+"""A Damiao motor, from its manual: states, watchdog, registers, heat, what can be wrong with it.
+
+Written like the C of the manual (whole steps are cut off, not rounded), apart from the driver.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+from sim.devices.shaft import Shaft
+from sim.devices.wire import CanFrame, Wire
+
+STEP_S = 0.0005
+"""Of the firmware's loop here; a real one runs at 20 kHz."""
+AMBIENT_C = 25.0
+ANSWERS_AFTER_S = 40e-6
+WATCHDOG_UNIT_S = 50e-6
+DRIVER_TRIPS_C = 120.0
+KP_LIMIT, KD_LIMIT = 500.0, 5.0
+
+Flaw = Literal[
+    "silent", "loses_replies", "short_frames", "slow_speed", "wrong_range", "no_watchdog",
+    "hot", "low_volts", "over_current", "wrong_mode", "twin",
+]  # fmt: skip
+"""What can be wrong from the start, by name."""
+FLAWS: tuple[Flaw, ...] = get_args(Flaw)
+
+
+@dataclass
+class Trouble:
+    """What goes wrong with one motor.
+
+    Attributes:
+        silent: it never answers.
+        loses: so many of its next replies do not go out.
+        short: its replies lack their last two bytes.
+        speed_scale: it reports its speed times this.
+        status: a status code that it falls into, None of its own accord.
+    """
+
+    silent: bool = False
+    loses: int = 0
+    short: bool = False
+    speed_scale: float = 1.0
+    status: int | None = None
+
+
+@dataclass
+class Ordered:
+    """The command in force."""
+
+    q_rad: float = 0.0
+    qd_rad_s: float = 0.0
+    kp: float = 0.0
+    kd: float = 0.0
+    tau_nm: float = 0.0
+
+
+@dataclass
+class Damiao:
+    """One motor on a wire.
+
+    Attributes:
+        wire, shaft: what it is plugged into, and what it turns.
+        motor_id, reply_id: whom it listens for, and as whom it answers.
+        position_rad, velocity_rad_s, torque_nm: registers 21 to 23 as it is sold.
+        later_s: by how much later it answers than others do.
+        trouble: what is wrong with it.
+        winding_c, driver_c, volts: what it measures.
+    """
+
+    wire: Wire
+    shaft: Shaft
+    motor_id: int
+    reply_id: int
+    position_rad: float
+    velocity_rad_s: float
+    torque_nm: float
+    later_s: float = 0.0
+    trouble: Trouble = field(default_factory=Trouble)
+    winding_c: float = AMBIENT_C
+    driver_c: float = AMBIENT_C
+    volts: float = 24.0
+    heat_k_s: float = 4.0
+
+    def __post_init__(self) -> None:
+        """Switch on: disabled, watchdog off, as delivered."""
+        self.status = 0
+        self.tau_nm = 0.0
+        self.registers: dict[int, float] = {
+            0: 15.0, 2: 100.0, 7: self.reply_id, 8: self.motor_id, 9: 0, 10: 1, 13: 0, 14: 5014,
+            15: 0, 20: 10.0, 21: self.position_rad, 22: self.velocity_rad_s, 23: self.torque_nm,
+            29: 32.0, 35: 4, 36: 0,
+        }  # fmt: skip
+        self._ordered = Ordered()
+        self._heard_s = self._lived_s = self.wire.now_s
+        self._node = self.wire.attach(self.hear)
+
+    def suffer(self, flaw: Flaw) -> None:
+        """Have something wrong; what `twin` means is up to who builds the bus."""
+        match flaw:
+            case "silent":
+                self.trouble.silent = True
+            case "loses_replies":
+                self.trouble.loses = 1_000_000_000
+            case "short_frames":
+                self.trouble.short = True
+            case "slow_speed":
+                self.trouble.speed_scale = 0.5
+            case "wrong_range":
+                self.registers[21] *= 0.5
+            case "no_watchdog":
+                self.registers.pop(9)
+            case "wrong_mode":
+                self.registers[10] = 2
+            case "hot":
+                self.winding_c = self.registers[2] + 1.0
+            case "low_volts":
+                self.volts = self.registers[0] - 1.0
+            case "over_current":
+                self.trouble.status = 0xA
+            case "twin":
+                pass
+
+    # --- the wire ----------------------------------------------------------------------------
+
+    def hear(self, frame: CanFrame, now_s: float) -> None:
+        """A frame of somebody else's went by."""
+        if frame.id not in (self.registers[8], 0x7FF) or frame.extended or len(frame.data) != 8:
+            return
+        if frame.id == 0x7FF:
+            if frame.data[0] | frame.data[1] << 8 == int(self.registers[8]):
+                self.live(now_s)
+                self._of_registers(frame.data, now_s)
+        else:
+            self.live(now_s)
+            self._heard_s = now_s
+            self._obey(frame.data)
+            self._answer(self._feedback(), now_s)
+
+    def _obey(self, data: bytes) -> None:
+        if data[:7] == b"\xff\xff\xff\xff\xff\xff\xff" and data[7] >= 0xFB:
+            if data[7] == 0xFC and self.status == 0 and int(self.registers[10]) == 1:
+                self.status, self._ordered = 1, Ordered()
+            elif (data[7] == 0xFD and self.status == 1) or (data[7] == 0xFB and self.status > 1):
+                self.status = 0
+            return
+        if self.status != 1 or int(self.registers[10]) != 1:
+            return
+        b = data
+        self._ordered = Ordered(
+            q_rad=_real(b[0] << 8 | b[1], -self.registers[21], self.registers[21], 16),
+            qd_rad_s=_real(b[2] << 4 | b[3] >> 4, -self.registers[22], self.registers[22], 12),
+            kp=_real((b[3] & 0xF) << 8 | b[4], 0.0, KP_LIMIT, 12),
+            kd=_real(b[5] << 4 | b[6] >> 4, 0.0, KD_LIMIT, 12),
+            tau_nm=_real((b[6] & 0xF) << 8 | b[7], -self.registers[23], self.registers[23], 12),
+        )
+
+    def _of_registers(self, data: bytes, now_s: float) -> None:
+        what, number = data[2], data[3]
+        if what == 0xCC:
+            self._answer(self._feedback(), now_s)
+        elif what == 0xAA:
+            self._answer(data[:4] + bytes(4), now_s)
+        elif what in (0x33, 0x55):
+            if what == 0x55 and number in (0, 2, 7, 8, 9, 10, 21, 22, 23, 29, 35):
+                whole = number in (7, 8, 9, 10, 35)
+                (value,) = struct.unpack("<I" if whole else "<f", data[4:])
+                if number != 9 or 9 in self.registers:
+                    self.registers[number] = value
+            value = self._register(number)
+            whole = number in (7, 8, 9, 10, 13, 14, 15, 16, 35, 36)
+            packed = struct.pack("<I", int(value)) if whole else struct.pack("<f", value)
+            own = int(self.registers[8])
+            self._answer(bytes((own & 0xFF, own >> 8, what, number)) + packed, now_s)
+
+    def _register(self, number: int) -> float:
+        measured = {60: self.volts, 61: self.driver_c, 62: self.winding_c, 80: self.shaft.q_rad}
+        return measured.get(number, self.registers.get(number, 0.0))
+
+    def _feedback(self) -> bytes:
+        speed = self.shaft.qd_rad_s * self.trouble.speed_scale
+        q = _steps(self.shaft.q_rad, self.registers[21], 16)
+        v = _steps(speed, self.registers[22], 12)
+        t = _steps(self.tau_nm, self.registers[23], 12)
+        return bytes(
+            (
+                self.status << 4 | int(self.registers[8]) & 0xF,
+                q >> 8, q & 0xFF, v >> 4, (v & 0xF) << 4 | t >> 8, t & 0xFF,
+                min(255, int(self.driver_c)), min(255, int(self.winding_c)),
+            )
+        )  # fmt: skip
+
+    def _answer(self, data: bytes, now_s: float) -> None:
+        if self.trouble.silent:
+            return
+        if self.trouble.loses:
+            self.trouble.loses -= 1
+            return
+        data = data[:6] if self.trouble.short else data
+        frame = CanFrame(int(self.registers[7]), data)
+        self._node.send(frame, now_s + ANSWERS_AFTER_S + self.later_s)
+
+    # --- the firmware's loop -----------------------------------------------------------------
+
+    def live(self, until_s: float) -> None:
+        """Let time go by up to a moment, in whole steps."""
+        span_s = STEP_S
+        while self._lived_s + span_s <= until_s:
+            self._lived_s += span_s
+            self._watch()
+            self.tau_nm = self._torque() if self.status == 1 else 0.0
+            load = abs(self.tau_nm) / self.registers[23]
+            cooling = 0.02 * (self.winding_c - AMBIENT_C)
+            self.winding_c += span_s * (self.heat_k_s * load * load - cooling)
+            self.shaft.turn(self.tau_nm, span_s)
+
+    def _watch(self) -> None:
+        """Fall into a fault; also a disabled motor tells of heat and volts."""
+        found = self.trouble.status
+        timeout_s = self.registers.get(9, 0) * WATCHDOG_UNIT_S
+        if self.volts < self.registers[0]:
+            found = 0x9
+        elif self.volts > self.registers[29]:
+            found = 0x8
+        elif self.driver_c > DRIVER_TRIPS_C:
+            found = 0xB
+        elif self.winding_c > self.registers[2]:
+            found = 0xC
+        elif self.status == 1 and timeout_s and self._lived_s - self._heard_s > timeout_s:
+            found = 0xD
+        if found is not None:
+            self.status = found
+
+    def _torque(self) -> float:
+        o, most = self._ordered, self.registers[23]
+        shaft = self.shaft
+        wanted = o.kp * (o.q_rad - shaft.q_rad) + o.kd * (o.qd_rad_s - shaft.qd_rad_s) + o.tau_nm
+        return max(-most, min(most, wanted))
+
+
+def _real(steps: int, low: float, high: float, bits: int) -> float:
+    return steps * (high - low) / ((1 << bits) - 1) + low
+
+
+def _steps(value: float, most: float, bits: int) -> int:
+    share = (max(-most, min(most, value)) + most) / (2.0 * most)
+    return int(share * ((1 << bits) - 1))

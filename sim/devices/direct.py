@@ -1,0 +1,67 @@
+"""A driver's ports straight onto emulated wires, in simulated time: no socket, no process."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from typing import Self
+
+from robot.clock import SimulatedClock
+from robot.closing import Closing
+from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.ports import Heard
+from sim.devices.bench import Bench
+from sim.devices.server import QUEUE_FRAMES
+from sim.devices.wire import CanFrame, Node
+
+
+class DirectPorts(Closing):
+    """The `Ports` of one program; waiting moves the clock, the wires and the devices on."""
+
+    def __init__(self, bench: Bench, clock: SimulatedClock) -> None:
+        """Know the bench; nothing is plugged in."""
+        self._bench, self._clock = bench, clock
+        self._nodes: dict[str, Node] = {}
+        self._heard: deque[Heard] = deque()
+
+    def __enter__(self) -> Self:
+        """Plug a controller into every wire."""
+        for name, wire in self._bench.wires.items():
+            self._nodes[name] = wire.attach(
+                lambda frame, _, name=name: self._hear(name, frame),
+                room=QUEUE_FRAMES,
+                on_off=lambda name=name: self._heard.append(Heard(name, None)),
+            )
+        return self
+
+    def _hear(self, bus: str, frame: CanFrame) -> None:
+        self._heard.append(Heard(bus, Frame(frame.id, frame.data, frame.extended)))
+
+    def node(self, bus: str) -> Node:
+        """The controller on a wire."""
+        return self._nodes[bus]
+
+    def send(self, bus: str, frame: Frame) -> bool:
+        """Queue a frame; False if there is no room."""
+        sent = CanFrame(frame.id, frame.data, frame.is_extended)
+        return self._nodes[bus].send(sent, self._clock.now_s())
+
+    def receive(self, until_s: float) -> Sequence[Heard]:
+        """What came in until a time; as soon as anything did."""
+        wires = self._bench.wires.values()
+        while not self._heard:
+            next_s = max(self._clock.now_s(), min(wire.next_s for wire in wires))
+            now_s = min(next_s, max(until_s, self._clock.now_s()))
+            self._clock.sleep_until(now_s)
+            self._bench.advance(now_s)
+            if now_s >= until_s:
+                break
+        heard = list(self._heard)
+        self._heard.clear()
+        return heard
+
+    def close(self) -> None:
+        """Pull the plugs."""
+        for name, node in self._nodes.items():
+            self._bench.wires[name].detach(node)
+        self._nodes.clear()

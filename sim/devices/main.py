@@ -1,0 +1,35 @@
+"""Emulated motors as a process: `python -m sim.devices.main PARENT MAP FOLDER JOINT=FLAW...`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from robot.bus.lifeline import Stop, tie_to_parent
+from robot.clock import WallClock
+from robot.drivers.motors.can import joint_map
+from sim.devices import bench
+from sim.devices.server import CanServer
+
+STOP_SEEN_EVERY_S = 0.1
+READY = "ready"
+"""A file that says that all sockets are there."""
+
+
+def main(parent_pid: str, file: str, folder: str, *flaws: str) -> None:
+    """Load, build, run, close."""
+    tie_to_parent(int(parent_pid))
+    clock, stop = WallClock(), Stop()
+    wanted = joint_map.load(file)
+    pairs = dict(flaw.split("=", 1) for flaw in flaws)
+    built = bench.build(wanted, now_s=clock.now_s(), flaws=pairs)
+    paths = [Path(folder) / f"bus{index}" for index in range(len(wanted.buses))]
+    wires = list(zip(paths, built.wires.values(), strict=True))
+    with CanServer(wires, built.devices, clock) as server:
+        (Path(folder) / READY).touch()
+        while not stop:
+            server.serve(clock.now_s() + STOP_SEEN_EVERY_S)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,207 @@
+"""A CAN bus: bit times, arbitration, transmit queues that fill, error counters, bus-off.
+
+It has no clock of its own: `advance` plays what happens up to a time. Every frame takes as long as
+with the most stuffing bits that it can have, so that a bus here is never faster than a real one.
+Source: ISO 11898-1 (arbitration, fault confinement); CAN specification 2.0, part B.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import NamedTuple
+
+PASSIVE_AT, OFF_AT = 128, 256
+TRANSMIT_ERROR, RECEIVE_ERROR = 8, 1
+ERROR_BITS = 23
+"""An error flag, its echo, the delimiter and the pause."""
+NEVER = float("inf")
+
+
+class CanFrame(NamedTuple):
+    """A data frame: identifier of 11 bits, or of 29; up to 8 bytes."""
+
+    id: int
+    data: bytes
+    extended: bool = False
+
+    def priority(self) -> tuple[int, int]:
+        """The lower wins: the first 11 bits, then a short identifier over a long one."""
+        return (self.id >> 18, 1 + (self.id & 0x3FFFF)) if self.extended else (self.id, 0)
+
+    def bits(self) -> int:
+        """On the wire at worst, with the pause behind it."""
+        payload = 8 * len(self.data)
+        fixed, exposed = (64, 54) if self.extended else (44, 34)
+        return fixed + payload + (exposed + payload - 1) // 4 + 3
+
+
+class Node:
+    """A CAN controller on a wire.
+
+    Attributes:
+        transmit_errors, receive_errors: its counters.
+        is_off: it took itself off the bus, until `restart`.
+        garbles: how many of its next frames nobody can read.
+        dropped: frames that its full queue did not take.
+        ready_s: when its first frame wants the wire; `NEVER` if there is none.
+    """
+
+    def __init__(
+        self, hears: Callable[[CanFrame, float], None], *, room: int, on_off: Callable[[], None]
+    ) -> None:
+        """A controller whose queue has room for so many frames."""
+        self.hears, self.on_off = hears, on_off
+        self.transmit_errors = self.receive_errors = 0
+        self.is_off = False
+        self.garbles = 0
+        self.dropped = 0
+        self.ready_s = NEVER
+        self._room = room
+        self._queue: deque[tuple[float, CanFrame]] = deque()
+
+    @property
+    def has_room(self) -> bool:
+        """Whether its queue takes another frame."""
+        return len(self._queue) < self._room
+
+    def send(self, frame: CanFrame, at_s: float) -> bool:
+        """Queue a frame, to go out at a time or later; False if there is no room."""
+        if self.is_off or not self.has_room:
+            self.dropped += 1
+            return False
+        self._queue.append((at_s, frame))
+        if len(self._queue) == 1:
+            self.ready_s = at_s
+        return True
+
+    def restart(self) -> None:
+        """Come back onto the bus, as after 128 idle times of 11 bits."""
+        self.is_off = False
+        self.transmit_errors = self.receive_errors = 0
+
+    def first(self) -> CanFrame:
+        """The frame that wants the wire."""
+        return self._queue[0][1]
+
+    def sent(self) -> None:
+        """It went through."""
+        self._queue.popleft()
+        self.ready_s = self._queue[0][0] if self._queue else NEVER
+        self.transmit_errors = max(0, self.transmit_errors - 1)
+
+    def failed(self, *, unheard: bool = False) -> None:
+        """It did not, and is tried again; one whom nobody hears at all gets passive and no more."""
+        if unheard and self.transmit_errors >= PASSIVE_AT:
+            return
+        self.transmit_errors += TRANSMIT_ERROR
+        if self.transmit_errors >= OFF_AT:
+            self.is_off = True
+            self._queue.clear()
+            self.ready_s = NEVER
+            self.on_off()
+
+
+class Wire:
+    """The wire between nodes.
+
+    Attributes:
+        now_s: up to when it was played.
+        busy_s: for how long of that it carried something.
+    """
+
+    def __init__(self, *, bitrate_hz: float = 1e6, now_s: float = 0.0) -> None:
+        """An idle wire, from a time on."""
+        self.now_s, self.busy_s = now_s, 0.0
+        self.nodes: list[Node] = []
+        self._bit_s = 1.0 / bitrate_hz
+        self._senders: list[Node] = []
+        self._ends_s = NEVER
+
+    def attach(
+        self,
+        hears: Callable[[CanFrame, float], None],
+        *,
+        room: int = 64,
+        on_off: Callable[[], None] = lambda: None,
+    ) -> Node:
+        """Connect a controller.
+
+        Args:
+            hears: is told every frame of the others, and when it was complete.
+            room: of its transmit queue, in frames.
+            on_off: is told when it goes off the bus.
+        """
+        node = Node(hears, room=room, on_off=on_off)
+        self.nodes.append(node)
+        return node
+
+    def detach(self, node: Node) -> None:
+        """Pull its plug."""
+        self.nodes.remove(node)
+        if node in self._senders:
+            self._senders.remove(node)
+
+    @property
+    def next_s(self) -> float:
+        """When the next thing happens; `NEVER` if nobody wants to send."""
+        if self._ends_s < NEVER:
+            return self._ends_s
+        first_s = NEVER
+        for node in self.nodes:
+            first_s = min(first_s, node.ready_s)
+        return first_s if first_s > self.now_s else self.now_s
+
+    def advance(self, until_s: float) -> None:
+        """Play what happens up to a time."""
+        while (at_s := self.next_s) <= until_s:
+            self.now_s = at_s
+            if self._ends_s < NEVER:
+                self._finish()
+            else:
+                self._begin()
+        self.now_s = max(self.now_s, until_s)
+
+    def _begin(self) -> None:
+        """Arbitration: whoever is ready begins at once, and the lowest identifier goes on."""
+        ready = [node for node in self.nodes if node.ready_s <= self.now_s]
+        if len(ready) > 1:
+            best = min(node.first().priority() for node in ready)
+            ready = [node for node in ready if node.first().priority() == best]
+        self._senders = ready
+        bits = self._senders[0].first().bits()
+        spoilt = self._spoilt()
+        took_s = self._bit_s * (bits + (ERROR_BITS if spoilt else 0))
+        self._ends_s = self.now_s + took_s
+        self.busy_s += took_s
+
+    def _spoilt(self) -> bool:
+        """Whether nobody can read it: two say different things at once, or one is broken."""
+        if len(self._senders) == 1:
+            return self._senders[0].garbles > 0
+        frames = {node.first() for node in self._senders}
+        return len(frames) > 1 or any(node.garbles for node in self._senders)
+
+    def _finish(self) -> None:
+        self._ends_s = NEVER
+        senders, self._senders = self._senders, []
+        if not senders:  # unplugged in the middle of it
+            return
+        others = [node for node in self.nodes if node not in senders and not node.is_off]
+        self._senders = senders
+        spoilt = self._spoilt()
+        self._senders = []
+        frame = senders[0].first()
+        if spoilt or not others:
+            for node in senders:
+                node.garbles = max(0, node.garbles - 1)
+                node.failed(unheard=not spoilt)
+            for node in others:
+                node.receive_errors = min(PASSIVE_AT, node.receive_errors + RECEIVE_ERROR)
+            return
+        for node in senders:
+            node.sent()
+        for node in others:
+            if node.receive_errors:
+                node.receive_errors -= 1
+            node.hears(frame, self.now_s)

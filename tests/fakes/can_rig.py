@@ -1,0 +1,166 @@
+"""A driver of CAN motors on emulated wires, in simulated time."""
+
+import itertools
+import os
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from robot.clock import SimulatedClock
+from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
+from robot.drivers.motor_bus import MotorCommand, MotorState
+from robot.drivers.motors.can import joint_map
+from robot.drivers.motors.can.driver import CanMotors
+from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor
+from robot.model.description import RobotDescription
+from robot.se3 import Array
+from sim.devices.bench import Bench, build
+from sim.devices.damiao import Damiao, Flaw
+from sim.devices.direct import DirectPorts
+from tests.fakes.motors import motor_state
+
+ARM = """\
+rate_hz: 500
+buses:
+  arm: {channel: can0}
+joints:
+  shoulder: {bus: arm, model: DM8009, id: 1, sign: -1, offset_rad: 0.3, lower_rad: -1.5, upper_rad: 2.0, velocity_limit_rad_s: 10, torque_limit_nm: 30}
+  elbow: {bus: arm, model: DM4340, id: 2, gear: 2.0, lower_rad: 0.0, upper_rad: 2.4, velocity_limit_rad_s: 5, torque_limit_nm: 40}
+  wrist: {bus: arm, model: DM4310, id: 3, lower_rad: -1.0, upper_rad: 1.0, velocity_limit_rad_s: 10, torque_limit_nm: 7}
+"""  # noqa: E501
+
+
+def arm(folder: Path, text: str = ARM) -> JointMap:
+    """The map of a small arm."""
+    path = folder / "can.yaml"
+    path.write_text(text)
+    return joint_map.load(path)
+
+
+def limbs(buses: int, joints: int, *, rate_hz: int = 500) -> JointMap:
+    """So many buses with so many joints each."""
+    return JointMap(
+        rate_hz=rate_hz,
+        buses={f"bus{b}": Bus(channel=f"can{b}") for b in range(buses)},
+        joints={
+            f"joint{b}_{j}": JointMotor(
+                bus=f"bus{b}", model="DM8009", id=j + 1, lower_rad=-2.0, upper_rad=2.0,
+                velocity_limit_rad_s=20.0, torque_limit_nm=40.0,
+            )
+            for b in range(buses)
+            for j in range(joints)
+        },
+    )  # fmt: skip
+
+
+_numbers = itertools.count()
+
+
+def with_channels_of_its_own(joints: JointMap) -> JointMap:
+    """A channel is claimed on the whole machine, where other tests run at the same time."""
+    prefix = f"rig-{os.getpid()}-{next(_numbers)}"
+    buses = {
+        name: msgspec.structs.replace(bus, channel=f"{prefix}-{bus.channel}")
+        for name, bus in joints.buses.items()
+    }
+    return msgspec.structs.replace(joints, buses=buses)
+
+
+class Rig:
+    """A driver, its motors, and a clock."""
+
+    def __init__(self, joints: JointMap, **flaws: Flaw) -> None:
+        self.joints = joints = with_channels_of_its_own(joints)
+        self.clock = SimulatedClock(100.0)
+        self.bench: Bench = build(joints, now_s=100.0, flaws=flaws)
+        self.ports: list[DirectPorts] = []
+        self.driver = self.another()
+
+    def another(self) -> CanMotors:
+        """One more driver of the same motors."""
+
+        def ports() -> DirectPorts:
+            self.ports.append(DirectPorts(self.bench, self.clock))
+            return self.ports[-1]
+
+        return CanMotors(self.joints, self.clock, ports=ports)
+
+    def motor(self, name: str) -> Damiao:
+        """The emulated motor of a joint."""
+        return self.bench.motors[name]
+
+    def hold(self, q: float = 0.5, *, kp: float = 20.0, kd: float = 1.0) -> MotorCommand:
+        """A command to hold a posture."""
+        n = len(self.joints.joints)
+        return MotorCommand(
+            self.clock.now_s(), np.full(n, q), np.zeros(n), np.zeros(n), np.full(n, kp),
+            np.full(n, kd),
+        )  # fmt: skip
+
+    def cycle(self, count: int = 1, command: MotorCommand | None = None, **hold) -> MotorState:
+        """Write and read, so many periods."""
+        for _ in range(count):
+            asked = command or self.hold(**hold)
+            asked.stamp_s = self.clock.now_s()
+            self.driver.write(asked)
+            state = self.driver.read()
+        return state
+
+
+def can_map(robot: RobotDescription, *, a_bus: int = 5) -> JointMap:
+    """A map that drives a robot's joints with large motors, five a bus."""
+    motors = robot.motors.items()
+    return JointMap(
+        rate_hz=500,
+        buses={f"bus{b}": Bus(channel=f"can{b}") for b in range(-(-len(motors) // a_bus))},
+        joints={
+            name: JointMotor(
+                bus=f"bus{index // a_bus}", model="DM10010L", id=index % a_bus + 1, lower_rad=-3.0,
+                upper_rad=3.0, velocity_limit_rad_s=min(25.0, motor.velocity_limit_rad_s),
+                torque_limit_nm=motor.torque_limit_nm,
+            )
+            for index, (name, motor) in enumerate(motors)
+        },
+    )  # fmt: skip
+
+
+class CanPlant:
+    """What the motors of a rig measure and obey, as a plant tells it; their shafts are at rest."""
+
+    def __init__(self, rig: Rig, drivers: tuple[CanMotors, CanMotors]) -> None:
+        self.drivers = drivers
+        self._rig = rig
+        for motor in rig.bench.devices:
+            motor.shaft.qd_rad_s = 0.0
+
+    @property
+    def q(self) -> Array:
+        motors = self._rig.joints.joints.items()
+        return np.array([o.joint_rad(self._rig.motor(name).shaft.q_rad) for name, o in motors])
+
+    @property
+    def commands(self) -> list[MotorCommand]:
+        """The one in force; a stamp is in no frame."""
+        sent = [driver._sent for driver in self.drivers if driver._sent is not None]
+        orders = [motor._ordered for motor in self._rig.bench.motors.values()]
+        names = ("q_rad", "qd_rad_s", "tau_nm", "kp", "kd")
+        rows = [np.array([getattr(order, name) for order in orders]) for name in names]
+        return [MotorCommand(max(one.stamp_s for one in sent), *rows)] if sent else []
+
+    def read(self) -> BodySample:
+        devices = self._rig.bench.devices
+        state = motor_state(
+            self.q,
+            stamp_s=self._rig.clock.now_s(),
+            qd=np.array([motor.shaft.qd_rad_s for motor in devices]),
+            tau=np.array([motor.tau_nm for motor in devices]),
+            watchdog=any(motor.status != 1 for motor in devices),
+        )
+        state.command_stamp_s = self.commands[-1].stamp_s if self.commands else -np.inf
+        zero = np.zeros(3)
+        stamp_s = state.stamp_s
+        empty = np.zeros((2, 6))
+        return BodySample(
+            state, ImuReading(stamp_s, zero, zero), ForceReading(stamp_s, empty, empty)
+        )

@@ -1,0 +1,128 @@
+"""`humanoid motors`: what it says of emulated motors, and of what cannot be meant."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from executive.frontends.cli import app
+from robot.errors import ConfigError, DriverError
+from tests.fakes.can_rig import ARM
+
+CROWDED = ARM.replace("rate_hz: 500", "rate_hz: 1000")
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "arm.yaml"
+    path.write_text(ARM)
+    return path
+
+
+def motors(*words):
+    return CliRunner().invoke(app, ["motors", *map(str, words)])
+
+
+@pytest.mark.live
+def test_a_check_of_sound_motors_says_so_and_that_they_are_emulated(file):
+    result = motors("check", "--map", file, "--emulated", "--for", 1)
+    assert result.exit_code == 0, result.output
+    assert "All 3 motors are what the map says (emulated)." in result.stdout
+    assert "40%" in result.stdout  # 3 joints, 270 µs each, 500 times a second
+
+
+@pytest.mark.live
+def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
+    flaws = ("--fail", "elbow=wrong_range", "--fail", "wrist=twin", "--fail", "shoulder=silent")
+    result = motors("check", "--map", file, "--emulated", "--for", 1, *flaws)
+    assert result.exit_code == 1
+    for said in (
+        "elbow: its position range is 6.25 (register 21), the map expects 12.5",
+        "wrist: 2 motors answer as motor 3 on the bus 'arm'",
+        "shoulder: motor 1 on the bus 'arm' does not answer",
+        "cure: check its power, its cable and its id",
+        "Not one motor may be enabled",
+    ):
+        assert said in result.stdout
+
+
+@pytest.mark.live
+def test_a_check_compares_speeds_with_positions(file):
+    result = motors("check", "--map", file, "--emulated", "--fail", "wrist=slow_speed", "--json")
+    assert result.exit_code == 1
+    told = json.loads(result.stdout)
+    assert told["emulated"] is True
+    (finding,) = [one for one in told["check"]["findings"] if one["is_grave"]]
+    assert (finding["joint"], finding["code"]) == ("wrist", "speed_mismatch")
+
+
+@pytest.mark.live
+def test_scan_read_and_watch_tell_who_is_there_and_what_they_measure(file):
+    scanned = motors("scan", "--map", file, "--emulated", "--up-to", 20, "--json")
+    assert scanned.exit_code == 0, scanned.output
+    found = json.loads(scanned.stdout)["motors"]
+    assert [(one["joint"], one["id"], one["reply_id"]) for one in found] == [
+        ("shoulder", 1, 17), ("elbow", 2, 18), ("wrist", 3, 19),
+    ]  # fmt: skip
+    assert found[2]["ranges"] == [12.5, 30.0, 10.0]
+    read = motors("read", "--map", file, "--emulated", "--fail", "wrist=silent", "--json")
+    assert read.exit_code == 1
+    shoulder, _, wrist = json.loads(read.stdout)["joints"]
+    assert (shoulder["status"], shoulder["supply_v"]) == ("disabled", 24.0)
+    assert shoulder["q_rad"] == pytest.approx(0.25, abs=0.15)
+    assert (wrist["status"], wrist["q_rad"]) == ("silent", None)
+    watched = motors("watch", "--map", file, "--emulated", "--for", 0.5, "--every", 0.1)
+    assert watched.exit_code == 0, watched.output
+    assert watched.stdout.count("shoulder") >= 2
+    assert "all is well (emulated)" in watched.stdout
+
+
+@pytest.mark.live
+def test_two_that_answer_to_one_identifier_are_seen_by_a_scan(file):
+    scanned = motors("scan", "--map", file, "--emulated", "--up-to", 5, "--fail", "elbow=twin")
+    assert scanned.exit_code == 1
+    assert "2 motors answer to 2 on arm" in scanned.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["check", "--robot", "g1"], "has no joint map"),
+        (["check", "--fail", "elbow=silent"], "only emulated motors fail on request"),
+        (["read", "--emulated", "--fail", "elbow"], "names no flaw"),
+        (["read", "--emulated", "--fail", "elbow=silnt"], "did you mean 'silent'"),
+        (["watch", "--emulated", "--fail", "elbwo=silent"], "there is no joint 'elbwo'"),
+        (["scan", "--map", "nowhere.yaml"], "there is no such file"),
+    ],
+)
+def test_what_cannot_be_meant_is_said_with_its_cure(file, words, said):
+    named = words if {"--robot", "--map"} & set(words) else [*words, "--map", str(file)]
+    result = motors(*named)
+    assert isinstance(result.exception, ConfigError)
+    assert said in str(result.exception)
+
+
+def test_a_bus_that_cannot_carry_its_rate_is_refused_with_the_buses_that_could(file):
+    file.write_text(CROWDED)
+    result = motors("check", "--map", file, "--emulated")
+    assert isinstance(result.exception, ConfigError)
+    assert "2 buses are needed" in str(result.exception)
+
+
+def test_a_bus_that_is_not_there_is_an_error_with_the_command_that_sets_it_up():
+    result = motors("scan", "--channel", "nocan7")
+    assert isinstance(result.exception, DriverError)
+    assert "ip link set nocan7 up type can bitrate 1000000" in str(result.exception)
+
+
+def test_the_map_that_is_shipped_is_for_every_motor_of_juno():
+    from robot.drivers.motors.can import joint_map
+    from robot.model import description
+
+    juno = description.load("juno")
+    found = joint_map.load(juno.path().with_name(joint_map.FILE))
+    assert list(joint_map.of_robot(found, juno.motor_names).joints) == list(juno.motor_names)
+    for name, motor in juno.motors.items():
+        assert found.joints[name].torque_limit_nm == motor.torque_limit_nm
+        assert found.joints[name].velocity_limit_rad_s == motor.velocity_limit_rad_s
