@@ -153,7 +153,7 @@ class Dialogue:
 
     def _hear(self, text: str, state: RobotState) -> Turn:
         self.dropped = ""
-        if is_stop(text):
+        if is_stop(text, at_rest=not state.doing):
             self._close()
             self._asked_before.clear()
             return Goals(goals=(Stop(),), parser="stop")
@@ -292,6 +292,8 @@ class Dialogue:
         corrects = is_correction(text)
         text = in_full(text, before, self.vocabulary)
         outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
+        if state.doing and isinstance(outcome, Question) and outcome.goals == (Stop(),):
+            outcome = Goals(goals=(Stop(),))  # whatever it hangs on: to stop at once is safe
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
             self._repeats += 1
             again = opened.question.removeprefix("I did not get that. ")

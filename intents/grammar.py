@@ -73,6 +73,10 @@ _KEPT = re.compile(r"\b(let(ting)? go|releas(e|ing)|put(ting)? (it|them|that) do
 """What is to stay in the hand, and cannot where it is handed on or put somewhere."""
 
 
+_NO_MORE = re.compile(r"\b(further|farther|longer|more|beyond|past) (than )?\S")
+"""What limits how much is to be done: "do not go *further than one metre*"."""
+
+
 class Understood(NamedTuple):
     """What a sentence asks for.
 
@@ -211,7 +215,8 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
         kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
         spots = away and any(n.kind in ("place", "room", "person") for n in names)
         asked = any(n.name.lower() in known for n in names if n.kind != "person")
-        if kept or spots or (asked and not away) or (how and moves):
+        limit = moves and _NO_MORE.search(said.lower())
+        if kept or spots or (asked and not away) or (how and moves) or limit:
             raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
     heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
     return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []

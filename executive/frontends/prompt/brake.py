@@ -57,7 +57,8 @@ class Brake:
 
     def is_cry(self, text: str) -> bool:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        return is_stop(text) or (self._robot.busy and is_stay(text))
+        busy = self._robot.busy
+        return is_stop(text, at_rest=not busy) or (busy and is_stay(text))
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs, be silent, and say so."""
