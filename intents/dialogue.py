@@ -125,6 +125,7 @@ class Dialogue:
         self._repeats = 0
         self._before: tuple[tuple[Goal, ...], RobotState] | None = None
         self._told_of = ""
+        self._answered = False
         self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
@@ -173,6 +174,7 @@ class Dialogue:
             text = _AND.sub("where is ", text)
         if opened is None and self._told_of and _AGAIN.fullmatch(text.strip()):
             text = self._repeatable(text)
+        self._back_to_order(text, state)
         turn = turn or self._revised(text, state) or self._understand(text, state, opened)
         self._told_of = text if isinstance(turn, Reply) else ""
         self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
@@ -182,6 +184,16 @@ class Dialogue:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
         return turn
+
+    def _back_to_order(self, text: str, state: RobotState) -> None:
+        """Let what corrects something correct the last order, and no question since.
+
+        A question of things ("where is the red cup?") is what is corrected while nothing is done.
+        """
+        goals = self.context.goals
+        of_robot = all(isinstance(goal, Report) for goal in goals)
+        if self._answered and self._before and is_correction(text) and (of_robot or state.doing):
+            self.about(self._before[0])
 
     def _repeatable(self, text: str) -> str:
         """What "again" repeats after a question: the last order, or else the question."""
@@ -215,6 +227,7 @@ class Dialogue:
 
     def about(self, goals: tuple[Goal, ...]) -> None:
         """What is said next is about these goals, whatever was asked after them."""
+        self._answered = False
         self.context = replace(self.context, goals=goals)
 
     def besides(self, text: str, state: RobotState) -> str:
@@ -223,6 +236,7 @@ class Dialogue:
         "No, the blue one" corrects what was asked last, "hold on, go to the hall" is a wish,
         "careful, the glass" is neither.
         """
+        self._back_to_order(text, state)
         said = besides(text)
         for one in dict.fromkeys((text, said)):
             outcome = self._read(one, state) if one else None
@@ -333,6 +347,7 @@ class Dialogue:
     def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
         """Answer what needs no motion, confirm what is risky, and pass on the rest."""
         told = self._told(text, outcome, state)
+        self._answered = isinstance(told, Reply)
         if isinstance(told, Reply):
             self.context = after
             return replace(told, ms=outcome.ms)

@@ -1,10 +1,13 @@
 """Several sentences, one after the other."""
 
-from intents.dialogue import Context
-from intents.goals import GoTo, ObjectQuery, Pick, Place, to_json
+import pytest
+
+from intents.dialogue import Context, Dialogue
+from intents.goals import Bring, GoTo, ObjectQuery, Pick, Place, to_json
 from intents.grounding import Entity
-from intents.outcomes import Goals, Outcome, Question, Refusal
+from intents.outcomes import Goals, Outcome, Question, Refusal, Reply
 from intents.parser import hear
+from intents.state import RobotState
 from intents.vocabulary import Thing, Vocabulary
 
 HOME = Vocabulary.of(
@@ -101,3 +104,38 @@ def test_who_asks_for_any_one_is_not_asked_which() -> None:
 def test_without_a_world_nothing_is_ambiguous() -> None:
     outcome = converse("pick up the jar", entities=())[0]
     assert isinstance(outcome, Goals)
+
+
+@pytest.mark.parametrize("between", ["where are you", "what are you holding?", "how are you?"])
+@pytest.mark.parametrize("doing", ["bring me the green jar", ""])
+def test_a_question_in_between_is_not_what_is_corrected(between: str, doing: str) -> None:
+    talk = Dialogue(HOME)
+    talk.hear("bring me the green jar", RobotState(entities=WORLD))
+    talk.hear(between, RobotState(entities=WORLD, doing=doing))
+    state = RobotState(entities=WORLD, doing=doing)
+    assert talk.besides("no, the white one", state) == "no, the white one"
+    turn = talk.hear("no, the white one", state)
+    assert isinstance(turn, Goals)
+    assert turn.instead
+    assert [goal.object.color for goal in turn.goals if isinstance(goal, Bring)] == ["white"]
+
+
+def test_a_question_of_things_is_corrected_only_while_nothing_is_done() -> None:
+    for doing, kind in (("bring me the torch", Goals), ("", Reply)):
+        talk = Dialogue(HOME)
+        talk.hear("bring me the green jar", RobotState(entities=WORLD))
+        talk.hear("where is the green jar", RobotState(entities=WORLD, doing=doing))
+        turn = talk.hear("no, the white one", RobotState(entities=WORLD, doing=doing))
+        assert isinstance(turn, kind), turn
+
+
+@pytest.mark.parametrize(
+    "asked", ["why did you stop", "why have you stopped?", "how come you stopped"]
+)
+def test_why_it_stands_is_told_before_how_an_older_job_ended(asked: str) -> None:
+    state = RobotState(
+        doing="go to the bench", holds="I halted at it.", last="I have done “nod”.", mode="paused"
+    )
+    turn = Dialogue(HOME).hear(asked, state)
+    assert isinstance(turn, Reply)
+    assert turn.text == "I halted at it."

@@ -122,3 +122,21 @@ def test_what_comes_first_after_a_halt_comes_first(shell: Shell):
     first = next(job for job in shell.robot.executive.jobs if "cabinet" in job.text)
     assert first.urgent
     assert "walk to the shelf" in open_jobs(shell)
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [("wait", "because you called out"), ("pause", "paused on request"),
+     ("estop", "The emergency stop is on")],
+)  # fmt: skip
+def test_why_it_stands_is_told_while_it_does(shell: Shell, line: str, reason: str):
+    shell.line("wave")
+    assert eventually(lambda: not open_jobs(shell))
+    begin(shell, "walk to the shelf")
+    shell.line(line)
+    assert eventually(lambda: not walks(shell))
+    said.clear()
+    shell.line("why did you stop?")
+    assert reason in said[0]
+    shell.line("estop release")
+    shell.line("estop reset")
