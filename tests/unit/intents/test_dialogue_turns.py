@@ -3,7 +3,7 @@
 import pytest
 
 from intents.dialogue import Context, Dialogue
-from intents.goals import Bring, GoTo, ObjectQuery, Pick, Place, to_json
+from intents.goals import Bring, Find, Goal, GoTo, ObjectQuery, Pick, Place, to_json
 from intents.grounding import Entity
 from intents.outcomes import Goals, Outcome, Question, Refusal, Reply
 from intents.parser import hear
@@ -120,13 +120,16 @@ def test_a_question_in_between_is_not_what_is_corrected(between: str, doing: str
     assert [goal.object.color for goal in turn.goals if isinstance(goal, Bring)] == ["white"]
 
 
-def test_a_question_of_things_is_corrected_only_while_nothing_is_done() -> None:
-    for doing, kind in (("bring me the torch", Goals), ("", Reply)):
-        talk = Dialogue(HOME)
-        talk.hear("bring me the green jar", RobotState(entities=WORLD))
-        talk.hear("where is the green jar", RobotState(entities=WORLD, doing=doing))
-        turn = talk.hear("no, the white one", RobotState(entities=WORLD, doing=doing))
-        assert isinstance(turn, kind), turn
+@pytest.mark.parametrize(("doing", "kind"), [("bring me the green jar", Bring), ("", Find)])
+def test_a_question_of_things_is_corrected_only_while_nothing_is_done(
+    doing: str, kind: type[Goal]
+) -> None:
+    talk = Dialogue(HOME)
+    talk.hear("bring me the green jar", RobotState(entities=WORLD))
+    talk.hear("where is the green jar", RobotState(entities=WORLD, doing=doing))
+    turn = talk.hear("no, the white one", RobotState(entities=WORLD, doing=doing))
+    assert isinstance(turn, Goals)
+    assert [type(goal) for goal in turn.goals] == [kind]
 
 
 @pytest.mark.parametrize(
