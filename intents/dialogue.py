@@ -29,6 +29,7 @@ from intents.goals import (
 )
 from intents.grammar import SHALL_NOT
 from intents.halting import besides
+from intents.in_hand import which_in_hand
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.plans import HOW_I_READ_IT
@@ -126,6 +127,7 @@ class Dialogue:
         self._before: tuple[tuple[Goal, ...], RobotState] | None = None
         self._told_of = ""
         self._answered = False
+        self._in_hand = False
         self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
@@ -230,6 +232,11 @@ class Dialogue:
         self._answered = False
         self.context = replace(self.context, goals=goals)
 
+    def not_to_be_had(self) -> None:
+        """What was asked for cannot be taken, for the hands are full: "it" is not that."""
+        self.context = replace(self.context, object=None)
+        self._in_hand = True
+
     def besides(self, text: str, state: RobotState) -> str:
         """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.
 
@@ -319,7 +326,12 @@ class Dialogue:
         if state.doing and isinstance(outcome, Refusal) and outcome.reason == f"{SHALL_NOT}.":
             goes_on = f"I am at “{state.doing}” and go on with it: “cancel” or “stop” ends it."
             return replace(outcome, reason=goes_on)
+        self._in_hand = self._in_hand and after.object is None
         if isinstance(outcome, Goals):
+            which = which_in_hand(text, outcome.goals, state) if self._in_hand else None
+            if which is not None:
+                self.ask(which)
+                return which
             outcome = replace(outcome, instead=corrects)
             return self._settle(text, outcome, after, state)
         self.context = after

@@ -141,6 +141,8 @@ class Understanding:
         held = self._queue.held_then()
         understood = meant(text, turn.goals, self._robot.where, held=held, state=state)
         if isinstance(understood, Refused):
+            if understood.outcome == "hands_full":
+                self._dialogue.not_to_be_had()
             self._people.refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None
         return understood

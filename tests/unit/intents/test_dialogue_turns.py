@@ -3,7 +3,7 @@
 import pytest
 
 from intents.dialogue import Context, Dialogue
-from intents.goals import Bring, Find, Goal, GoTo, ObjectQuery, Pick, Place, to_json
+from intents.goals import Bring, Find, Give, Goal, GoTo, ObjectQuery, Pick, Place, to_json
 from intents.grounding import Entity
 from intents.outcomes import Goals, Outcome, Question, Refusal, Reply
 from intents.parser import hear
@@ -142,3 +142,35 @@ def test_why_it_stands_is_told_before_how_an_older_job_ended(asked: str) -> None
     turn = Dialogue(HOME).hear(asked, state)
     assert isinstance(turn, Reply)
     assert turn.text == "I halted at it."
+
+
+FULL = (
+    Entity(id="j1", name="jar", color="green", held=True),
+    Entity(id="j2", name="jar", color="white", held=True),
+    Entity(id="t1", name="torch", at="bench"),
+)
+
+
+@pytest.mark.parametrize("order", ["put it on the lower shelf", "drop it", "give it to Ada"])
+@pytest.mark.parametrize("answer", ["the white one", "white", "the white jar"])
+def test_it_is_not_what_full_hands_cannot_take(order: str, answer: str) -> None:
+    talk, state = Dialogue(HOME), RobotState(entities=FULL)
+    talk.hear("pick up the torch", state)
+    talk.not_to_be_had()
+    asked = talk.hear(order, state)
+    assert isinstance(asked, Question)
+    assert asked.question == "Which one, the green jar or the white jar?"
+    turn = talk.hear(answer, state)
+    assert isinstance(turn, Goals)
+    [goal] = turn.goals
+    assert isinstance(goal, Give | Place)
+    assert goal.object.color == "white"
+
+
+def test_it_is_what_was_named_since() -> None:
+    talk, state = Dialogue(HOME), RobotState(entities=FULL)
+    talk.hear("pick up the torch", state)
+    talk.not_to_be_had()
+    talk.hear("look at the green jar", state)
+    turn = talk.hear("drop it", state)
+    assert isinstance(turn, Goals)
