@@ -16,16 +16,21 @@ from intents.correcting import in_full, is_correction
 from intents.distances import how_far
 from intents.goals import (
     Balance,
+    Bring,
     Cancel,
     Find,
+    Give,
     Goal,
     ObjectQuery,
     Pause,
+    Pick,
+    Place,
     Report,
     Resume,
     Stop,
     Tell,
     Wait,
+    each,
 )
 from intents.grammar import SHALL_NOT
 from intents.halting import besides
@@ -37,7 +42,7 @@ from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.the_rest import is_rest, with_the_rest
-from intents.undoing import is_back, is_undo, is_undo_of_several, undone
+from intents.undoing import is_back, is_things_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
@@ -58,6 +63,7 @@ _AGAIN = re.compile(
 )
 """Nothing but a wish to have the last thing done once more."""
 
+_HANDLING = (Bring, Give, Pick, Place)
 _STEERING = (Stop, Pause, Resume, Cancel)
 _AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
 """And *the blue one*?"""
@@ -125,6 +131,7 @@ class Dialogue:
         self.dropped = ""
         self._repeats = 0
         self._before: tuple[tuple[Goal, ...], RobotState] | None = None
+        self._handled: tuple[tuple[Goal, ...], RobotState] | None = None
         self._told_of = ""
         self._answered = False
         self._in_hand = False
@@ -182,6 +189,8 @@ class Dialogue:
         self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
         if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
             self._before = (turn.goals, state)
+            handled = any(isinstance(goal, _HANDLING) for goal in each(turn.goals))
+            self._handled = self._before if handled else self._handled
         if self.question is None and self._asked_before:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
@@ -297,7 +306,8 @@ class Dialogue:
         if is_undo(text) or (is_back(text) and not state.doing and self._before):
             if self._before is None:
                 return Reply(text="There is nothing that I could undo.")
-            revised = undone(text, *self._before, state)
+            things = self._handled if is_things_back(text) else None
+            revised = undone(text, *(things or self._before), state)
         elif is_rest(text) and self.context.goals:
             revised = with_the_rest(self.context.goals, state)
         else:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from executive.blackboard import BODY
 from executive.engine.executive import JobError
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
@@ -145,6 +146,12 @@ class Brake:
     def standing(self) -> str:
         """What is true of a robot that has nothing to stop."""
         return standing(self._robot.executive, self._robot.view)
+
+    @property
+    def fallen(self) -> str:
+        """That it lies on the floor, and what helps; empty if it does not."""
+        body = self._robot.executive.board.read(BODY)
+        return self.standing() if body is not None and body.mode == "fallen" else ""
 
     def _ask_model_no_more(self) -> None:
         if self._model is not None:

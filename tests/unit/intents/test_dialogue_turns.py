@@ -1,6 +1,7 @@
 """Several sentences, one after the other."""
 
 import pytest
+from msgspec.structs import replace
 
 from intents.dialogue import Context, Dialogue
 from intents.goals import Bring, Find, Give, Goal, GoTo, ObjectQuery, Pick, Place, to_json
@@ -174,3 +175,13 @@ def test_it_is_what_was_named_since() -> None:
     talk.hear("look at the green jar", state)
     turn = talk.hear("drop it", state)
     assert isinstance(turn, Goals)
+
+
+def test_things_are_put_back_also_after_something_else_was_done() -> None:
+    talk, moved = Dialogue(HOME), replace(WORLD[2], at="lower shelf")
+    talk.hear("put the torch on the lower shelf", RobotState(entities=WORLD))
+    state = RobotState(entities=(*WORLD[:2], moved))
+    talk.hear("nod", state)
+    turn = talk.hear("put it back", state)
+    assert isinstance(turn, Goals)
+    assert turn.goals == (Place(object=ObjectQuery(name="torch"), on="bench"),)
