@@ -17,7 +17,7 @@ from intents.english.offers import would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
-from intents.english.readings.asides import leaves_out_step, somebody_else
+from intents.english.readings.asides import is_about_pace, leaves_out_step, somebody_else
 from intents.english.sequences import names_hand, sequence
 from intents.english.trouble import (
     NotUnderstood,
@@ -165,14 +165,7 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     for at in range(1, len(text)):
         if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
             raise Unasked("That is for you to do, as I hear it")
-    spoken_to = somebody_else(text)
-    if spoken_to:
-        raise Unasked(f"I take that as said to {spoken_to}, not to me")
-    if leaves_out_step(text):
-        raise Unasked(
-            "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
-            "what is left to do"
-        )
+    _refuse_unasked(text)
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
     goals = carried(goals)
@@ -197,6 +190,24 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         raise Partly(differs, tuple(goals))
     remarks += (remark,) if remark else ()
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _refuse_unasked(text: Text) -> None:
+    """Refuse what is no order to the robot, or is about how it does what it is at.
+
+    Raises:
+        Unasked: It is that.
+    """
+    if is_about_pace(text.raw(0, len(text))):
+        raise Unasked("I move at my own pace, and cannot be told another one")
+    spoken_to = somebody_else(text)
+    if spoken_to:
+        raise Unasked(f"I take that as said to {spoken_to}, not to me")
+    if leaves_out_step(text):
+        raise Unasked(
+            "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
+            "what is left to do"
+        )
 
 
 def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
