@@ -16,19 +16,25 @@ from intents.correcting import in_full, is_correction
 from intents.distances import how_far
 from intents.goals import (
     Balance,
+    Bring,
     Cancel,
     Find,
+    Give,
     Goal,
     ObjectQuery,
     Pause,
+    Pick,
+    Place,
     Report,
     Resume,
     Stop,
     Tell,
     Wait,
+    each,
 )
 from intents.grammar import SHALL_NOT
 from intents.halting import besides
+from intents.in_hand import which_in_hand
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.plans import HOW_I_READ_IT
@@ -36,7 +42,7 @@ from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
 from intents.the_rest import is_rest, with_the_rest
-from intents.undoing import is_back, is_undo, is_undo_of_several, undone
+from intents.undoing import is_back, is_things_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
@@ -57,6 +63,7 @@ _AGAIN = re.compile(
 )
 """Nothing but a wish to have the last thing done once more."""
 
+_HANDLING = (Bring, Give, Pick, Place)
 _STEERING = (Stop, Pause, Resume, Cancel)
 _AND = re.compile(r"^\W*(?:and|or|what about|how about)\W+(?=(?:the|my|a|an)\b)", re.IGNORECASE)
 """And *the blue one*?"""
@@ -124,7 +131,10 @@ class Dialogue:
         self.dropped = ""
         self._repeats = 0
         self._before: tuple[tuple[Goal, ...], RobotState] | None = None
+        self._handled: tuple[tuple[Goal, ...], RobotState] | None = None
         self._told_of = ""
+        self._answered = False
+        self._in_hand = False
         self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
@@ -153,7 +163,7 @@ class Dialogue:
 
     def _hear(self, text: str, state: RobotState) -> Turn:
         self.dropped = ""
-        if is_stop(text):
+        if is_stop(text, at_rest=not state.doing):
             self._close()
             self._asked_before.clear()
             return Goals(goals=(Stop(),), parser="stop")
@@ -173,15 +183,28 @@ class Dialogue:
             text = _AND.sub("where is ", text)
         if opened is None and self._told_of and _AGAIN.fullmatch(text.strip()):
             text = self._repeatable(text)
+        self._back_to_order(text, state)
         turn = turn or self._revised(text, state) or self._understand(text, state, opened)
         self._told_of = text if isinstance(turn, Reply) else ""
         self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
         if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
             self._before = (turn.goals, state)
+            handled = any(isinstance(goal, _HANDLING) for goal in each(turn.goals))
+            self._handled = self._before if handled else self._handled
         if self.question is None and self._asked_before:
             question, self._pending = self._asked_before.pop()
             self.context = replace(self.context, question=question)
         return turn
+
+    def _back_to_order(self, text: str, state: RobotState) -> None:
+        """Let what corrects something correct the last order, and no question since.
+
+        A question of things ("where is the red cup?") is what is corrected while nothing is done.
+        """
+        goals = self.context.goals
+        of_robot = all(isinstance(goal, Report) for goal in goals)
+        if self._answered and self._before and is_correction(text) and (of_robot or state.doing):
+            self.about(self._before[0])
 
     def _repeatable(self, text: str) -> str:
         """What "again" repeats after a question: the last order, or else the question."""
@@ -215,7 +238,13 @@ class Dialogue:
 
     def about(self, goals: tuple[Goal, ...]) -> None:
         """What is said next is about these goals, whatever was asked after them."""
+        self._answered = False
         self.context = replace(self.context, goals=goals)
+
+    def not_to_be_had(self) -> None:
+        """What was asked for cannot be taken, for the hands are full: "it" is not that."""
+        self.context = replace(self.context, object=None)
+        self._in_hand = True
 
     def besides(self, text: str, state: RobotState) -> str:
         """What a cry to halt asks for, as a sentence of its own; empty if it is only cried.
@@ -223,6 +252,7 @@ class Dialogue:
         "No, the blue one" corrects what was asked last, "hold on, go to the hall" is a wish,
         "careful, the glass" is neither.
         """
+        self._back_to_order(text, state)
         said = besides(text)
         for one in dict.fromkeys((text, said)):
             outcome = self._read(one, state) if one else None
@@ -276,7 +306,8 @@ class Dialogue:
         if is_undo(text) or (is_back(text) and not state.doing and self._before):
             if self._before is None:
                 return Reply(text="There is nothing that I could undo.")
-            revised = undone(text, *self._before, state)
+            things = self._handled if is_things_back(text) else None
+            revised = undone(text, *(things or self._before), state)
         elif is_rest(text) and self.context.goals:
             revised = with_the_rest(self.context.goals, state)
         else:
@@ -292,6 +323,8 @@ class Dialogue:
         corrects = is_correction(text)
         text = in_full(text, before, self.vocabulary)
         outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
+        if state.doing and isinstance(outcome, Question) and outcome.goals == (Stop(),):
+            outcome = Goals(goals=(Stop(),))  # whatever it hangs on: to stop at once is safe
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
             self._repeats += 1
             again = opened.question.removeprefix("I did not get that. ")
@@ -303,7 +336,12 @@ class Dialogue:
         if state.doing and isinstance(outcome, Refusal) and outcome.reason == f"{SHALL_NOT}.":
             goes_on = f"I am at “{state.doing}” and go on with it: “cancel” or “stop” ends it."
             return replace(outcome, reason=goes_on)
+        self._in_hand = self._in_hand and after.object is None
         if isinstance(outcome, Goals):
+            which = which_in_hand(text, outcome.goals, state) if self._in_hand else None
+            if which is not None:
+                self.ask(which)
+                return which
             outcome = replace(outcome, instead=corrects)
             return self._settle(text, outcome, after, state)
         self.context = after
@@ -331,6 +369,7 @@ class Dialogue:
     def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
         """Answer what needs no motion, confirm what is risky, and pass on the rest."""
         told = self._told(text, outcome, state)
+        self._answered = isinstance(told, Reply)
         if isinstance(told, Reply):
             self.context = after
             return replace(told, ms=outcome.ms)

@@ -17,7 +17,7 @@ from intents.english.offers import would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
-from intents.english.readings.asides import leaves_out_step, somebody_else
+from intents.english.readings.asides import is_about_pace, leaves_out_step, somebody_else
 from intents.english.sequences import names_hand, sequence
 from intents.english.trouble import (
     NotUnderstood,
@@ -71,6 +71,10 @@ SHALL_NOT = "All right, I shall not"
 _OWN_HAND = "I choose the hand myself"
 _KEPT = re.compile(r"\b(let(ting)? go|releas(e|ing)|put(ting)? (it|them|that) down)\b")
 """What is to stay in the hand, and cannot where it is handed on or put somewhere."""
+
+
+_NO_MORE = re.compile(r"\b(further|farther|longer|more|beyond|past) (than )?\S")
+"""What limits how much is to be done: "do not go *further than one metre*"."""
 
 
 class Understood(NamedTuple):
@@ -161,14 +165,7 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     for at in range(1, len(text)):
         if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
             raise Unasked("That is for you to do, as I hear it")
-    spoken_to = somebody_else(text)
-    if spoken_to:
-        raise Unasked(f"I take that as said to {spoken_to}, not to me")
-    if leaves_out_step(text):
-        raise Unasked(
-            "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
-            "what is left to do"
-        )
+    _refuse_unasked(text)
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
     goals = carried(goals)
@@ -195,6 +192,24 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
 
 
+def _refuse_unasked(text: Text) -> None:
+    """Refuse what is no order to the robot, or is about how it does what it is at.
+
+    Raises:
+        Unasked: It is that.
+    """
+    if is_about_pace(text.raw(0, len(text))):
+        raise Unasked("I move at my own pace, and cannot be told another one")
+    spoken_to = somebody_else(text)
+    if spoken_to:
+        raise Unasked(f"I take that as said to {spoken_to}, not to me")
+    if leaves_out_step(text):
+        raise Unasked(
+            "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
+            "what is left to do"
+        )
+
+
 def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
     """What is remarked on what is not to be done.
 
@@ -211,7 +226,8 @@ def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:
         kept = _KEPT.search(said.lower()) and _acts(goals) and not isinstance(goals[-1], Pick)
         spots = away and any(n.kind in ("place", "room", "person") for n in names)
         asked = any(n.name.lower() in known for n in names if n.kind != "person")
-        if kept or spots or (asked and not away) or (how and moves):
+        limit = moves and _NO_MORE.search(said.lower())
+        if kept or spots or (asked and not away) or (how and moves) or limit:
             raise Unpromised(f"I cannot promise “{said}”", tuple(goals))
     heard = [f"“{one.said}”" for one in sentence.notes.forbidden]
     return [f"I do only what I am asked for, and heard {listing(heard, 'and')}"] if heard else []

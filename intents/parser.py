@@ -110,7 +110,7 @@ def _is_for_another(outcome: Outcome, before: Context) -> bool:
 
 
 def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
-    if is_stop(text):
+    if is_stop(text, at_rest=True):
         return Goals(goals=(Stop(),), parser="stop"), context
     if len(text) > MAX_CHARACTERS:
         return Refusal(reason="That is too long; say one thing after the other."), context

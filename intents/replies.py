@@ -204,7 +204,7 @@ def _health(state: RobotState) -> str:
 
 def _why(state: RobotState) -> str:
     idle = f"I have not stopped. {_status(state)}" if state.doing else ""
-    said = state.last or idle or "I have not done anything yet."
+    said = state.holds or state.last or idle or "I have not done anything yet."
     return f"{said} Something is wrong: {'; '.join(state.problems)}." if state.problems else said
 
 

@@ -35,6 +35,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
         examples: Says sentences that could be done here and now; that may take a while too.
         waiting: The jobs that wait, in words.
         mode: "idle", "working", "paused" or "stopped".
+        holds: Why it stands with something to do, in words; empty when it does not.
         problems: What is wrong with it, in words; empty when all is well.
         battery: State of charge, 0 to 1; None without a battery.
         last: How the last job ended, in words, with its reason ("I could not ...: ...").
@@ -56,6 +57,7 @@ class RobotState(msgspec.Struct, frozen=True, kw_only=True):
     examples: Callable[[], tuple[str, ...]] = tuple
     waiting: tuple[str, ...] = ()
     mode: str = "idle"
+    holds: str = ""
     problems: tuple[str, ...] = ()
     battery: float | None = None
     last: str = ""

@@ -6,12 +6,14 @@ takes long.
 """
 
 import re
+from collections.abc import Iterator
 
 from rapidfuzz.distance import OSA
 
 from intents.cries import AROUND, STEMS_OF_STOPS, STOPS
 from intents.english.words.lexicon import words
 from intents.letters import bare, latin, without_sequences
+from intents.limited_stops import Surroundings
 from intents.whole_cries import WholeCries
 
 _LOOKED_AT = 240
@@ -21,6 +23,7 @@ _READ = 2048
 _SHORT = 5
 """Up to so many words, a cry anywhere in them counts."""
 _WORD = re.compile(r"[^\W_]+")
+_SENTENCE = re.compile(r"[.!?\n\r¡¿。！…]")
 _CLAUSE = re.compile(r"[.!?,;:\n\r¡¿。！、…]+|\s+-+\s+")
 _STOPS = words(
     "stop stopp stops stopit stopping halt freeze emergency estop abbruch anhalten notaus notstopp "
@@ -130,27 +133,49 @@ def _stays(clause: str) -> bool:
     return any(OSA.distance(found, phrase) == 1 for phrase in _STAYING if " " in phrase)
 
 
-def is_stop(text: str) -> bool:
-    """Whether a text is a cry to stop; errs towards yes, and takes well under a millisecond."""
+def is_stop(text: str, *, at_rest: bool = False) -> bool:
+    """Whether a text is a cry to stop; errs towards yes, and takes well under a millisecond.
+
+    Args:
+        text: What was said or typed.
+        at_rest: Whether it is said to a robot that has nothing to do. What hangs on something
+            ("stop after 2 seconds") is a cry to a robot at work only.
+    """
     if len(text) > 2 * _READ:
         text = f"{text[:_READ]} . {text[-_READ:]}"
     # What follows an escape may be meant as text, or as a part of a control sequence.
-    return any(_is_cried(reading) for reading in {text, without_sequences(text)})
+    return any(_is_cried(said, at_rest=at_rest) for said in {text, without_sequences(text)})
 
 
-def _is_cried(text: str) -> bool:
+def _is_cried(text: str, *, at_rest: bool) -> bool:
     plain = _plain(text)
     if _ABROAD.cried(plain):
         return True
     if len(plain) > 2 * _LOOKED_AT:
         plain = f"{plain[:_LOOKED_AT]} . {plain[-_LOOKED_AT:]}"
-    return _is_stop(plain) or (not plain.isascii() and _is_stop(latin(plain)))
+    readings = {plain} if plain.isascii() else {plain, latin(plain)}
+    return any(_is_stop(reading, at_rest=at_rest) for reading in readings)
 
 
-def _is_stop(plain: str) -> bool:
-    clauses = [clause.strip() for clause in _CLAUSE.split(plain) if clause.strip()]
-    cried = any(_cries(clause) or _ends_in_cry(clause) for clause in clauses)
-    return cried or _spelled_out(plain)
+def _is_stop(plain: str, *, at_rest: bool) -> bool:
+    ahead: list[str] = []
+    for clause, sign in _clauses(plain):
+        around = Surroundings(ahead, at_rest=at_rest, exclaimed="!" in plain)
+        if _cries(clause, around) or _ends_in_cry(clause, around):
+            return True
+        ahead = [] if _SENTENCE.search(sign) and not at_rest else [*ahead, clause]
+    return _spelled_out(plain)
+
+
+def _clauses(plain: str) -> Iterator[tuple[str, str]]:
+    """Each clause, with the sign behind it."""
+    at = 0
+    for sign in _CLAUSE.finditer(plain):
+        if clause := plain[at : sign.start()].strip():
+            yield clause, sign.group()
+        at = sign.end()
+    if clause := plain[at:].strip():
+        yield clause, ""
 
 
 def _plain(text: str) -> str:
@@ -161,7 +186,7 @@ def _plain(text: str) -> str:
 _CRIES = frozenset(map(_plain, _STOPS))
 
 
-def _cries(clause: str) -> bool:
+def _cries(clause: str, around: Surroundings) -> bool:
     if any(clause.startswith(phrase) for phrase in _PHRASES) and not _LETS_LIE.match(clause):
         return True
     if _AGAIN.search(clause) and not _NOT_A_CRY.match(clause):
@@ -169,7 +194,7 @@ def _cries(clause: str) -> bool:
     found = list(_WORD.finditer(clause))
     for number, word in enumerate(found):
         if _is_cry(word.group()):
-            if _is_meant(clause, word):
+            if _is_meant(clause, word, around):
                 return True
         elif number > 2 * _SHORT or (len(found) > _SHORT and not _leads_in(word.group())):
             return False
@@ -181,24 +206,26 @@ def _leads_in(word: str) -> bool:
     return word in _BEFORE or _SOUND.fullmatch(word) is not None
 
 
-def _ends_in_cry(clause: str) -> bool:
+def _ends_in_cry(clause: str, around: Surroundings) -> bool:
     """Bring me the red cup no stop now: without punctuation, the last words count."""
     found = list(_WORD.finditer(clause))
     for number in range(max(len(found) - 2, 1), len(found)):
         before = found[number - 1].group()
         cries = _is_cry(found[number].group()) and before not in _GOES_ON
-        if cries and _is_meant(clause, found[number]):
+        if cries and _is_meant(clause, found[number], around):
             return True
     return False
 
 
-def _is_meant(clause: str, word: re.Match[str]) -> bool:
+def _is_meant(clause: str, word: re.Match[str], around: Surroundings) -> bool:
     if _GLUED.fullmatch(word.group()):
         return True  # what stands before it is no part of the cry
     before, after = clause[: word.start()], clause[word.end() :]
     if word.group() == "freeze" and _TO_THE_COLD.match(after):
         return False
     if word.group() == "stop" and _AT_HOME.match(after):
+        return False
+    if around.limit(before, after):
         return False
     return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after) or _A_THING.search(before))
 

@@ -70,6 +70,11 @@ def is_back(text: str) -> bool:
     return any(kind.fullmatch(said) for kind in (_BACK, _WALK_BACK))
 
 
+def is_things_back(text: str) -> bool:
+    """Whether a text is a wish to have things back, whatever was done since they were moved."""
+    return _BACK.fullmatch(_said(text)) is not None
+
+
 def undone(text: str, goals: tuple[Goal, ...], before: RobotState, now: RobotState) -> Undone:
     """What undoes goals.
 

@@ -42,7 +42,10 @@ _HELD = words("holding carrying gripping")
 """What is held is kept, until it is to be put somewhere."""
 _WHILE = words("while whilst as")
 _BEING = words("you are is still also and")
-_ADDED = words("including starting beginning preferably going being having doing using please")
+_ADDED = words(
+    "including starting beginning preferably going being having doing using please "
+    "stopping halting freezing"
+)
 """What follows a comma with -ing and is no second act."""
 _NO_LINK = words("a soon long far much well")
 """*A* while; as *soon* as."""

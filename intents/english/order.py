@@ -20,6 +20,7 @@ row here.
 
 from intents.english import afterthoughts, exclusions
 from intents.english.corrections import correction
+from intents.english.ending_early import ended_early
 from intents.english.reading import Rules
 from intents.english.readings import (
     asides,
@@ -140,6 +141,7 @@ RULES = Rules(
         correction,
         afterthoughts.left_undone,
         exclusions.excluded,
+        ended_early,
         afterthoughts.not_now,
         afterthoughts.from_there,
         afterthoughts.so_many,

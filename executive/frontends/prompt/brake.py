@@ -10,6 +10,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from executive.blackboard import BODY
 from executive.engine.executive import JobError
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
@@ -57,7 +58,8 @@ class Brake:
 
     def is_cry(self, text: str) -> bool:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        return is_stop(text) or (self._robot.busy and is_stay(text))
+        busy = self._robot.busy
+        return is_stop(text, at_rest=not busy) or (busy and is_stay(text))
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs, be silent, and say so."""
@@ -144,6 +146,12 @@ class Brake:
     def standing(self) -> str:
         """What is true of a robot that has nothing to stop."""
         return standing(self._robot.executive, self._robot.view)
+
+    @property
+    def fallen(self) -> str:
+        """That it lies on the floor, and what helps; empty if it does not."""
+        body = self._robot.executive.board.read(BODY)
+        return self.standing() if body is not None and body.mode == "fallen" else ""
 
     def _ask_model_no_more(self) -> None:
         if self._model is not None:

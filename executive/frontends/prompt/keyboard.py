@@ -163,15 +163,16 @@ class Keyboard(Vt100Input):
     def read_keys(self) -> list[KeyPress]:
         """The keys since the last time.
 
-        A stop ends whatever sequence or paste was not over, and undoes what was typed before it
-        and is not a line yet because the library has lines before that to see to.
+        A stop ends whatever sequence or paste was not over, and undoes what was typed before it:
+        a key all of that, a line what is not a line yet because the library has lines before that
+        to see to.
         """
         with contextlib.suppress(BlockingIOError):
             os.read(self._ready, _CHUNK)
         while self._chunks:
             part = self._chunks.popleft()
             if part.is_key or part.heeded is not None:
-                self._drop()
+                self._drop(all_of_it=part.is_key)
             if part.heeded is not None:
                 self._buffer.append(KeyPress(HEEDED, part.heeded))
             else:
@@ -179,12 +180,13 @@ class Keyboard(Vt100Input):
             self._reached = part.number
         return super().flush_keys() if self._ended else self._keys()
 
-    def _drop(self) -> None:
+    def _drop(self, *, all_of_it: bool) -> None:
+        """Undo the keys that were not seen to: all, or only where there are lines among them."""
         self._decoder.reset()
         self.vt100_parser.reset()
         get_app().key_processor.key_buffer.clear()  # a key that waits for another
         pending = [*self._buffer, *get_app().key_processor.input_queue]
-        if any(
+        if all_of_it or any(
             end in key.data for key in pending for end in "\r\n"
         ):  # else it is what is being edited
             self._buffer.clear()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 from executive.behaviours.breakpoints import fits
 from executive.blackboard import HELD, WORLD
+from executive.engine.job_book import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job
 from executive.frontends.prompt import foresight
 from executive.frontends.prompt.answering import Answering
@@ -39,9 +41,11 @@ class Queueing:
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
         """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
         executive, halt = self._robot.executive, self._brake.halt
-        self._make_room(understood.text, urgent=urgent)
+        halted = halt.on
+        comes_first = urgent or (halted and "first" in understood.text.casefold().split())
+        place = self._make_room(comes_first=comes_first)
         number = self._brake.unless_stopped(
-            lambda: self._robot.submit(understood, urgent=urgent, **how)
+            lambda: self._submitted(understood, comes_first, place, **how)
         )
         if number is None:
             self._people.refuse_stopped(understood.text)
@@ -56,7 +60,12 @@ class Queueing:
             for job in live.values()
             if mine and job.resources & mine.resources and not halt.gave_up(job)
         ]
-        if before and not urgent:
+        if place is not None:
+            waits = [job for job in before if job.state == "waiting"]
+            before = [job for job in before if job.state in UNDER_WAY] + waits[:place]
+        if halted and (comes_first or not any(job.state in UNDER_WAY for job in before)):
+            halt.end()
+        if before and not comes_first:
             self._people.answer(f"Queued as {number}, with {len(before)} before it.")
         if executive.pause_wanted and not halt.on:
             self._people.answer("The robot is paused: `resume` lets it begin.")
@@ -108,18 +117,38 @@ class Queueing:
             text = f"No breakpoint ({listed(breaks)}) holds a step of it: {listed(names)}."
             self._people.out(f"  {text}")
 
-    def _make_room(self, text: str, *, urgent: bool) -> None:
-        """End what a task takes the place of: what was halted for it, or what it corrects."""
+    def _submitted(
+        self, understood: Understood, urgent: bool, place: int | None, **how: Any
+    ) -> int:
+        """Queue a task at a place of the queue (None: its end); returns its number."""
+        number = self._robot.submit(understood, urgent=urgent, **how)
+        if place is not None and not urgent:
+            with suppress(JobError):  # nothing was in its way, and it has begun
+                self._robot.executive.move(number, place)
+        return number
+
+    def _make_room(self, *, comes_first: bool) -> int | None:
+        """End what a task takes the place of: what was halted for it, or what it corrects.
+
+        Returns:
+            Where in the queue that is; None if it takes nobody's place. Of what was halted before
+            it began nothing is ended: the task comes before it.
+        """
         halt = self._brake.halt
         corrects, self.corrects = self.corrects, False
         last, self.corrected = self.corrected or max(self._asked, default=0), None
         jobs = [job for job in self._robot.executive.jobs if job.state not in OVER]
         replaced = [job for job in jobs if corrects and job.number == last]
-        comes_first = urgent or "first" in text.casefold().split()
-        if halt.on and not replaced and not comes_first:
-            replaced = halt.kept
+        instead = halt.on and not replaced and not comes_first
+        if instead:
+            replaced = [job for job in halt.kept if job.state in UNDER_WAY]
         if replaced:
             halt.give_up(replaced, "something else was asked for instead")
             self._people.answer(f"Instead of “{replaced[0].text}”.")
-        if halt.on and (comes_first or not any(job.state in UNDER_WAY for job in halt.kept)):
-            halt.end()
+        elif instead and halt.kept:
+            self._people.answer(f"Before “{halt.kept[0].text}”.")
+        waiting = [job.number for job in jobs if job.state == "waiting"]
+        places = [waiting.index(job.number) for job in replaced if job.number in waiting]
+        if not (replaced or instead):
+            return None
+        return min(places) if places and len(places) == len(replaced) else 0

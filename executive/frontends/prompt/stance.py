@@ -8,7 +8,7 @@ from executive.frontends.prompt.view import View
 
 _MODES = {
     "stand": "I stand already.",
-    "fallen": "I have fallen and lie on the floor; nothing moves.",
+    "fallen": "I lie on the floor; nothing moves. Say “get up” to have me try.",
     "damping": "My motors are damped: nothing holds me up or moves.",
     "gone": "I am gone: nothing moves any more.",
     "unknown": "I am not moving.",

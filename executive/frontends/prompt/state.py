@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from executive.blackboard import NOW
+from executive.blackboard import NOW, PAUSE
 from executive.engine.executive import Executive
 from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.frontends.prompt.robot import CRIED
 from executive.journal import failures
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
@@ -14,6 +15,7 @@ from executive.meaning.tasks import SKILLS
 from intents.relations import Viewpoint
 from intents.state import RobotState
 from robot.link import BodyLink
+from robot.misfits import listed
 
 
 def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> RobotState:
@@ -34,6 +36,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
         step=state.step if under_way else "",
         waiting=tuple(job.text for job in jobs if job.state == "waiting"),
         mode={"pausing": "paused", "stopping": "stopped"}.get(executive.state, executive.state),
+        holds=_holds(executive, under_way[0].text if under_way else ""),
         problems=(*state.problems, *([f"I need help, {help_}"] if help_ else [])),
         battery=power.charge if power else None,
         last=_ending(over[-1]) if over else "",
@@ -43,6 +46,21 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
 
 def _worked_s(job: Job, now_s: float) -> float | None:
     return None if job.began_s is None else now_s - job.began_s
+
+
+def _holds(executive: Executive, doing: str) -> str:
+    """Why it stands with something to do, or with its emergency stop on; empty if it does not."""
+    if executive.estop.latched:
+        return f"The emergency stop is on: {executive.estop.why}."
+    about = f" at “{doing}”" if doing else ""
+    why = executive.board.read(PAUSE)
+    if why == CRIED:
+        return f"I halted{about} because you called out; say whether I shall go on."
+    if why:
+        return f"I have paused{about}: {why}. “Resume” lets me go on."
+    if executive.held and executive.state == "paused":
+        return f"A breakpoint holds {listed(executive.held)}{about}: `continue` lets it go."
+    return ""
 
 
 def _ending(job: Job) -> str:

@@ -252,19 +252,22 @@ class Terminal:
         keys = KeyBindings()
 
         def stop(event: KeyPressEvent) -> None:
-            """Ctrl-C that found nothing to stop as it was pressed clears the line."""
+            """Ctrl-C that found nothing to stop as it was pressed; it clears the line."""
             leave_modes(event)
-            if self._stop_busy():
-                return
-            if event.current_buffer.text:
-                event.current_buffer.reset()
-            else:
+            typed = event.current_buffer.text
+            event.current_buffer.reset()
+            if not (self._stop_busy() or typed):
                 self._shell.out(f"{self._shell.brake.standing()} Ctrl-D or `quit` leaves.")
 
         def heeded(event: KeyPressEvent) -> None:
-            """A line that was heeded is entered as what was heard."""
+            """A line that was heeded is entered as what was heard; a key clears the line.
+
+            What was typed before a stop would else be an order that waits for the next Enter.
+            """
             leave_modes(event)
-            if event.data:
+            if not event.data:
+                event.current_buffer.reset()
+            else:
                 self._was_heeded = True
                 event.current_buffer.text = event.data
                 event.current_buffer.validate_and_handle()

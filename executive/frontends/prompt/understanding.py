@@ -81,6 +81,9 @@ class Understanding:
             self._people.out(f"I ask no more: {dialogue.dropped}")
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
         still = dialogue.question
+        if understood and steers and still is not None and still.goals == (Resume(),):
+            dialogue.unask()  # what is to be done instead answers it
+            still = None
         if still is not None and not isinstance(turn, Question):
             about = f"“{still.text}”: " if still.text else ""
             self._people.answer(f"Still open: {about}{still.question}")
@@ -138,6 +141,8 @@ class Understanding:
         held = self._queue.held_then()
         understood = meant(text, turn.goals, self._robot.where, held=held, state=state)
         if isinstance(understood, Refused):
+            if understood.outcome == "hands_full":
+                self._dialogue.not_to_be_had()
             self._people.refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None
         return understood

@@ -110,7 +110,8 @@ class RemoteBrake:
 
     def is_cry(self, text: str) -> bool:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        return is_stop(text) or (self._shell.at_work and is_stay(text))
+        at_work = self._shell.at_work
+        return is_stop(text, at_rest=not at_work) or (at_work and is_stay(text))
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand; the robot says so."""

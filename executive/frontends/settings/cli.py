@@ -41,7 +41,8 @@ def register(app: typer.Typer, settings: Settings) -> None:
           humanoid config --world bench      (what that option would change)
 
         Options come before variables of the environment, these before humanoid.toml of this folder,
-        that before ~/.config/humanoid/config.toml, that before what is built in.
+        that before ~/.config/humanoid/config.toml, that before what is built in. A world or a robot
+        that is not there is named, and the exit status is not 0.
         """
         given = {
             "world": world, "robot": robot, "seed": seed, "vary": vary, "view": view,
@@ -49,6 +50,12 @@ def register(app: typer.Typer, settings: Settings) -> None:
         }  # fmt: skip
         sources = {key: getattr(context.get_parameter_source(key), "name", "") for key in KEYS}
         _tell(settings, given, sources, as_json=as_json)
+        chosen = {key for key in ("world", "robot") if sources[key] != "DEFAULT"}
+        if chosen:
+            from executive.frontends.composition_root import REALITY
+            from executive.meaning.request import setting
+
+            setting(REALITY, world, robot=robot)  # or it says what is wrong with them
 
 
 def origin(key: str, source: str, value: Value | None) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from intents.english.clauses.pieces import behind_commas
 from intents.english.clauses.questions import counted
 from intents.english.clauses.saying import answer, describe, inform, say, tell
+from intents.english.ending_early import untold
 from intents.english.frames import FRAMES
 from intents.english.frames.mission import is_stopover
 from intents.english.phrases.complements import (
@@ -113,6 +114,9 @@ def _in_sense(
     if sense == "stop" and text.word(first - 1) == "move" and first_with(complements, ""):
         raise Misfit("that is not to be moved")
     if (sense == "stop" and not is_stopover(complements, scope)) or given_up:
+        late = None if given_up else untold(text, at)
+        if late is not None:
+            raise late
         complements = []  # what is to be stopped or given up is all that is going on
         while end < len(text) and text.word(end) not in (FULL_STOP, COMMA):
             end += 1

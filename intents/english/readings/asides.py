@@ -5,6 +5,8 @@ what is not to be done ("don't touch my phone"). None of them keeps a command fr
 none is acted on. A prohibition is noted, and looked at again when the goals are known.
 """
 
+import re
+
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
 from intents.english.phrases.noun_phrases import noun_phrase
@@ -118,6 +120,23 @@ def leaves_out_step(text: Text) -> bool:
         return False
     after = start + 1 + (text.word(start + 1) in NUMBER_WORDS)
     return after >= len(text) or text.word(after) in ("of", "in")
+
+
+_PACE = re.compile(
+    r"(?:(?:please|now|robot|and|but|can you|could you|you should)[ ,]+)*"
+    r"(?:(?:walk|go|move|run|work|come|be|do (?:it|that|this)|get) (?:along |on )?)?"
+    r"(?:(?:a (?:little |bit |lot )?|a little bit |much |even |way )?"
+    r"(?:faster|slower|quicker|more (?:slowly|quickly|rapidly)|less (?:quickly|slowly))|"
+    r"slow(?: it)? down|speed(?: it)? up|get a move on|step on it)"
+    r"(?:[ ,]+(?:please|now|robot|then|a (?:bit|little)))*\W*",
+    re.IGNORECASE,
+)
+"""That it is to move at another pace, and nothing else."""
+
+
+def is_about_pace(said: str) -> bool:
+    """Whether a sentence only asks for another pace: "walk faster", "a bit slower, please"."""
+    return _PACE.fullmatch(said.strip()) is not None
 
 
 def forbidden(sentence: Sentence, at: int) -> Found | None:

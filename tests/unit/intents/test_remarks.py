@@ -4,7 +4,7 @@ import pytest
 from workshop_words import WORKSHOP
 
 from intents.goals import from_json, to_json
-from intents.outcomes import Goals
+from intents.outcomes import Goals, Refusal
 from intents.parser import parse
 
 
@@ -115,3 +115,12 @@ def test_where_a_thing_was_left_is_where_it_is_fetched() -> None:
     assert to_json(told) == (
         '[{"goal":"bring","object":{"name":"tape measure","at":"garage"},"to":{"who":"operator"}}]'
     )
+
+
+@pytest.mark.parametrize(
+    "said", ["walk faster", "go a bit slower, please", "slow down", "please speed up", "slower!"]
+)
+def test_another_pace_is_told_to_be_none_of_its_choice(said: str) -> None:
+    outcome = parse(said, WORKSHOP)
+    assert isinstance(outcome, Refusal)
+    assert "own pace" in outcome.reason

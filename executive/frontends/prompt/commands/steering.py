@@ -12,6 +12,10 @@ from executive.missions import fault_plans
 from robot.errors import ConfigError
 from robot.misfits import listed, shown
 
+ESTOP_IS_ON = (
+    "The emergency stop is on, and nothing moves: `estop release`, then `estop reset`, undo it."
+)
+
 
 def commands(shell: Shell) -> tuple[Command, ...]:
     """Every one of them, in the order in which `help` shows them."""
@@ -94,7 +98,9 @@ class _Steering:
             if not place:
                 raise JobError("move which job where? For example: goals move 3 1")
             executive.move(number_of(number), number_of(place))
-            self._shell.out(f"Job {int(number)} waits at place {int(place)}; 0 is next.")
+            last = sum(job.state == "waiting" for job in executive.jobs) - 1
+            at = f"{last}, the last" if number_of(place) > last else f"{number_of(place)}"
+            self._shell.out(f"Job {int(number)} waits at place {at}; 0 is next.")
         else:
             self._queue()
 
@@ -129,15 +135,23 @@ class _Steering:
         self._shell.submit(made.understood, limits=made.limits, origin=made.origin)
 
     def pause(self, _rest: str) -> None:
-        self._shell.robot.executive.pause()
+        executive = self._shell.robot.executive
+        executive.pause()
         self._shell.brake.settle_halt()
-        self._shell.answer("Pausing; `resume` goes on with the step.")
+        if executive.estop.latched:
+            self._shell.answer(f"{ESTOP_IS_ON} The robot is paused after that, until `resume`.")
+        else:
+            self._shell.answer("Pausing; `resume` goes on with the step.")
 
     def resume(self, _rest: str) -> None:
         executive = self._shell.robot.executive
         if executive.pause_wanted:
             executive.resume()
             self._shell.brake.settle_halt()
+            if executive.estop.latched:
+                self._shell.answer(f"It is not paused any more. {ESTOP_IS_ON}")
+        elif executive.estop.latched:
+            self._shell.answer(ESTOP_IS_ON)
         elif executive.held:
             held = ", ".join(executive.held)
             self._shell.answer(f"Nothing is paused; a breakpoint holds {held}: say `continue`.")
@@ -146,7 +160,11 @@ class _Steering:
         else:
             over = [job for job in executive.jobs if job.state in OVER]
             last = f" The last job: {row(over[-1]).strip()}." if over else ""
-            self._shell.answer(f"Nothing is paused, and nothing is to be done.{last}")
+            fallen = self._shell.brake.fallen
+            if fallen:
+                self._shell.answer(f"Nothing is paused. {fallen}")
+            else:
+                self._shell.answer(f"Nothing is paused, and nothing is to be done.{last}")
 
     def stop(self, _rest: str) -> None:
         self._shell.brake.stop("the operator said stop")
@@ -160,7 +178,8 @@ class _Steering:
             self._shell.out("Released; `estop reset` lets the robot move again.")
         elif rest == "reset":
             executive.reset_estop()
-            self._shell.out("The robot may move again.")
+            paused = "; it is paused, until `resume`" if executive.pause_wanted else ""
+            self._shell.out(f"The robot may move again{paused}.")
         else:
             self._shell.brake.press()
             if rest:

@@ -41,6 +41,10 @@ def open_jobs(shell: Shell) -> list[str]:
     ]
 
 
+def last_words(shell: Shell) -> list[str]:
+    return [text.rsplit(" ", 1)[-1] for text in open_jobs(shell)]
+
+
 def test_a_correction_is_of_the_job_that_was_halted_also_with_others_after_it(shell: Shell):
     begin(shell, "walk to the shelf", "wave")
     shell.line("no, to the table")
@@ -71,3 +75,68 @@ def test_halting_is_said_before_it_is_asked_whether_to_go_on(shell: Shell):
 def test_nothing_is_let_go_where_nothing_is_held(shell: Shell):
     shell.line("break off")
     assert said[-1] == "No step is held any more."
+
+
+def test_what_is_asked_instead_after_a_halt_has_the_place_of_what_was_halted(shell: Shell):
+    begin(shell, "walk to the shelf", "squat for 3 seconds", "walk to the doorway")
+    shell.line("wait")
+    shell.line("put the cup on the counter")  # asks which
+    shell.line("the blue one")
+    assert "Instead of “walk to the shelf”." in said
+    assert not any(one.startswith(("Still open", "Queued as 4")) for one in said)
+    assert eventually(lambda: last_words(shell) == ["counter", "seconds", "doorway"])
+    assert shell.dialogue.question is None
+
+
+def test_what_is_agreed_to_after_a_halt_has_the_place_of_what_was_halted(shell: Shell):
+    begin(shell, "walk to the shelf", "squat for 3 seconds", "walk to the doorway")
+    shell.line("hold it")
+    shell.line("go to the cabinet but stop if I clap")  # is asked about
+    assert said[-1].endswith("Shall I just go to the cabinet?")
+    shell.line("yes")
+    assert not any(one.startswith("Still open") for one in said)
+    assert "Instead of “walk to the shelf”." in said
+    assert eventually(lambda: last_words(shell) == ["cabinet", "seconds", "doorway"])
+
+
+def test_what_waits_after_a_job_that_was_given_up_is_not_ended_by_what_comes_before_it(
+    shell: Shell,
+):
+    begin(shell, "walk to the shelf", "squat for 3 seconds", "walk to the doorway")
+    shell.line("wait")
+    shell.line("no")
+    assert eventually(lambda: len(open_jobs(shell)) == 2)
+    shell.line("go to the cabinet")
+    assert eventually(lambda: last_words(shell) == ["cabinet", "seconds", "doorway"])
+
+
+def test_a_correction_of_the_job_under_way_has_its_place(shell: Shell):
+    begin(shell, "walk to the shelf", "squat for 3 seconds", "wave")
+    shell.line("no, to the table")
+    assert eventually(lambda: last_words(shell) == ["table", "seconds", "wave"])
+
+
+def test_what_comes_first_after_a_halt_comes_first(shell: Shell):
+    begin(shell, "walk to the shelf", "squat for 3 seconds")
+    shell.line("hold on, go to the cabinet first")
+    first = next(job for job in shell.robot.executive.jobs if "cabinet" in job.text)
+    assert first.urgent
+    assert "walk to the shelf" in open_jobs(shell)
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [("wait", "because you called out"), ("pause", "paused on request"),
+     ("estop", "The emergency stop is on")],
+)  # fmt: skip
+def test_why_it_stands_is_told_while_it_does(shell: Shell, line: str, reason: str):
+    shell.line("wave")
+    assert eventually(lambda: not open_jobs(shell))
+    begin(shell, "walk to the shelf")
+    shell.line(line)
+    assert eventually(lambda: not walks(shell))
+    said.clear()
+    shell.line("why did you stop?")
+    assert reason in said[0]
+    shell.line("estop release")
+    shell.line("estop reset")

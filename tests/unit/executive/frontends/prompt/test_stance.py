@@ -23,7 +23,7 @@ def executive_with(mode: str | None, estop: EmergencyStop | None = None) -> Exec
     [
         ("stand", View(), "I stand already."),
         ("stand", View(low=True), "squat"),
-        ("fallen", View(), "fallen"),
+        ("fallen", View(), "lie on the floor; nothing moves. Say “get up”"),
         ("damping", View(), "damped"),
         ("walk", View(), "coming to a stand"),
         ("stand", View(mode="gone"), "gone"),

@@ -153,7 +153,7 @@ def config(user, monkeypatch, capsys):
 
 
 def test_every_value_says_where_it_comes_from(config, user, monkeypatch):
-    user.write_text('world = "flat"\nseed = 3\nmodel = "local.toml"\n[hooks]\ndone = ["true"]\n')
+    user.write_text('world = "bench"\nseed = 3\nmodel = "local.toml"\n[hooks]\ndone = ["true"]\n')
     Path("humanoid.toml").write_text("seed = 4\n")
     monkeypatch.setenv("HUMANOID_MODEL", "/of/environment.toml")
     found = config("--robot", "juno")
@@ -177,3 +177,12 @@ def test_a_file_is_the_default_of_an_option_and_the_option_comes_first(user, mon
         with pytest.raises(SystemExit) as end:
             cli.main()
         assert (end.value.code or 0) == status, capsys.readouterr()
+
+
+@pytest.mark.parametrize("option", ["--world", "--robot"])
+def test_config_names_a_world_or_a_robot_that_is_not_there(user, monkeypatch, capsys, option):
+    monkeypatch.setattr("sys.argv", ["humanoid", "config", option, "nowhere"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 2
+    assert "'nowhere'" in capsys.readouterr().err

@@ -1,0 +1,53 @@
+"""What commands that steer say is what comes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.prompt.shell import Shell
+from tests.fakes.puppet_shell import puppet_shell
+
+said: list[str] = []
+
+
+@pytest.fixture
+def shell(tmp_path: Path) -> Generator[Shell]:
+    said.clear()
+    with puppet_shell(tmp_path, said) as made:
+        yield made
+        made.brake.stop("the test is over")
+
+
+def test_a_place_beyond_the_queue_is_its_last(shell: Shell) -> None:
+    for line in ("walk to the shelf", "wave", "walk to the table", "walk to the doorway"):
+        shell.line(line)
+    shell.line("goals move 2 9")
+    assert said[-1] == "Job 2 waits at place 2, the last; 0 is next."
+    shell.line("goals move 2 0")
+    assert said[-1] == "Job 2 waits at place 0; 0 is next."
+
+
+@pytest.mark.parametrize("line", ["resume", "continue"])
+def test_with_the_emergency_stop_on_nothing_is_under_way(shell: Shell, line: str) -> None:
+    shell.line("walk to the shelf")
+    shell.line("estop")
+    shell.line(line)
+    assert said[-1].startswith("The emergency stop is on, and nothing moves")
+
+
+def test_a_pause_under_the_emergency_stop_is_told_with_it_and_after_it(shell: Shell) -> None:
+    shell.line("estop")
+    shell.line("pause")
+    assert "The emergency stop is on" in said[-1]
+    assert "paused after that" in said[-1]
+    shell.line("estop release")
+    shell.line("estop reset")
+    assert said[-1] == "The robot may move again; it is paused, until `resume`."
+    shell.line("resume")
+    shell.line("estop")
+    shell.line("estop release")
+    shell.line("estop reset")
+    assert said[-1] == "The robot may move again."
