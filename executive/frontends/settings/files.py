@@ -4,6 +4,7 @@
     world = "flat"
     voice = true
     model = "local.toml"                  # beside this file
+    devices = ["/dev/video0"]             # that robots may open
 
     [hooks]
     failed = ["notify-send", "humanoid", "{text}: {cause}"]
@@ -90,6 +91,8 @@ class User(Project, frozen=True, kw_only=True, forbid_unknown_fields=True):
     voice: bool | None = None
     voice_model: Name | None = None
     model: Name | None = None
+    devices: Annotated[tuple[Name, ...], Meta(max_length=MOST_WORDS)] | None = None
+    """That drivers of robots may open (`robot.users_own`)."""
     hooks: Hooks = Hooks()
 
 

@@ -32,13 +32,13 @@ def read_grey(path: Path) -> Picture:
     return _read(path, "L")
 
 
-def read_colour(path: Path) -> Picture:
+def read_colour(path: Path, *, most_pixels: int = MOST_PIXELS) -> Picture:
     """A picture in red, green and blue, shape (height, width, 3).
 
     Raises:
         ConfigError: it cannot be read, is no picture, or too large.
     """
-    return _read(path, "RGB")
+    return _read(path, "RGB", most_pixels)
 
 
 def pictures_in(place: Path) -> list[Path]:
@@ -61,7 +61,7 @@ def pictures_in(place: Path) -> list[Path]:
     return found
 
 
-def _read(path: Path, mode: str) -> Picture:
+def _read(path: Path, mode: str, most_pixels: int = MOST_PIXELS) -> Picture:
     try:
         data = read_ordinary(path, limit=MOST_BYTES)
     except OSError as error:
@@ -73,7 +73,7 @@ def _read(path: Path, mode: str) -> Picture:
             # libtiff writes what it finds wrong by itself.
             muted() if image.format == "TIFF" else nullcontext(),
         ):
-            return _decoded(path, image, mode)
+            return _decoded(path, image, mode, most_pixels)
     except UnidentifiedImageError:
         raise _wrong(path, "this is no picture", f"known are {', '.join(FORMATS)}") from None
     except ConfigError:
@@ -82,9 +82,9 @@ def _read(path: Path, mode: str) -> Picture:
         raise _wrong(path, "this picture is broken", "take it anew, or leave it out") from None
 
 
-def _decoded(path: Path, image: Image.Image, mode: str) -> Picture:
-    if image.width * image.height > MOST_PIXELS:
-        raise _wrong(path, f"more than {MOST_PIXELS / 1e6:g} megapixels are too many")
+def _decoded(path: Path, image: Image.Image, mode: str, most_pixels: int) -> Picture:
+    if image.width * image.height > most_pixels:
+        raise _wrong(path, f"more than {most_pixels / 1e6:g} megapixels are too many")
     if image.mode.startswith("I;16"):  # 16 bits of grey: Pillow would cut them off at 255
         image = Image.fromarray((np.asarray(image) >> 8).astype(np.uint8))
     return np.asarray(image.convert(mode))
