@@ -231,5 +231,5 @@ def _located(name: str, value: Any, path: Path) -> Any:
 def _line_of(name: str, text: str) -> int | None:
     """The line that sets a key, counted from 1."""
     name = name.rpartition(".")[2]
-    found = re.search(rf"^\s*\[?{re.escape(name)}[\]\s.=]", text, re.MULTILINE)
+    found = re.search(rf"^[ \t]*+\[?{re.escape(name)}[\]\s.=]", text, re.MULTILINE)
     return text.count("\n", 0, found.end()) + 1 if found else None
