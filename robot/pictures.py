@@ -21,6 +21,10 @@ FORMATS = ("JPEG", "PNG", "BMP", "PPM", "TIFF", "WEBP")
 ENDINGS = frozenset({".jpg", ".jpeg", ".png", ".bmp", ".pgm", ".ppm", ".tif", ".tiff", ".webp"})
 MOST_BYTES, MOST_PIXELS = 100_000_000, 50_000_000
 MOST_PICTURES = 2000
+MOST_SCANNED = 10 * MOST_PIXELS
+"""Pixels of a JPEG times its scans, each of which is decoded over the one before."""
+_SCAN = b"\xff\xda"
+"""Begins one (ITU-T T.81, table B.1); in what is packed, ff is followed by 00."""
 
 
 def read_grey(path: Path) -> Picture:
@@ -73,6 +77,8 @@ def _read(path: Path, mode: str, most_pixels: int = MOST_PIXELS) -> Picture:
             # libtiff writes what it finds wrong by itself.
             muted() if image.format == "TIFF" else nullcontext(),
         ):
+            if image.width * image.height * data.count(_SCAN) > MOST_SCANNED:
+                raise _wrong(path, f"it has {data.count(_SCAN)} scans", "save it anew, as PNG")
             return _decoded(path, image, mode, most_pixels)
     except UnidentifiedImageError:
         raise _wrong(path, "this is no picture", f"known are {', '.join(FORMATS)}") from None
