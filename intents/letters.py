@@ -19,10 +19,10 @@ _UNSEEN = re.compile(
 """Default_Ignorable_Code_Point of Unicode's DerivedCoreProperties, and the empty braille cell."""
 _SEQUENCE = re.compile(
     r"(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]"  # CSI: colours, keys, the marks around a paste
-    r"|(?:\x1b\]|\x9d)[^\x07\x1b\x9c]*(?:\x07|\x1b\\|\x9c)"  # OSC: titles, links
+    r"|(?:\x1b\]|\x9d)[^\x07\x1b\x9c\x9d]*+(?:\x07|\x1b\\|\x9c)"  # OSC: titles, links
     r"|\x1bO.|\x1b"
 )
-"""A control sequence (ECMA-48), or the escape of one that is none."""
+"""A control sequence (ECMA-48), or the escape of one that is none; none holds another."""
 _MARKS = re.compile("[\u0300-\u036f\u0483-\u0489\u1ab0-\u1aff\u1dc0-\u1dff\u20d0-\u20ff]+")
 """Marks above, below and around Latin, Greek and Cyrillic letters."""
 _LIKE = {

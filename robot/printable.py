@@ -15,8 +15,9 @@ _CONTROL = "\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for tab and new line, DEL, C1
 _DIRECTION = "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # https://trojansource.codes
 _BREAKS = "\u2028\u2029"  # ends of lines to some readers and not to others
 _UNSEEN = (  # of no width: two names that look the same are not, and text hides in tags
-    "\u00ad\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200d\u2060-\u2064\u206a-\u206f"
-    "\u3164\ufeff\uffa0\ufff0-\ufffb\U000e0000-\U000e0fff"
+    "\u00ad\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200d\u2060-\u2065\u206a-\u206f"
+    "\u2800\u3164\ufe00-\ufe0f\ufeff\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a"
+    "\U000e0000-\U000e0fff"
 )
 _NO_CHARACTERS = "\ufffe\uffff"  # XML forbids them
 _SURROGATES = "\ud800-\udfff"  # no text: writing them raises

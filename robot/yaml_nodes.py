@@ -28,6 +28,8 @@ MAX_DEPTH = 60
 MAX_NODES = 150_000
 MAX_TEXT = 10_000
 """Characters of one text or key: more is no name and no sentence, and every message repeats it."""
+MOST_DIRECTIVES = 10
+"""libyaml compares each with all before it."""
 
 TAG_PREFIX = "tag:yaml.org,2002:"
 """What `!!` in a file stands for."""
@@ -37,6 +39,7 @@ Scalar = str | int | float | bool | None
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ufffe\uffff]")
+_DIRECTIVE = re.compile(r"(?:^|[\r\n\x85\u2028\u2029])%")
 _INTEGER = re.compile(r"[-+]?[0-9]{1,18}")
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]{1,3})?")
 _WORDS: dict[str, Scalar] = {
@@ -197,6 +200,9 @@ def parse(text: str, file: str, *, begin_with: str = "") -> Node:
         ConfigError: it is empty, no YAML, too deep, too large, or uses anchors, tags, double keys.
     """
     try:
+        if len(_DIRECTIVE.findall(text)) > MOST_DIRECTIVES:
+            said = f"more than {MOST_DIRECTIVES} lines begin with %, as directives do"
+            raise _refusal(file, said, "leave them out")
         root = _Builder(file).build(_events(text))
     except yaml.MarkedYAMLError as error:
         message, cure, line, column = yaml_words.told(error, text)

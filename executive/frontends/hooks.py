@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import queue
+import re
 import signal
 import subprocess
 import threading
@@ -29,7 +30,7 @@ MOST_WAITING = 20
 """Events that wait for those before them; further ones are passed over."""
 LAST_S = 12.0
 """How long the end of a run waits for what is under way."""
-PLACEHOLDERS = ("event", "text", "cause")
+_PLACEHOLDER = re.compile(r"\{(event|text|cause)\}")
 
 Notify = Callable[[str | tuple[str, ...], dict[str, Any]], None]
 
@@ -149,11 +150,15 @@ def _run(command: list[str], data: bytes) -> None:
 def filled(word: str, told: dict[str, Any]) -> str:
     """A word of a command with what happened put in for {text} and the like.
 
-    What was said to the robot cannot become an option of that command: it begins with no dash.
+    What was said to the robot cannot become an option of that command: nothing is put into what
+    was put in, and a word that begins with no dash of the user's own begins with none.
     """
-    for name in PLACEHOLDERS:
-        word = word.replace(f"{{{name}}}", printable_line(str(told[name])).lstrip("-"))
-    return word
+
+    def put_in(found: re.Match[str]) -> str:
+        return printable_line(str(told[found[1]])).lstrip("-")
+
+    full = _PLACEHOLDER.sub(put_in, word)
+    return full if word.startswith("-") else full.lstrip("-")
 
 
 def _post(address: str, data: bytes) -> None:

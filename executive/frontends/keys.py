@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robot import plain_data
+from robot import plain_data, users_own
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import read_secret
 
@@ -43,10 +43,7 @@ class Source(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
 
 def path() -> Path:
     """Where the keys of this user are named."""
-    base = os.environ.get("XDG_CONFIG_HOME", "")
-    # The standard wants relative ones ignored: https://specifications.freedesktop.org/basedir-spec
-    folder = Path(base) if Path(base).is_absolute() else Path(os.path.expanduser("~/.config"))  # noqa: PTH111 - it never raises
-    return folder / "humanoid" / "keys.toml"
+    return users_own.folder() / "keys.toml"
 
 
 def sources(file: Path) -> dict[str, Source]:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from intents.language_model import LanguageModel
 
 MAX_BYTES = 64_000
-_NAMES_A_KEY = re.compile(r"^\s*[\"']?key_(file|variable)[\"']?\s*=", re.MULTILINE)
+_NAMES_A_KEY = re.compile(r"^[ \t]*+[\"']?key_(file|variable)[\"']?[ \t]*+=", re.MULTILINE)
 
 
 def language_model(

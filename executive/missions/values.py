@@ -18,7 +18,8 @@ from executive.missions.schema import ParameterRecord, ParameterType
 from robot.config import nearest
 from robot.yaml_nodes import MAX_TEXT, Node, Scalar, text_node
 
-PLACEHOLDER = re.compile(r"\{\{ *([^{}]*?) *\}\}")
+PLACEHOLDER = re.compile(r"\{\{ *+((?:[^{} ]++| ++(?!\}))*+) *+\}\}")
+"""Two braces, and what stands within; nothing is tried twice, however many blanks there are."""
 SINGLE = re.compile(r"(?<!\{)\{ *(\w+) *\}(?!\})")
 """What was meant to be a placeholder: braces mean nothing else, in no sentence and in no name."""
 SPOKEN: frozenset[ParameterType] = frozenset({"object", "place", "person", "number", "integer"})

@@ -16,9 +16,10 @@ _THOUGHTS_BEGIN = re.compile(r"<(?:think|thinking|thought|thoughts|reasoning|ref
 _FINAL = re.compile(r"<\|channel\|>\s*final[^<]{0,40}<\|message\|>")
 """Where the answer begins, in a format of channels (OpenAI's "harmony")."""
 _TOKEN = re.compile(r"<\|[^|<>]{1,40}\|>")
-_STRING = r'"(?:[^"\\]|\\.)*"'
+_STRING = r'"(?:[^"\\]++|\\.?)*+(?:"|\Z)'
+"""One that nothing closes goes to the end: else every quote in it would be tried in turn."""
 _UNJSON = re.compile(
-    rf"(?P<kept>{_STRING})|(?P<single>'(?:[^'\\]|\\.)*')|(?P<comment>//[^\n]*|\#[^\n]*)"
+    rf"(?P<kept>{_STRING})|(?P<single>'(?:[^'\\]++|\\.?)*+(?P<end>'|\Z))|(?P<comment>//[^\n]*|\#[^\n]*)"
     r"|(?P<word>\b(?:True|False|None)\b)|(?P<key>\b[A-Za-z_]\w{0,40})(?=\s{0,9}:)",
     re.DOTALL,
 )
@@ -112,11 +113,11 @@ def _mended(text: str) -> str:
     """JSON from what is nearly JSON: comments, bare keys, Python's quotes, trailing commas."""
 
     def json_of(found: re.Match[str]) -> str:
-        if found["single"]:
+        if found["end"]:
             inner = found["single"][1:-1].replace("\\'", "'").replace('"', '\\"')
             return f'"{inner}"'
         if found["key"]:
             return f'"{found["key"]}"'
-        return found["kept"] or _WORDS.get(found["word"] or "", "")
+        return found["kept"] or found["single"] or _WORDS.get(found["word"] or "", "")
 
     return _TRAILING.sub(lambda found: found[1] or "", _UNJSON.sub(json_of, text))

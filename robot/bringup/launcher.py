@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from robot.bringup import lowering, private_folder
+from robot.bringup import flags, lowering, private_folder
 from robot.bringup.child import POLL_S, Child, describe_exit
 from robot.bringup.mailbox import (
     FRONT_FILE,
@@ -31,10 +31,7 @@ from robot.bringup.mailbox import (
     STATE_FILE,
     Front,
     State,
-    hears_file,
-    leave_stop,
     save,
-    take_stop,
 )
 from robot.bringup.processes import EXECUTIVE, PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
@@ -117,7 +114,12 @@ class Launcher:
         clock: Clock,
         processes: tuple[Process, ...],
     ) -> None:
-        """Start nothing yet."""
+        """Start nothing yet.
+
+        Raises:
+            ProcessError: there is no room for what a stop is told by.
+        """
+        self._flags = flags.make(private)
         self._front = front
         self._private = private
         self._executive = executive
@@ -235,7 +237,7 @@ class Launcher:
     def _is_deaf(self) -> bool:
         """Whether the executive takes over from one that died, and does not hear people yet."""
         deaths = self._front.deaths
-        return deaths > 0 and not (self._private / hears_file(deaths)).exists()
+        return deaths > 0 and not self._flags.hears(deaths)
 
     def _answer_keys(self) -> None:
         """Say what becomes of keys that reach nobody but this process."""
@@ -245,7 +247,7 @@ class Launcher:
         if self._stop_heard:
             self._stop_heard = False
             self._tell(STOP_HEARD)
-        elif self._front.deaths and not self._is_deaf and take_stop(self._private):
+        elif self._front.deaths and not self._is_deaf and self._flags.take_stop():
             self._pass_on_s = self._clock.now_s()  # it began to hear in that very moment
 
     def _pass_on(self) -> None:
@@ -270,7 +272,7 @@ class Launcher:
                 return
             now_s = self._clock.now_s()
             if self._is_deaf:
-                leave_stop(self._private)
+                self._flags.leave_stop()
                 self._stop_heard = True
                 if number == signal.SIGINT:
                     return

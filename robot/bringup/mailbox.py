@@ -4,8 +4,8 @@
 ``front.json``   written by the launcher: which front end the executive runs, with its options
 ``run.json``     written by the executive: the robot and world it wants (`robot.bus.run.Run`)
 ``state.json``   written by the launcher: how the processes are, after every change
-``hears-N``      left by the executive that took over from N others: it hears people itself now
-``stop``         left by the launcher, for an executive that did not hear people when they said so
+``flags``        whether the next executive hears people itself now, and whether these said stop
+                 while it did not (`robot.bringup.flags`)
 ===============  ==============================================================================
 
 The files outlive either process's death in the middle of anything: an executive that is started
@@ -27,13 +27,13 @@ from typing import Any, TypeVar
 
 import msgspec
 
+from robot.bringup.flags import find
 from robot.bus import run
 from robot.bus.run import Run
 from robot.errors import ProcessError
 from robot.failures import Failure
 
 FRONT_FILE, RUN_FILE, STATE_FILE = "front.json", "run.json", "state.json"
-STOP_FILE = "stop"
 
 
 class Front(msgspec.Struct, frozen=True, kw_only=True):
@@ -92,9 +92,10 @@ class Handle:
 
     def hear(self) -> bool:
         """Say that people are heard from here on; whether they said stop while nobody could."""
-        told = take_stop(self.folder)
-        _touch(self.folder / hears_file(self.deaths))
-        return take_stop(self.folder) or told
+        flags = find(self.folder)
+        told = flags.take_stop()
+        flags.say_it_hears(self.deaths)
+        return flags.take_stop() or told
 
     @property
     def restarted(self) -> tuple[str, ...]:
@@ -117,36 +118,12 @@ class Handle:
         return self._state
 
 
-def hears_file(deaths: int) -> str:
-    """The name of what says that an executive hears people, after so many others have died."""
-    return f"hears-{deaths}"
-
-
-def leave_stop(folder: Path) -> None:
-    """Tell the next executive that people said stop; also from a signal handler."""
-    _touch(folder / STOP_FILE)
-
-
 def leave_stop_for_next(folder: Path) -> None:
     """Leave a stop where an executive takes over from a dead one, and does not hear people yet."""
     front = read(folder / FRONT_FILE, Front)
-    if front is not None and front.deaths and not (folder / hears_file(front.deaths)).exists():
-        leave_stop(folder)
-
-
-def take_stop(folder: Path) -> bool:
-    """Whether people said stop, and nobody has heeded it; from here on somebody has."""
-    try:
-        (folder / STOP_FILE).unlink()
-    except FileNotFoundError:
-        return False
-    return True
-
-
-def _touch(path: Path) -> None:
-    """Leave an empty file, where there is room for one."""
-    with contextlib.suppress(OSError):
-        os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600))
+    with contextlib.suppress(OSError):  # that run has ended
+        if front is not None and front.deaths and not (there := find(folder)).hears(front.deaths):
+            there.leave_stop()
 
 
 ROOM_BYTES = 1 << 16

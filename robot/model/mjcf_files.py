@@ -28,7 +28,7 @@ MAX_FOLDERS = 20
 FOLDER_KEYS = ("meshdir", "texturedir", "assetdir")
 
 _BROKEN_NAME = re.compile(
-    r"""(?:file\w*|(?:mesh|texture|asset)dir)\s*=\s*(?:"[^"]*[\t\r\n]|'[^']*[\t\r\n])"""
+    r"""(?<!\w)(?:file\w*+|(?:mesh|texture|asset)dir)\s*+=\s*+(?:"[^"]*[\t\r\n]|'[^']*[\t\r\n])"""
 )
 
 
@@ -43,6 +43,8 @@ def read(path: Path) -> ET.Element:
     # MuJoCo takes every file for UTF-8, knows no name spaces, and keeps the line breaks in an
     # attribute: whatever would read otherwise here could hide a name from the look at it.
     text = read_ordinary(path, limit=MAX_XML_BYTES).decode()
+    if "\0" in text:  # UTF-16 of Latin letters is UTF-8 as well, and expat knows it by these
+        raise ET.ParseError("a character stands in it that XML forbids")
     if "<!DOCTYPE" in text:
         raise ET.ParseError("a document type is declared; leave it out")
     if _BROKEN_NAME.search(text):

@@ -12,8 +12,6 @@ from robot.drivers.camera.librealsense import Frame, Lens
 class FakeCapture:
     """Gives the pictures that it is shown, each once it is asked for; then it may be unplugged."""
 
-    is_device = True
-
     def __init__(self) -> None:
         self._pictures: queue.Queue[np.ndarray | None] = queue.Queue()
         self._asked = threading.Semaphore(0)

@@ -15,7 +15,7 @@ from robot.ordinary_files import write_ordinary
 from robot.perception.calibration.board import read_board
 from robot.perception.calibration.camera_info import camera_info
 from robot.perception.calibration.intrinsics import Camera, calibrate
-from robot.perception.pictures import pictures_in
+from robot.pictures import pictures_in
 
 
 def calibrate_camera(

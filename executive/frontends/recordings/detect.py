@@ -9,7 +9,7 @@ from executive.frontends.output import say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.perception.detector.detector import Detection, Detector
-from robot.perception.pictures import read_colour
+from robot.pictures import read_colour
 
 NONE_YET = "no model for detection comes along with this software yet"
 CURE = (

@@ -17,7 +17,7 @@ from robot.perception.calibration.hand_eye import Mounting, inverse, mounting
 from robot.perception.calibration.intrinsics import explain
 from robot.perception.calibration.poses import read_poses
 from robot.perception.calibration.views import find_views
-from robot.perception.pictures import pictures_in
+from robot.pictures import pictures_in
 from robot.se3 import SE3
 
 

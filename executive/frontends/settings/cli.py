@@ -76,6 +76,8 @@ def _tell(
 ) -> None:
     values = settings.values
     rows = [(key, given[key], origin(key, sources[key], values.get(key))) for key in KEYS]
+    devices = values.get("devices")
+    rows.append(("devices", devices and devices.value, devices.origin if devices else "default"))
     for name in Hooks.__struct_fields__:
         value = values.get(f"hooks.{name}")
         rows.append(

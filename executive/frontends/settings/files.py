@@ -4,6 +4,7 @@
     world = "flat"
     voice = true
     model = "local.toml"                  # beside this file
+    devices = ["/dev/video0"]             # that robots may open
 
     [hooks]
     failed = ["notify-send", "humanoid", "{text}: {cause}"]
@@ -90,6 +91,8 @@ class User(Project, frozen=True, kw_only=True, forbid_unknown_fields=True):
     voice: bool | None = None
     voice_model: Name | None = None
     model: Name | None = None
+    devices: Annotated[tuple[Name, ...], Meta(max_length=MOST_WORDS)] | None = None
+    """That drivers of robots may open (`robot.users_own`)."""
     hooks: Hooks = Hooks()
 
 
@@ -228,5 +231,5 @@ def _located(name: str, value: Any, path: Path) -> Any:
 def _line_of(name: str, text: str) -> int | None:
     """The line that sets a key, counted from 1."""
     name = name.rpartition(".")[2]
-    found = re.search(rf"^\s*\[?{re.escape(name)}[\]\s.=]", text, re.MULTILINE)
+    found = re.search(rf"^[ \t]*+\[?{re.escape(name)}[\]\s.=]", text, re.MULTILINE)
     return text.count("\n", 0, found.end()) + 1 if found else None

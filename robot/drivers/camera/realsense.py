@@ -16,7 +16,7 @@ from typing import Protocol, Self
 
 import msgspec
 
-from robot import config
+from robot import config, users_own
 from robot import quantities as q
 from robot.clock import Clock
 from robot.closing import Closing
@@ -138,6 +138,7 @@ def make(wiring: Wiring) -> SensorSource[RgbdImage, Camera]:
     settings = config.load(path, Settings) if path.exists() else Settings()
 
     def opens() -> RealSense:
+        users_own.check_device("realsense")
         return RealSense(
             settings.serial,
             width=settings.width,

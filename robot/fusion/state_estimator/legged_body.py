@@ -109,8 +109,9 @@ def _imu(chains: Chains, log: LeggedLog, up_B: Array, told: str | None) -> tuple
     fixed = [n for n in named if not chains.moving(n) and (n == chains.base or chains.path(n))]
     candidates = [_checked(chains, log, told)] if told else [*fixed, chains.base]
     offs: list[tuple[float, str, float]] = []
+    at_first = {joint: values[:1] for joint, values in log.joints.items()}
     for name in candidates:
-        up = chains.poses(name, log.joints)[0][0] @ felt
+        up = chains.poses(name, at_first)[0][0] @ felt
         norm = float(np.linalg.norm(up)) * float(np.linalg.norm(up_B))
         cosine = float(up @ up_B) / max(norm, 1e-9)
         sign = 1.0 if cosine >= 0.0 else -1.0

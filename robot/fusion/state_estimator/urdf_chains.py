@@ -19,6 +19,8 @@ from robot.se3 import SE3, Array
 
 MOST_BYTES = 5_000_000
 """Thirty times that of a large humanoid; XML takes some 25 times its size in memory."""
+MOST_LINKS, MOST_DEEP = 2000, 60
+"""Links, and joints from the root to one: several times those of a humanoid with hands."""
 LARGEST = 1e3
 """Of every number [m, rad], factors of mimics too: no robot is larger, and nothing overflows."""
 LARGEST_KG = 1e5
@@ -84,20 +86,19 @@ class Chains:
             Rotations, shape (n, 3, 3), and positions [m], shape (n, 3).
         """
         n = len(next(iter(readings.values()))) if readings else 1
-        rotations = np.broadcast_to(np.eye(3), (n, 3, 3)).copy()
-        positions = np.zeros((n, 3))
+        rotations, positions = np.eye(3)[None], np.zeros((1, 3))  # of one, until a joint moves
         for joint in self.path(link):
-            positions += rotations @ joint.position
+            positions = positions + rotations @ joint.position
             rotations = rotations @ joint.rotation
             if joint.kind not in MOVING:
                 continue
             name, gain, offset = joint.follows or (joint.name, 1.0, 0.0)
             values = gain * readings[name] + offset
             if joint.kind == "prismatic":
-                positions += values[:, None] * (rotations @ joint.axis)
+                positions = positions + values[:, None] * (rotations @ joint.axis)
             else:
                 rotations = rotations @ _turns(joint.axis, values)
-        return rotations, positions
+        return np.broadcast_to(rotations, (n, 3, 3)), np.broadcast_to(positions, (n, 3))
 
 
 def load(path: Path) -> Chains:
@@ -110,10 +111,16 @@ def load(path: Path) -> Chains:
         data = read_ordinary(path, limit=MOST_BYTES)
     except OSError as error:
         raise _refused(path, f"it cannot be read: {error.strerror}") from None
-    if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
+    try:
+        text = data.decode("utf-8-sig")  # expat would take it for what the file says it is
+    except UnicodeDecodeError:
+        raise _refused(path, "it is no UTF-8 text") from None
+    if "\0" in text:  # UTF-16 of Latin letters is UTF-8 as well, and expat knows it by these
+        raise _refused(path, "it is no UTF-8 text")
+    if "<!ENTITY" in text or "<!DOCTYPE" in text:
         raise _refused(path, "a URDF has no document type")
     try:
-        root = ET.fromstring(data)
+        root = ET.fromstring(text)
     except (ET.ParseError, ValueError, LookupError) as error:
         raise _refused(path, f"it is no XML: {error}") from None
     if root.tag != "robot":
@@ -130,6 +137,8 @@ def load(path: Path) -> Chains:
 
 def _tree(path: Path, joints: list[Joint], masses: dict[str, float]) -> Chains:
     above = {joint.child: joint for joint in joints}
+    if max(len(masses), len(joints)) > MOST_LINKS:
+        raise _refused(path, f"it has more than {MOST_LINKS} links")
     if len(above) < len(joints):
         raise _refused(path, "a link hangs on two joints")
     roots = [name for name in masses if name not in above]
@@ -140,8 +149,12 @@ def _tree(path: Path, joints: list[Joint], masses: dict[str, float]) -> Chains:
         below.setdefault(joint.parent, []).append(joint)
     base = roots[0]
     hanging = [base]
+    deep = {base: 0}
     for link in hanging:  # grows: each link hangs on one joint, so none comes twice
-        hanging += [joint.child for joint in below.get(link, [])]
+        hanging += (children := [joint.child for joint in below.get(link, [])])
+        deep |= dict.fromkeys(children, deep[link] + 1)
+    if max(deep.values()) > MOST_DEEP:
+        raise _refused(path, f"a link hangs on more than {MOST_DEEP} joints")
     if apart := sorted(above.keys() - set(hanging)):
         raise _refused(path, f"{apart[0]!r} does not hang on {base!r}: its joints make a ring")
     while masses.get(base, 0.0) == 0.0 and len(below.get(base, [])) == 1:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
 from robot.perception.calibration.board import Board, Charuco, Chessboard
-from robot.perception.pictures import Picture
+from robot.pictures import Picture
 
 INSTALL = "pip install 'humanoid-executive[vision]'"
 ITERATIONS, ENOUGH_PX = 30, 0.1

@@ -11,7 +11,7 @@ from robot.perception.detector.letterbox import letterboxed
 from robot.perception.detector.network import Network
 from robot.perception.detector.overlaps import without_overlaps
 from robot.perception.detector.yolo import decoded
-from robot.perception.pictures import Picture
+from robot.pictures import Picture
 
 LEAST_SCORE, OVERLAP = 0.25, 0.45
 """As YOLO's own tools have them."""

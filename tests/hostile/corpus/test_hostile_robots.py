@@ -273,6 +273,15 @@ OVERLAYS: dict[str, str] = {
     "empty": "",
 }  # fmt: skip
 
+CAMERAS: dict[str, tuple[str, str | Make]] = {
+    "pipe": ("film", fifo),
+    "listens": ("tcp:/127.0.0.1:9913?listen=1", ""),
+    "play-list": ("film", "#EXTM3U\n#EXTINF:1,\nfile:///dev/zero\n"),
+    "digits": ("%0999999999d.png", ""),
+    "device": ("/dev/../dev/zero", ""),
+    "outside": (f"{OUTSIDE}/secret.txt", ""),
+}
+
 CASES = [
     *(
         _robot(f"number-{path}-{name}", path, new, _front(index))
@@ -291,6 +300,21 @@ CASES = [
     *(
         _overlay(name, content, ("doctor", "export")[index % 2])
         for index, (name, content) in enumerate(OVERLAYS.items())
+    ),
+    *(
+        Case(
+            name=f"camera-{name}",
+            argv=FRONTS["do"],
+            files={
+                "r.yaml": document({**ROBOT, "drivers": {**ROBOT["drivers"], "rgbd": "uvc"}}),
+                "juno.xml": MJCF,
+                "uvc.yaml": document({"device": device}),
+                "film": what,
+            },
+            expect=Expect.ENDS,
+            cpu_s=30,
+        )
+        for name, (device, what) in CAMERAS.items()
     ),
     Case(
         name="sound",

@@ -57,8 +57,22 @@ def test_a_command_gets_the_event_on_its_standard_input(tmp_path):
 
 def test_what_was_said_is_neither_an_option_nor_a_shells():
     told = {"event": "done", "text": "--urgency; $(id) {cause}", "cause": "-rf"}
-    assert filled("{text}", told) == "urgency; $(id) rf"
+    assert filled("{text}", told) == "urgency; $(id) {cause}"
     assert filled("{text}\x1b", {**told, "text": "a\x1b[2Jb\nc"}).count("\n") == 0
+
+
+@pytest.mark.parametrize("text", ["{cause}--eval=evil", "{cause}-x", "-{cause}", "{event}", "- -x"])
+@pytest.mark.parametrize("word", ["{text}", "{cause}{text}", "{cause}-{text}", "{text}{text}"])
+@pytest.mark.parametrize("cause", ["", "-", "{text}"])
+def test_nothing_that_was_said_begins_an_option_or_is_filled_in_itself(text, word, cause):
+    full = filled(word, {"event": "done", "text": text, "cause": cause})
+    assert not full.startswith("-")
+    assert "done" not in full
+
+
+def test_an_option_of_the_users_own_stays_one():
+    told = {"event": "done", "text": "-a", "cause": ""}
+    assert filled("--title={text}", told) == "--title=a"
 
 
 def test_a_hook_that_hangs_holds_nobody_up_and_later_ones_are_passed_over(capsys):

@@ -18,6 +18,14 @@ from tests.fakes.realsense_module import SERIAL, Device, module
 JUNO = description.load("juno").path().parent
 
 
+@pytest.fixture(autouse=True)
+def own(tmp_path, monkeypatch):
+    """The user's own file lets robots open one."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    (tmp_path / "humanoid").mkdir()
+    (tmp_path / "humanoid" / "config.toml").write_text('devices = ["realsense"]\n')
+
+
 @pytest.fixture
 def device(monkeypatch) -> Device:
     device = Device()

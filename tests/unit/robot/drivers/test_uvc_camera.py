@@ -1,5 +1,6 @@
 """A webcam: pictures in order, unplugged ones noticed, films and numbered pictures in its place."""
 
+import os
 import shutil
 import threading
 
@@ -9,7 +10,7 @@ from PIL import Image
 
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock, WallClock
-from robot.drivers.camera.uvc import KEPT, Settings, UvcCamera
+from robot.drivers.camera.uvc import KEPT, OPENING_S, Settings, UvcCamera
 from robot.drivers.registry import RGBD
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, DriverError
@@ -109,11 +110,138 @@ def test_numbered_pictures_stand_in_for_a_device_and_end_as_unplugged(body):
     ]  # fmt: skip
 
 
-def test_a_camera_that_is_not_there_is_an_error_with_its_place(body):
+def failure_of(camera) -> str:
+    """What a camera says that gives no picture."""
+    said: list[str] = []
+
+    def is_over() -> bool:
+        try:
+            assert not camera.read()
+        except DriverError as error:
+            said.append(str(error))
+        return bool(said)
+
+    with camera:
+        wait_for(is_over)
+    return said[0]
+
+
+@pytest.fixture
+def own(tmp_path, monkeypatch):
+    """The user's own file, which lets robots open a device."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    file = tmp_path / "humanoid" / "config.toml"
+    file.parent.mkdir()
+    file.write_text('devices = ["/dev/video987", "/dev/null"]\n')
+    return file
+
+
+def test_a_camera_that_is_not_there_is_an_error_with_its_place(body, own):
     pytest.importorskip("cv2")
     body.with_name("uvc.yaml").write_text("device: /dev/video987\n")
-    with pytest.raises(DriverError, match="/dev/video987"), made(body, SimulatedClock()):
+    assert "there is no camera /dev/video987" in failure_of(made(body, SimulatedClock()))
+
+
+@pytest.mark.parametrize(
+    "device", ["/dev/video0", "/dev/../dev/video987", "/dev/null/../video987", "/dev/tty"]
+)
+def test_no_device_is_opened_that_the_users_own_file_does_not_name(body, own, device):
+    body.with_name("uvc.yaml").write_text(f"device: {device}\n")
+    said = failure_of(made(body, SimulatedClock()))
+    assert "config.toml" in said and device in said
+
+
+def test_a_file_that_everybody_may_write_lets_nothing_be_opened(body, own):
+    body.with_name("uvc.yaml").write_text("device: /dev/video987\n")
+    own.chmod(0o666)
+    assert "config.toml" in failure_of(made(body, SimulatedClock()))
+
+
+def test_a_realsense_is_not_opened_unasked(body, own):
+    body.write_text(body.read_text().replace("rgbd: uvc", "rgbd: realsense"))
+    with pytest.raises(DriverError, match="realsense is not opened"), made(body, SimulatedClock()):
         pass
+
+
+@pytest.mark.parametrize(
+    "device",
+    [
+        "http://127.0.0.1:9/film.mp4",
+        "tcp:/127.0.0.1:9?listen=1",
+        "pipe",
+        "list.mp4",
+        "link.mkv",
+        "../outside.mkv",
+        "/etc/hostname",
+        "folder",
+        "frames/%0999999999d.png",
+        "frames/%04d%04d.png",
+        "frames/%s.png",
+        "out/%d.png",
+        "one/%d.png",
+    ],
+)
+def test_what_a_strangers_file_names_is_an_ordinary_film_or_picture_in_its_folder(body, device):
+    pytest.importorskip("cv2")
+    folder = body.parent
+    os.mkfifo(folder / "pipe")
+    (folder / "folder").mkdir()
+    (folder / "list.mp4").write_text("#EXTM3U\n#EXTINF:1,\nfile:///dev/zero\n")
+    outside = folder.parent / "outside.mkv"
+    outside.write_bytes(b"\x1aE\xdf\xa3")
+    (folder / "link.mkv").symlink_to(outside)
+    (folder / "out").symlink_to(folder.parent)
+    Image.fromarray(grey(0)).save(folder.parent / "0.png")
+    (folder / "one").mkdir()
+    (folder / "one" / "0.png").symlink_to(folder.parent / "0.png")
+    body.with_name("uvc.yaml").write_text(f'device: "{device}"\n')
+    assert failure_of(made(body, SimulatedClock()))
+
+
+def film(path, width, height) -> None:
+    cv2 = pytest.importorskip("cv2")
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), 10, (width, height))
+    for _ in range(2):
+        writer.write(np.zeros((height, width, 3), np.uint8))
+    writer.release()
+
+
+def test_a_film_is_shown(body):
+    film(body.with_name("film.avi"), 64, 48)
+    body.with_name("uvc.yaml").write_text("device: film.avi\n")
+    came = []
+    with made(body, WallClock()) as camera:
+        wait_for(lambda: came.extend(camera.read()) or came)
+    assert (came[0].width, came[0].height) == (64, 48)
+
+
+def test_a_film_of_huge_pictures_is_refused_before_one_is_decoded(body):
+    film(body.with_name("film.avi"), 4096, 2048)
+    body.with_name("uvc.yaml").write_text("device: film.avi\n")
+    assert "megapixels" in failure_of(made(body, SimulatedClock()))
+
+
+def test_a_device_that_hangs_holds_nobody_up_and_is_opened_no_second_time():
+    answers, opened, clock = threading.Event(), [], SimulatedClock()
+
+    def opens():
+        opened.append(1)
+        answers.wait()
+        raise DriverError("it was never there")
+
+    settings = Settings(device="/dev/video9")
+    camera = UvcCamera(settings, ROBOT.sensors.camera, clock, opens=opens)
+    try:
+        with camera:
+            assert not camera.read()
+            clock.set(OPENING_S + 0.1)
+            with pytest.raises(DriverError, match="does not answer"):
+                camera.read()
+        with pytest.raises(DriverError, match="does not answer"):
+            camera.__enter__()
+        assert opened == [1]
+    finally:
+        answers.set()
 
 
 def test_settings_that_cannot_be_meant_are_refused(body):
@@ -124,11 +252,7 @@ def test_settings_that_cannot_be_meant_are_refused(body):
         made(body, SimulatedClock())
 
 
-def test_without_opencv_the_error_says_what_to_install(body, monkeypatch):
+def test_without_opencv_the_error_says_what_to_install(body, own, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "cv2", None)
-    body.with_name("uvc.yaml").write_text("device: /dev/video0\n")
-    with (
-        pytest.raises(DriverError, match=r"humanoid-executive\[vision\]"),
-        made(body, SimulatedClock()),
-    ):
-        pass
+    body.with_name("uvc.yaml").write_text("device: /dev/video987\n")
+    assert "humanoid-executive[vision]" in failure_of(made(body, SimulatedClock()))

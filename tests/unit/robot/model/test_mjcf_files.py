@@ -142,6 +142,14 @@ def test_a_document_type_is_refused(robot):
         mjcf.spec(source(robot, entity + with_asset("<mesh file='&x;'/>")))
 
 
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_no_encoding_hides_a_document_type(robot, encoding):
+    path = robot / "hidden.xml"
+    path.write_bytes("<!DOCTYPE mujoco [<!ENTITY x 'y'>]><mujoco/>".encode(encoding))
+    with pytest.raises(mjcf_files.ET.ParseError, match="XML forbids"):
+        mjcf_files.read(path)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

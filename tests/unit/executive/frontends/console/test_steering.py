@@ -14,7 +14,7 @@ import pytest
 from executive.frontends.console import steering as steerings
 from executive.frontends.console.desk import FILE, SOCKET, Order, Place
 from executive.frontends.console.steering import Steering
-from robot.bringup import mailbox
+from robot.bringup import flags, mailbox
 from tests.fakes.waiting import HANG_S
 
 STOP = Order(do="stop")
@@ -58,6 +58,7 @@ def folders(tmp_path):
     run, private = tmp_path / "run", tmp_path / "private"
     run.mkdir()
     private.mkdir(mode=0o700)
+    flags.make(private)
     return run, private
 
 
@@ -99,7 +100,7 @@ def test_a_stop_between_two_executives_is_left_and_said_again(folders, order):
             assert steered.reaches
             take_over(private)
             assert steered.send(order)
-            await until(lambda: mailbox.take_stop(private))
+            await until(lambda: flags.find(private).take_stop())
             async with Executive(run, private) as second:
                 await until(lambda: second.told)
                 assert second.told == [order]
@@ -142,7 +143,7 @@ def test_what_was_answered_is_not_said_again_and_other_orders_never_are(folders)
                 assert steered.send(Order(line="nod"))
                 await until(lambda: second.told)
                 assert second.told == [Order(line="nod")]
-            assert not mailbox.take_stop(private)
+            assert not flags.find(private).take_stop()
 
     asyncio.run(pressed())
 

@@ -15,7 +15,7 @@ from executive.frontends.service import place as places
 from executive.frontends.service.attach import RemoteShell
 from executive.frontends.service.counter import Counter
 from executive.frontends.service.place import Running, claimed
-from robot.bringup import mailbox
+from robot.bringup import flags, mailbox
 from robot.errors import ConfigError
 from robot.exit_status import ExitStatus
 from tests.fakes.steered import Log, Told
@@ -38,6 +38,7 @@ def died_once(home):
     """The private folder of a robot whose first executive is gone."""
     private = home / "private"
     private.mkdir()
+    flags.make(private)
     front = mailbox.Front(entry="service", options={}, deaths=1)
     mailbox.save(private / mailbox.FRONT_FILE, front)
     return private
@@ -58,14 +59,14 @@ def test_a_stop_is_left_for_an_executive_that_takes_over_and_said_to_it(home):
             target=lambda: done.append(clients.press(place, "stop", lambda _: None).status)
         )
         pressing.start()
-        assert eventually(lambda: mailbox.take_stop(private))
-        mailbox._touch(private / mailbox.hears_file(1))  # the next one hears people itself
-        mailbox.take_stop(private)
+        assert eventually(lambda: flags.find(private).take_stop())
+        flags.find(private).say_it_hears(1)  # the next one hears people itself
+        flags.find(private).take_stop()
         told = Told()
         with counter(told, place, private):
             pressing.join()
         assert (done, told.did) == ([ExitStatus.DONE], ["stop"])
-        assert not mailbox.take_stop(private)  # nothing is left that would stop a later one
+        assert not flags.find(private).take_stop()  # nothing is left that would stop a later one
 
 
 def test_other_buttons_are_not_left_for_anybody(home):
@@ -78,7 +79,7 @@ def test_other_buttons_are_not_left_for_anybody(home):
         with counter(told, place, private):
             pressing.join()
         assert told.did == ["resume"]
-        assert not mailbox.take_stop(private)
+        assert not flags.find(private).take_stop()
 
 
 def test_a_stop_without_a_name_stops_all(capsys):
@@ -228,8 +229,8 @@ def test_a_cry_that_is_said_is_left_for_an_executive_that_takes_over(home):
             target=lambda: commands.say_line("kitchen", "Stop!", wait=False, as_json=True)
         )
         saying.start()
-        assert eventually(lambda: mailbox.take_stop(private))
-        mailbox._touch(private / mailbox.hears_file(1))
+        assert eventually(lambda: flags.find(private).take_stop())
+        flags.find(private).say_it_hears(1)
         with counter(Told(), place, private):
             saying.join()
 

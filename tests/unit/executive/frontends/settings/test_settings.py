@@ -49,7 +49,9 @@ def test_a_command_takes_what_it_has_options_for(user):
     assert defaults.of("walk") == {"robot": "juno"}
     assert defaults.of("view") == {"world": "flat", "robot": "juno", "seed": 3}
     assert defaults.of("replay") == {}
-    assert set().union(*APPLIES.values()) == TALK == set(User.__struct_fields__) - {"hooks"}
+    assert (
+        set().union(*APPLIES.values()) == TALK == set(User.__struct_fields__) - {"hooks", "devices"}
+    )
 
 
 @pytest.mark.parametrize(
@@ -166,7 +168,9 @@ def test_every_value_says_where_it_comes_from(config, user, monkeypatch):
     }
     assert found["seed"]["value"] == 4
     assert found["model"]["value"] == "/of/environment.toml"
-    assert set(found) == set(configs.KEYS) | {f"hooks.{one}" for one in Hooks.__struct_fields__}
+    assert set(found) == {*configs.KEYS, "devices"} | {
+        f"hooks.{one}" for one in Hooks.__struct_fields__
+    }
 
 
 def test_a_file_is_the_default_of_an_option_and_the_option_comes_first(user, monkeypatch, capsys):

@@ -223,6 +223,38 @@ def test_a_urdf_that_is_none_is_refused(tmp_path, text):
         urdf_chains.load(path)
 
 
+def chain(links: int) -> str:
+    joints = "".join(
+        f"<joint name='j{n}' type='fixed'><parent link='l{n}'/><child link='l{n + 1}'/></joint>"
+        for n in range(links - 1)
+    )
+    return "<robot>" + "".join(f"<link name='l{n}'/>" for n in range(links)) + joints + "</robot>"
+
+
+def test_a_chain_that_no_robot_has_is_refused_before_it_is_followed(tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_text(chain(urdf_chains.MOST_DEEP + 1))
+    assert urdf_chains.load(path).links
+    path.write_text(chain(urdf_chains.MOST_DEEP + 2))
+    with pytest.raises(ConfigError, match="hangs on more than"):
+        urdf_chains.load(path)
+    path.write_text("<robot>" + "<link name='a'/>" * 9 + chain(urdf_chains.MOST_LINKS + 1)[7:])
+    with pytest.raises(ConfigError, match="more than 2000 links"):
+        urdf_chains.load(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp037"])
+def test_no_encoding_hides_a_document_type(tmp_path, encoding):
+    path = tmp_path / "robot.urdf"
+    text = f"<?xml version='1.0' encoding='{encoding}'?><!DOCTYPE robot [<!ENTITY a 'b'>]>"
+    path.write_bytes((text + "<robot><link name='&a;'/></robot>").encode(encoding))
+    with pytest.raises(ConfigError, match=r"UTF-8|XML|document type"):
+        urdf_chains.load(path)
+    path.write_text("<?xml version='1.0' encoding='utf-7'?>+ADw-robot><link name='a'/></robot>")
+    with pytest.raises(ConfigError, match="no XML"):
+        urdf_chains.load(path)
+
+
 def test_soles_and_imu_may_be_told(tmp_path, chains):
     fields = legged_logs.standing(samples=60)
     soles = ("left_foot", "right_foot")

@@ -11,7 +11,7 @@ from robot.errors import ConfigError
 from robot.perception.calibration.board import read_board
 from robot.perception.calibration.camera_info import camera_info
 from robot.perception.calibration.intrinsics import Camera, calibrate
-from robot.perception.pictures import pictures_in
+from robot.pictures import pictures_in
 
 pytest.importorskip("cv2")
 from tests.fakes.boards import KnownCamera, views

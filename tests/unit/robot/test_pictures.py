@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from robot.errors import ConfigError
-from robot.perception.pictures import read_colour, read_grey
+from robot.pictures import read_colour, read_grey
 
 
 @pytest.fixture
@@ -21,6 +21,18 @@ def tiff(tmp_path):
 def test_a_sound_picture_is_read(tiff):
     assert read_colour(tiff).shape == (24, 24, 3)
     assert read_grey(tiff).shape == (24, 24)
+
+
+def test_a_jpeg_of_thousands_of_scans_is_refused_before_they_are_decoded(tmp_path):
+    """Each scan goes over all of the picture: 280 kB of them take 15 s."""
+    path = tmp_path / "scans.jpg"
+    Image.new("L", (1000, 1000)).save(path, progressive=True)
+    assert read_grey(path).shape == (1000, 1000)
+    data = path.read_bytes()
+    last = data[data.rfind(b"\xff\xda") : -2]
+    path.write_bytes(data[:-2] + last * 600 + data[-2:])
+    with pytest.raises(ConfigError, match="scans"):
+        read_grey(path)
 
 
 def test_a_broken_tiff_is_told_of_once(tiff, capfd):

@@ -21,6 +21,10 @@ FORMATS = ("JPEG", "PNG", "BMP", "PPM", "TIFF", "WEBP")
 ENDINGS = frozenset({".jpg", ".jpeg", ".png", ".bmp", ".pgm", ".ppm", ".tif", ".tiff", ".webp"})
 MOST_BYTES, MOST_PIXELS = 100_000_000, 50_000_000
 MOST_PICTURES = 2000
+MOST_SCANNED = 10 * MOST_PIXELS
+"""Pixels of a JPEG times its scans, each of which is decoded over the one before."""
+_SCAN = b"\xff\xda"
+"""Begins one (ITU-T T.81, table B.1); in what is packed, ff is followed by 00."""
 
 
 def read_grey(path: Path) -> Picture:
@@ -32,13 +36,13 @@ def read_grey(path: Path) -> Picture:
     return _read(path, "L")
 
 
-def read_colour(path: Path) -> Picture:
+def read_colour(path: Path, *, most_pixels: int = MOST_PIXELS) -> Picture:
     """A picture in red, green and blue, shape (height, width, 3).
 
     Raises:
         ConfigError: it cannot be read, is no picture, or too large.
     """
-    return _read(path, "RGB")
+    return _read(path, "RGB", most_pixels)
 
 
 def pictures_in(place: Path) -> list[Path]:
@@ -61,7 +65,7 @@ def pictures_in(place: Path) -> list[Path]:
     return found
 
 
-def _read(path: Path, mode: str) -> Picture:
+def _read(path: Path, mode: str, most_pixels: int = MOST_PIXELS) -> Picture:
     try:
         data = read_ordinary(path, limit=MOST_BYTES)
     except OSError as error:
@@ -73,7 +77,9 @@ def _read(path: Path, mode: str) -> Picture:
             # libtiff writes what it finds wrong by itself.
             muted() if image.format == "TIFF" else nullcontext(),
         ):
-            return _decoded(path, image, mode)
+            if image.width * image.height * data.count(_SCAN) > MOST_SCANNED:
+                raise _wrong(path, f"it has {data.count(_SCAN)} scans", "save it anew, as PNG")
+            return _decoded(path, image, mode, most_pixels)
     except UnidentifiedImageError:
         raise _wrong(path, "this is no picture", f"known are {', '.join(FORMATS)}") from None
     except ConfigError:
@@ -82,9 +88,9 @@ def _read(path: Path, mode: str) -> Picture:
         raise _wrong(path, "this picture is broken", "take it anew, or leave it out") from None
 
 
-def _decoded(path: Path, image: Image.Image, mode: str) -> Picture:
-    if image.width * image.height > MOST_PIXELS:
-        raise _wrong(path, f"more than {MOST_PIXELS / 1e6:g} megapixels are too many")
+def _decoded(path: Path, image: Image.Image, mode: str, most_pixels: int) -> Picture:
+    if image.width * image.height > most_pixels:
+        raise _wrong(path, f"more than {most_pixels / 1e6:g} megapixels are too many")
     if image.mode.startswith("I;16"):  # 16 bits of grey: Pillow would cut them off at 255
         image = Image.fromarray((np.asarray(image) >> 8).astype(np.uint8))
     return np.asarray(image.convert(mode))
