@@ -28,7 +28,7 @@ from robot.drivers.motors.can.mit11 import (
     read_register,
     register_reply,
 )
-from robot.drivers.motors.can.ports import Heard, Ports, PythonCan
+from robot.drivers.motors.can.ports import Heard, Ports, PythonCan, check_buses
 from robot.drivers.motors.can.verdicts import Finding, verdicts
 from robot.errors import ConfigError, Problem
 from robot.model import description
@@ -157,9 +157,11 @@ def load_map(path: Path, channels: Mapping[str, str] | None = None, *, by: str =
 
     Raises:
         ConfigError: with everything that is wrong in it.
+        DriverError: the user does not let robots open one of its buses.
     """
     found = joint_map.load(path)
     if channels is None:
+        check_buses(found.buses)
         return found
     buses = {name: Bus(channel=channels[name], interface=by) for name in found.buses}
     return msgspec.structs.replace(found, buses=buses)

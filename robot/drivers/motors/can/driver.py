@@ -20,7 +20,7 @@ from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.limiter import Limiter, Measured
 from robot.drivers.motors.can.mit11 import ENABLED, Target
-from robot.drivers.motors.can.ports import Ports, PythonCan
+from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
 from robot.drivers.motors.can.speed_check import SpeedCheck
@@ -38,9 +38,11 @@ def make(wiring: Wiring) -> MotorBus:
 
     Raises:
         ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
+        DriverError: the user does not let robots open one of its buses.
     """
     found = joint_map.load(wiring.robot.path().with_name(joint_map.FILE))
     joints = joint_map.of_robot(found, wiring.robot.motor_names)
+    check_buses(joints.buses)
     return CanMotors(joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock))
 
 

@@ -36,6 +36,9 @@ Rate: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=2000, extra={"unit": "Hz"
 Watchdog: TypeAlias = Annotated[float, msgspec.Meta(ge=0.005, le=1.0, extra={"unit": "s"})]
 
 
+SOCKETCAN = "socketcan"
+
+
 class Bus(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A CAN bus as python-can opens it.
 
@@ -46,8 +49,13 @@ class Bus(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     """
 
     channel: q.Line
-    interface: q.Line = "socketcan"
+    interface: q.Line = SOCKETCAN
     bitrate_hz: Bitrate = BITRATE_HZ
+
+    @property
+    def device(self) -> str:
+        """What a user calls it who lets robots open it: can0; slcan:/dev/ttyACM0."""
+        return self.channel if self.interface == SOCKETCAN else f"{self.interface}:{self.channel}"
 
 
 class MotorRanges(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

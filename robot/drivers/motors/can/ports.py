@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol, Self
 
 import can
 
+from robot import users_own
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motors.can.frames import Frame
@@ -27,6 +28,16 @@ class Heard(NamedTuple):
 
     bus: str
     frame: Frame | None
+
+
+def check_buses(buses: Mapping[str, Bus]) -> None:
+    """Whether the user lets robots open these: a joint map may be a stranger's, as a robot may.
+
+    Raises:
+        DriverError: the first that the user's own configuration does not name, with the cure.
+    """
+    for bus in buses.values():
+        users_own.check_device(bus.device)
 
 
 class Ports(Closing, Protocol):

@@ -116,6 +116,17 @@ def test_a_bus_that_is_not_there_is_an_error_with_the_command_that_sets_it_up():
     assert "ip link set nocan7 up type can bitrate 1000000" in str(result.exception)
 
 
+@pytest.mark.parametrize("command", ["scan", "read", "check", "watch"])
+def test_a_bus_of_a_map_is_opened_only_if_the_user_lets_robots_open_it(file, command, monkeypatch):
+    """A map may be a stranger's: it could name any interface, that of another machine too."""
+    monkeypatch.setattr("can.Bus", lambda **_: pytest.fail("it was opened"))
+    file.write_text(ARM.replace("channel: can0", "channel: tcp.example, interface: socketcand"))
+    assert "interface: socketcand" in file.read_text()
+    result = motors(command, "--map", file)
+    assert isinstance(result.exception, DriverError)
+    assert 'devices = ["socketcand:tcp.example"]' in str(result.exception)
+
+
 def test_the_map_that_is_shipped_is_for_every_motor_of_juno():
     from robot.drivers.motors.can import joint_map
     from robot.model import description
