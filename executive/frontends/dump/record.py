@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from select import select
 from typing import BinaryIO
 
 import robot
@@ -106,7 +106,7 @@ def _started(folder: Path, path: Path) -> subprocess.Popen[bytes]:
     try:
         return subprocess.Popen(
             [sys.executable, "-P", "-m", MODULE, str(folder), str(path), str(os.getpid())],
-            stdin=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,  # its end is the end of the run, however early that comes
             stdout=log,
             stderr=log,
             process_group=0,  # Ctrl-C is for the robot
@@ -118,7 +118,8 @@ def _started(folder: Path, path: Path) -> subprocess.Popen[bytes]:
 
 def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
     """Let it write what is left, and the index."""
-    process.send_signal(signal.SIGTERM)
+    if process.stdin is not None:
+        process.stdin.close()
     try:
         with Screen(err=True).status(f"finishing {path.name}"):
             failed = process.wait(FINISH_S)
@@ -153,14 +154,18 @@ def _follow(
 
 
 def main(folder: str, path: str, parent_pid: str) -> None:
-    """Record until the parent asks to end, or is gone: what it wrote is whole then, too."""
+    """Record until standard input ends, or the parent is gone: what it wrote is whole then, too."""
     stop = Stop()
+
+    def is_over() -> bool:
+        return bool(stop) or os.getppid() != int(parent_pid) or bool(select([0], [], [], 0)[0])
+
     os.nice(10)
     with _opened(Path(path)) as file:
         _follow(
             Path(folder),
             file,
-            is_over=lambda: bool(stop) or os.getppid() != int(parent_pid),
+            is_over=is_over,
             tell=lambda _: None,
         )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -19,7 +20,11 @@ LOOK_EVERY_S = 0.25
 
 
 class Recording:
-    """A file that a run is written to as far as it has come."""
+    """A file that a run is written to as far as it has come.
+
+    Attributes:
+        last_s: the robot's time up to which movements were written [s]; -inf before the first.
+    """
 
     def __init__(self, folder: Path, file: BinaryIO) -> None:
         """Read nothing yet; the file is written once it is known where the run is.
@@ -35,7 +40,7 @@ class Recording:
             folder / journal.FILE, longest=journal.MAX_LINE, most=journal.MOST_BYTES
         )
         self._motion = Tail(folder / motion.FILE, longest=motion.MAX_LINE, most=motion.MOST_BYTES)
-        self.last_s = 0.0
+        self.last_s = -math.inf
 
     def take(self) -> bool:
         """Write what has come since; whether there may be more at once."""
@@ -52,7 +57,9 @@ class Recording:
         moves = self._motion.lines()
         for line in moves:
             moment = motion.decode(line)
-            if moment is not None and self.last_s < moment.t_s < journal.MOST_S:
+            if moment is None or abs(moment.t_s) >= journal.MOST_S:
+                continue
+            if moment.t_s > self.last_s:
                 self.last_s = moment.t_s
                 writer.moment(moment)
         self._file.flush()
@@ -98,7 +105,7 @@ def follow(
         while True:
             over = is_over()  # before what is left is read: nothing comes after it
             while recording.take():
-                tell(recording.last_s)
+                tell(max(0.0, recording.last_s))
             if over:
                 return
             time.sleep(LOOK_EVERY_S)

@@ -116,6 +116,14 @@ def test_a_recorder_whose_parent_is_gone_ends_with_a_whole_file(folder):
     assert sum(topic == "/base_pose" for topic, _, _ in messages(path.read_bytes())) == len(MOVES)
 
 
+def test_a_run_that_is_over_before_its_recorder_is_up_is_recorded_whole(folder):
+    with record.recorded(folder, wanted=True):
+        grow(folder, journal.FILE, b"".join(LINES))
+        grow(folder, motion.FILE, b"".join(MOVES))
+    data = (folder / "recorded.mcap").read_bytes()
+    assert sum(topic == "/base_pose" for topic, _, _ in messages(data)) == len(MOVES)
+
+
 def test_a_file_that_is_there_is_never_written_over(folder):
     grow(folder, journal.FILE, b"".join(LINES))
     taken = folder / "mine.mcap"
