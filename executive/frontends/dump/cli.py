@@ -7,6 +7,10 @@ from typing import Annotated
 
 import typer
 
+RunName = Annotated[
+    str | None,
+    typer.Argument(help="A run's folder or a part of its name (default: the newest)."),
+]
 FormatName = Annotated[
     str,
     typer.Option(
@@ -33,10 +37,7 @@ def register(app: typer.Typer) -> None:
 
 
 def dump(
-    run: Annotated[
-        str | None,
-        typer.Argument(help="A run's folder or a part of its name (default: the newest)."),
-    ] = None,
+    run: RunName = None,
     *,
     kind: FormatName = "html",
     at: Annotated[
@@ -81,10 +82,7 @@ def dump(
 
 
 def record(
-    run: Annotated[
-        str | None,
-        typer.Argument(help="A run's folder or a part of its name (default: the newest)."),
-    ] = None,
+    run: RunName = None,
     *,
     output: Annotated[
         Path | None,

@@ -7,6 +7,7 @@ Stamps are the wall clock's where the run began, and the robot's own time from t
 
 from __future__ import annotations
 
+import errno
 import io
 from collections.abc import Iterable, Iterator
 from typing import Any, BinaryIO
@@ -115,8 +116,11 @@ class Writer:
             self._looks(scene, begin_s)
 
     def close(self) -> None:
-        """Write what is left, and the index."""
-        self._mcap.close()
+        """Write what is left, and the index. Raises OSError if the file takes no more."""
+        try:
+            self._mcap.close()
+        except RuntimeError as error:  # Foxglove's, once a write has failed
+            raise OSError(errno.EIO, "the disk is full, or takes no more of it") from error
 
     # --- once ---
 

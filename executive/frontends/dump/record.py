@@ -132,13 +132,14 @@ def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
 
 @contextmanager
 def _opened(path: Path) -> Generator[BinaryIO]:
+    """A new file. Raises ConfigError if it cannot be made, or the disk takes no more of it."""
     try:
-        file = path.open("xb")
+        with path.open("xb") as file:
+            yield file
     except OSError as error:
         text = f"cannot be written: {error.strerror}"
-        raise ConfigError([Problem(text, str(path), suggestion="name a file with -o")]) from None
-    with file:
-        yield file
+        cure = "make room there, or name a file with -o"
+        raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None
 
 
 def _follow(
@@ -161,13 +162,11 @@ def main(folder: str, path: str, parent_pid: str) -> None:
         return bool(stop) or os.getppid() != int(parent_pid) or bool(select([0], [], [], 0)[0])
 
     os.nice(10)
-    with _opened(Path(path)) as file:
-        _follow(
-            Path(folder),
-            file,
-            is_over=is_over,
-            tell=lambda _: None,
-        )
+    try:
+        with _opened(Path(path)) as file:
+            _follow(Path(folder), file, is_over=is_over, tell=lambda _: None)
+    except ConfigError as error:  # the log is for people
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

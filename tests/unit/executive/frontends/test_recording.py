@@ -135,6 +135,16 @@ def test_a_file_that_is_there_is_never_written_over(folder):
     assert taken.read_bytes() == b"precious"
 
 
+def test_a_full_disk_is_said(folder):
+    grow(folder, journal.FILE, b"".join(LINES))
+    grow(folder, motion.FILE, b"".join(MOVES))
+    command = f"ulimit -f 1; exec {sys.executable} -m executive record {folder} -o {folder}/x.mcap"
+    ran = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert "x.mcap: cannot be written" in ran.stderr
+    assert "Traceback" not in ran.stderr
+
+
 def test_a_run_that_went_on_is_recorded_beside_what_was_recorded_before(folder):
     grow(folder, journal.FILE, b"".join(LINES))
     assert record.record(str(folder), None) == 0
