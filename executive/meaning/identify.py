@@ -138,6 +138,10 @@ class Scene:
         except CannotMean:
             return []
 
+    def believed_at(self, info: ObjectInfo) -> str:
+        """The name of the surface that a thing is believed to be on; empty if on none."""
+        return next((entity.at for entity in self._entities if entity.id == info.id), "")
+
     def take(self, object_id: str) -> None:
         """The goals so far have put this object into a hand.
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
+from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
@@ -61,7 +62,7 @@ class Checked(msgspec.Struct, frozen=True, kw_only=True, eq=False):
         values: of the parameters.
         faults: what goes wrong on purpose.
         files: the mission's own and those that it calls.
-        notes: words that are misspelt, and what they were taken for.
+        notes: words that are misspelt, and what they were taken for; faults of no step of it.
     """
 
     mission: Mission
@@ -150,7 +151,7 @@ def _check(
         values=values,
         faults=plans,
         files=(mission.path, *compiler.calls.files),
-        notes=names.notes,
+        notes=(*names.notes, *_idle_faults(mission, task, plans)),
     )
 
 
@@ -248,6 +249,19 @@ def _faults(mission: Mission, where: Setting, problems: Problems) -> tuple[Fault
     """What goes wrong on purpose, each fault checked against the world and the robot."""
     plans = [_fault(node, where, problems) for node in mission.record.faults]  # pyright: ignore[reportArgumentType]
     return tuple(plan for plan in plans if plan is not None)
+
+
+def _idle_faults(mission: Mission, task: Part, plans: tuple[FaultPlan, ...]) -> Iterator[Problem]:
+    """Faults whose step is none of the mission's: they strike at a recovery's, or never."""
+    if len(plans) < len(mission.record.faults):
+        return
+    names = {name for path, part in walk(task) for name in (path, part.name)}
+    for node, plan in zip(mission.record.faults, plans, strict=True):
+        if plan.step and not any(fnmatchcase(name, plan.step) for name in names):
+            text = f"no step of this mission is called {plan.step!r}"
+            cure = "it strikes only at a step of a recovery that is; the plan shows all names"
+            where = cast("Node", node).get("step") or cast("Node", node)
+            yield where.problem(text, cure)
 
 
 def _fault(node: Node, where: Setting, problems: Problems) -> FaultPlan | None:

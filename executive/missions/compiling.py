@@ -374,7 +374,7 @@ class Compiler:
                 found.append(Bound(type="place", value=text))
             elif self.names.is_person(text):
                 found.append(Bound(type="person", value=text))
-            elif self.names.object(item, self.problems) is not None:
+            elif self.names.member(item, self.problems) is not None:
                 found.append(Bound(type="object", value=text))
         return found
 

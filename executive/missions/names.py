@@ -57,6 +57,10 @@ class Names:
         """The description of an object (or of several)."""
         return self._look_up("object", self._object, node, problems)
 
+    def member(self, node: Node, problems: Problems) -> goals.ObjectQuery | None:
+        """An object of a list in which places and people may stand, too."""
+        return self._look_up("member", self._member, node, problems)
+
     def place(self, node: Node, problems: Problems) -> str | None:
         """The name of a place."""
         return self._look_up("place", self._place, node, problems)
@@ -119,6 +123,24 @@ class Names:
         return found  # pyright: ignore[reportReturnType]
 
     def _object(self, text: str) -> goals.ObjectQuery:
+        found = self._described(text)
+        if found is None:
+            raise Wrong(
+                f"there is no object {text!r} in this world", _nearest(text, self._things())
+            )
+        return found
+
+    def _member(self, text: str) -> goals.ObjectQuery:
+        found = self._described(text)
+        if found is None:
+            world = self.knowledge.map
+            names = {*self._things(), *(one.name for one in (*world.places, *world.people))}
+            what = f"there is no thing, place or person {text!r} in this world"
+            raise Wrong(what, _nearest(text, sorted(names)))
+        return found
+
+    def _described(self, text: str) -> goals.ObjectQuery | None:
+        """The description of an object, or None if no thing of this world is called so."""
         wanted = " ".join(text.split())
         if wanted.casefold() in ("it", "them"):
             return IT
@@ -135,8 +157,10 @@ class Names:
                 return goal.object
         if isinstance(outcome, Question):
             raise Wrong(f"{text!r} is not clear", outcome.question)
-        names = [info.full_name.removeprefix("the ") for info in self.knowledge.map.objects]
-        raise Wrong(f"there is no object {text!r} in this world", _nearest(wanted, names))
+        return None
+
+    def _things(self) -> list[str]:
+        return [info.full_name.removeprefix("the ") for info in self.knowledge.map.objects]
 
     def _place(self, text: str) -> str:
         wanted = " ".join(text.split()).removeprefix("the ")

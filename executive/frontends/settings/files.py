@@ -180,9 +180,15 @@ class Settings:
             data = cast("dict[str, object]", plain_data.from_toml(text))
         except ValueError as error:
             raise ConfigError([Problem(str(error), str(path))]) from None
-        if kind is Project:
-            _refuse_what_is_the_users(data, path)
-        fitted = plain_data.fitted(data, kind, path)
+        refused = _what_is_the_users(data, path) if kind is Project else {}
+        problems = list(refused.values())
+        try:
+            of_here = {key: value for key, value in data.items() if key not in refused}
+            fitted = plain_data.fitted(of_here, kind, path)
+        except ConfigError as error:
+            raise ConfigError([*problems, *error.problems]) from None
+        if problems:
+            raise ConfigError(problems)
         set_here = {
             name: getattr(fitted, name)
             for name in fitted.__struct_fields__
@@ -197,17 +203,13 @@ class Settings:
         }
 
 
-def _refuse_what_is_the_users(data: dict[str, object], path: Path) -> None:
-    """Say that a folder's file may not set what only the user's own may. Raises ConfigError."""
+def _what_is_the_users(data: dict[str, object], path: Path) -> dict[str, Problem]:
+    """The keys of a folder's file that only the user's own file may set, each as what is wrong."""
     own = set(User.__struct_fields__) - set(Project.__struct_fields__)
+    cure = f"set it in {keys.path().with_name('config.toml')}, which is your own"
+    text = "may not be set by a folder's file"
     wrong = sorted(own & data.keys())
-    if wrong:
-        cure = f"set it in {keys.path().with_name('config.toml')}, which is your own"
-        problems = [
-            Problem(f"{name} may not be set by a folder's file", str(path), suggestion=cure)
-            for name in wrong
-        ]
-        raise ConfigError(problems)
+    return {key: Problem(f"{key} {text}", str(path), suggestion=cure) for key in wrong}
 
 
 def _located(name: str, value: Any, path: Path) -> Any:

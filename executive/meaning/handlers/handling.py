@@ -61,10 +61,34 @@ def place(goal: goals.Place, scene: Scene) -> Part:
         return _put(info, query, target, scene, inside=inside, part=goal.part)
 
     if not many(query):
-        return one(scene.object(query))
+        info = scene.object(query)
+        if target is None or goal.relation is not None or goal.part is not None:
+            return one(info)
+        return _unless_there(info, target, scene, one)
     if target is None or goal.part is not None:
         return several(scene.objects(query), "put several things", one)
     return put_several(query, target, scene, one)
+
+
+def _unless_there(
+    info: ObjectInfo, target: str, scene: Scene, one: Callable[[ObjectInfo], Part]
+) -> Part:
+    """Put a thing on a place, unless it is there: that is asked again when its turn comes."""
+    there = places_at(target, scene, near=False)
+    at = scene.believed_at(info)
+    maybe = info.id not in scene.held and at in {place.name for place in there}
+    work = one(info)
+    if not maybe:
+        return work
+    name = info.full_name
+    text = f"{name[:1].upper()}{name[1:]} is on the {at} already."
+    tell = Errand(name=f"say that {name} is there", params=SayParams(text=text))
+    return Branch(
+        name=f"is {name} there already",
+        question=answers.is_there(frozenset({info.id}), there),
+        then=tell,
+        otherwise=work,
+    )
 
 
 def put_several(

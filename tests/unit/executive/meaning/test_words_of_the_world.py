@@ -9,6 +9,7 @@ import pytest
 
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.request import Refused, Setting, Understood, meant, request
+from executive.meaning.robot_state import state_of
 from executive.skills.give import GiveParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
@@ -350,6 +351,33 @@ def test_a_room_with_furniture_is_a_place_to_put_things():
     *_, last = errands(understood("bring the red mug to the kitchen").task)
     assert isinstance(last.params, PlaceParams)
     assert last.params.place_id in ("counter", "table")
+
+
+def put_where(believed: Blackboard) -> Part:
+    """What "put the red mug on the table" means when that is believed."""
+    goal = goals.Place(object=goals.ObjectQuery(name="red"), on="table")
+    state = state_of(believed, WHERE.knowledge)
+    held = tuple(believed.read(HELD).values())
+    found = meant("put the red mug on the table", (goal,), WHERE, held=held, state=state)
+    assert isinstance(found, Understood), found
+    return found.task
+
+
+def test_what_is_believed_to_be_there_already_is_left_there_and_told():
+    (branch,) = (
+        part for _, part in walk(put_where(board(red=(0.2, 0.1)))) if isinstance(part, Branch)
+    )
+    assert branch.question(board(red=(0.2, 0.1)))
+    (tell,) = errands(branch.then)
+    assert isinstance(tell.params, SayParams)
+    assert tell.params.text == "The red mug is on the table already."
+    assert not branch.question(board(red=(0.2, 2.5)))
+    assert [type(one.params) for one in errands(branch.otherwise)] == [PickParams, PlaceParams]
+
+
+@pytest.mark.parametrize("believed", [board(red=(0.2, 2.5)), board(left="red"), board()])
+def test_what_is_elsewhere_or_in_the_hand_is_put_without_a_question(believed):
+    assert not [part for _, part in walk(put_where(believed)) if isinstance(part, Branch)]
 
 
 # --- the end ------------------------------------------------------------------------------------

@@ -631,6 +631,27 @@ def test_everything_wrong_in_faults_is_said_at_its_line_in_our_words(write):
         assert "$" not in said
 
 
+def test_a_fault_at_a_step_that_the_mission_does_not_have_is_told(write):
+    told = {"go to*": 0, "g? to the table": 0, "1": 0, "walk*": 1, "nonsense": 1}
+    for pattern, times in told.items():
+        more = f'faults:\n  - {{step: "{pattern}", fault: kill_executive}}\n'
+        found = [
+            note.message for note in check(write(mission("  - go to the table\n", more))).notes
+        ]
+        assert found == [f"no step of this mission is called {pattern!r}"] * times
+
+
+def test_who_is_no_person_place_or_thing_of_a_list_is_looked_for_among_all_three(write):
+    steps = """  - for_each: who
+    in: [anna, bob, table, red cup]
+    do:
+      - look_at: "{{who}}"
+"""
+    (found,) = problems(write(mission(steps)))
+    assert "no thing, place or person 'bob'" in found
+    assert "anna" in found
+
+
 @pytest.mark.parametrize(
     ("steps", "words"),
     [

@@ -64,6 +64,13 @@ def test_what_is_run_or_sent_somewhere_is_the_users_alone(user, key):
         Defaults(Settings()).of("do")
 
 
+def test_what_a_folders_file_may_not_set_hides_nothing_else_that_is_wrong(user):
+    Path("humanoid.toml").write_text('seed = "x"\n[hooks]\ndone = 3\n')
+    with pytest.raises(ConfigError) as refused:
+        Defaults(Settings()).of("do")
+    assert [problem.message.split()[0] for problem in refused.value.problems] == ["hooks", "seed"]
+
+
 @pytest.mark.parametrize(
     "path",
     ["../secret.yaml", "/etc/x.yaml", "~/x.yaml", "link/x.yaml", "/etc/x.yaml/", "../x.yml/."],
