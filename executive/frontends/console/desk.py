@@ -28,7 +28,8 @@ from robot.printable import printable_line
 FILE = "desk.json"
 """In the folder of a run: where its desk is."""
 SOCKET = "desk.sock"
-MOST_CLIENTS = 8
+MOST_CLIENTS = 16
+"""A console is two: what it hands on, and stops."""
 MOST_LINES = 50
 """Lines that may wait; who types faster is told."""
 MAX_LINE = 1 << 14
@@ -193,6 +194,9 @@ class Desk(Closing):
         shell, stops = self._shell, self._shell.stops
         stopped = shell.stop_at_once(text)  # first of all, of the whole of it
         text = text[:MAX_LINE]
+        if not stopped and self._waiting >= MOST_LINES:
+            shell.out("Too many lines at once: that one is left out.")
+            return
         self._server.tell(_news(you=text))
         self._printer(f"(page) > {printable_line(text)}")
         if stopped:
@@ -201,11 +205,12 @@ class Desk(Closing):
             shell.out("That is for the terminal; the page is just closed.")
             return
         shell.halt_at_once(text)
-        if self._waiting >= MOST_LINES:
-            shell.out("Too many lines at once: that one is left out.")
-            return
         self._waiting += 1
-        self._worker.submit(self._line, text, stops)
+        try:
+            self._worker.submit(self._line, text, stops)
+        except RuntimeError:  # the run is over
+            if not self._closing.is_set():
+                raise
 
     def _line(self, text: str, stops: int) -> None:
         try:

@@ -27,6 +27,7 @@ from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.console.desk import Order
 from executive.frontends.console.door import TOKEN_S, Door
 from executive.frontends.console.following import Following
+from executive.frontends.console.pace import Pace
 from executive.frontends.console.page import page
 from executive.frontends.console.peer import Peers
 from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
@@ -45,6 +46,7 @@ BATCH = 1000
 MOST_PAGES = 16
 MAX_MESSAGE = 1 << 16
 NOBODY = "Nobody takes orders from this page: no robot is at work here."
+TOO_MUCH = "Too much at once: until this page sends less, only a stop is heeded."
 BACKLOG = 16
 """Connections taken at a time: what comes at once costs no more files than that."""
 
@@ -222,9 +224,10 @@ class PageServer:
                 await connection.close(1013, "too many pages")
                 return
             self._pages += 1
-            telling = asyncio.create_task(Viewer(self, connection).tell())
+            viewer = Viewer(self, connection)
+            telling = asyncio.create_task(viewer.tell())
             try:
-                await self._hear(connection)
+                await self._hear(connection, viewer)
             finally:
                 telling.cancel()
                 self._pages -= 1
@@ -241,27 +244,33 @@ class PageServer:
         await connection.send(_json({"proof": own}), text=True)
         return True
 
-    async def _hear(self, connection: ServerConnection) -> None:
+    async def _hear(self, connection: ServerConnection, viewer: Viewer) -> None:
+        pace = Pace()
         async for message in connection:
             wish = _wish(message)
             if wish is None:
                 continue
-            if wish.do or wish.line:
-                order = Order(do=wish.do, line=wish.line)
-                if self.show is None or not self.show.steering.send(order):
-                    await connection.send(_json({"word": {"out": NOBODY}}), text=True)
-            elif self.show is not None:
-                at = None if wish.at is None else self.show.following.run
-                if at is not None and wish.at is not None:
-                    then = {"then": {"t_s": wish.at, **told(at, wish.at)}}
-                    await connection.send(_json(then), text=True)
+            if not (wish.do or wish.line):
+                viewer.looks_at_s = wish.at
+                continue
+            order = Order(do=wish.do, line=wish.line)
+            if not pace.heeds(order, asyncio.get_running_loop().time()):
+                if pace.refused == 1:
+                    await connection.send(_json({"word": {"out": TOO_MUCH}}), text=True)
+            elif self.show is None or not self.show.steering.send(order):
+                await connection.send(_json({"word": {"out": NOBODY}}), text=True)
 
 
 class Viewer:
-    """What one page has been told."""
+    """What one page has been told.
+
+    Attributes:
+        looks_at_s: when it wants to look at, once; the last that it wished. None: it was told.
+    """
 
     def __init__(self, console: PageServer, connection: ServerConnection) -> None:
         """Nothing yet."""
+        self.looks_at_s: float | None = None
         self._console = console
         self._connection = connection
         self._show: Show | None = None
@@ -295,6 +304,10 @@ class Viewer:
                     await self._connection.send(message, text=True)
                 for word in self._said(show.steering):
                     await self._connection.send(word, text=True)
+                if self.looks_at_s is not None:
+                    at_s, self.looks_at_s = self.looks_at_s, None
+                    then = {"t_s": at_s, **told(show.following.run, at_s)}
+                    await self._connection.send(_json({"then": then}), text=True)
                 more = self._scene and self._moments < len(show.following.moments)
             if not more:
                 await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))

@@ -18,12 +18,11 @@ from pathlib import Path
 import msgspec
 
 from executive.frontends.console.desk import FILE, Order, Place
-from intents.stopping import is_stop
+from executive.frontends.console.pace import is_cry
 from robot.bringup import mailbox
 from robot.ordinary_files import read_secret
 
 AGAIN_S = 0.3
-CRIES = ("stop", "estop")
 TAKE_OVER_S = 60.0
 """So long a stop waits for an executive that takes over."""
 MAX_ANSWER = 1 << 20
@@ -32,7 +31,7 @@ MOST_WORDS = 300
 
 
 class Steering:
-    """A connection to the desk of a run, as long as there is one.
+    """A connection to the desk of a run, as long as there is one, and one for stops alone.
 
     Attributes:
         words: what was said and answered, as JSON.
@@ -48,6 +47,7 @@ class Steering:
         self.asks = b""
         self._folder = folder
         self._writer: asyncio.StreamWriter | None = None
+        self._cries: asyncio.StreamWriter | None = None
         self._private: Path | None = None
         self._cry: tuple[float, Order] | None = None
 
@@ -66,12 +66,14 @@ class Steering:
 
     def send(self, order: Order) -> bool:
         """Hand on an order at once; whether there is anybody to take it, now or soon."""
-        cried = order.do in CRIES or is_stop(order.line)
+        cried = is_cry(order)
         if cried and self.reaches:
             self._cry = (time.monotonic(), order)
         if self._writer is None or not self.open:
             return self._cried_again()
-        self._writer.write(msgspec.json.encode(order) + b"\n")
+        past = self._cries if cried else None  # all that was said before may take its time
+        writer = self._writer if past is None or past.is_closing() else past
+        writer.write(msgspec.json.encode(order) + b"\n")
         return True
 
     def _cried_again(self) -> bool:
@@ -89,7 +91,7 @@ class Steering:
         while True:
             with suppress(OSError, ValueError, asyncio.IncompleteReadError):
                 await self._converse()
-            self._writer = None
+            self._writer = self._cries = None
             self._cried_again()
             await asyncio.sleep(AGAIN_S)
 
@@ -98,6 +100,8 @@ class Steering:
         if path is None:
             return
         reader, writer = await asyncio.open_unix_connection(path, limit=MAX_ANSWER)
+        unheard, self._cries = await asyncio.open_unix_connection(path)
+        emptying = asyncio.create_task(_empty(unheard, self._cries))
         self._writer = writer
         self._private = Path(path).parent
         if self._cry is not None:
@@ -106,6 +110,8 @@ class Steering:
             while line := await reader.readline():
                 self._take(line.strip())
         finally:
+            emptying.cancel()
+            self._cries.close()
             writer.close()
 
     def _take(self, line: bytes) -> None:
@@ -123,6 +129,14 @@ class Steering:
     def first(self) -> int:
         """Number of the oldest word that is kept."""
         return self.count - len(self.words)
+
+
+async def _empty(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    """Read, and forget, what is told on a connection that is only spoken on, until it ends."""
+    with suppress(OSError):
+        while await reader.read(MAX_ANSWER):
+            pass
+    writer.close()
 
 
 def _place(folder: Path) -> str | None:

@@ -16,9 +16,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from executive.frontends.console.address import HOST
 from executive.frontends.console.door import MOST_OTHERS, MOST_OWN
+from executive.frontends.console.pace import BURST
 from executive.frontends.console.page import page
 from executive.frontends.console.proof import CONSOLE, PAGE, proof
-from executive.frontends.console.server import BATCH, MOST_PAGES, PageServer
+from executive.frontends.console.server import BATCH, MOST_PAGES, NOBODY, TOO_MUCH, PageServer
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from tests.fakes.waiting import HANG_S
@@ -292,3 +293,25 @@ def test_files_that_are_short_are_told_of_once(tmp_path, capsys):
 
     asyncio.run(play())
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_page_that_sends_too_much_is_told_so_once_and_is_shown_the_newest(tmp_path):
+    run = a_run(tmp_path / "run", moments=20)
+
+    async def visited():
+        async with served(lambda: run) as console, Visitor(console) as page:
+            await page.until("scene", count=20)
+            for _ in range(BURST + 50):
+                await page.say(line="what are you doing")
+            for at_s in (0.1, 0.2, 0.3, 0.4):
+                await page.say(at=at_s)
+            words, looks = [], []
+            async with asyncio.timeout(HANG_S):
+                while not looks or looks[-1] != 0.4:
+                    news = json.loads(await page.socket.recv())
+                    words += [news["word"]["out"]] if "word" in news else []
+                    looks += [news["then"]["t_s"]] if "then" in news else []
+            assert words == [NOBODY] * BURST + [TOO_MUCH] + [NOBODY] * (len(words) - BURST - 1)
+            assert looks == sorted(looks)
+
+    asyncio.run(visited())

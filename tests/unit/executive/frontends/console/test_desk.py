@@ -185,6 +185,15 @@ def test_a_desk_that_is_closed_leaves_nothing(told, folder):
     assert not (folder / FILE).exists() and not [*private.iterdir()]
 
 
+def test_a_line_that_comes_as_the_run_ends_is_no_mistake(told, folder):
+    private = folder / "private"
+    private.mkdir()
+    with Desk(told, folder=folder, private=private) as desk:
+        pass
+    desk._take("wave")
+    assert not any("mistake" in line for line in told.said)
+
+
 def test_the_desk_of_an_executive_that_died_is_taken_over(told, folder):
     private = folder / "private"
     private.mkdir()

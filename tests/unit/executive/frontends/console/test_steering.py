@@ -43,8 +43,8 @@ class Executive:
         self._writers.append(writer)
         while line := await reader.readline():
             self.told.append(msgspec.json.decode(line, type=Order))
-            if self.answers:
-                writer.write(b'{"out":"Stopping."}\n')
+            for one in self._writers if self.answers else ():  # all are told, as by a desk
+                one.write(b'{"out":"Stopping."}\n')
 
     async def __aexit__(self, *_):
         """Die: what lies in the folders stays there."""
@@ -160,5 +160,31 @@ def test_where_no_robot_is_a_stop_is_not_taken(folders):
             await until(lambda: not steered.open)
             assert not steered.reaches
             assert not steered.send(STOP)
+
+    asyncio.run(pressed())
+
+
+def test_a_stop_passes_all_that_was_said_before(folders):
+    """A desk that works off what one tab said hears another one's STOP at once."""
+    run, private = folders
+
+    class Slow(Executive):
+        async def _serve(self, reader, writer):
+            self._writers.append(writer)
+            while line := await reader.readline():
+                order = msgspec.json.decode(line, type=Order)
+                self.told.append(order)
+                if order.line:
+                    await asyncio.Event().wait()  # for ever at work on it
+
+    async def pressed():
+        async with Slow(run, private) as executive, steering(run) as steered:
+            await until(lambda: steered.open)
+            for _ in range(100):
+                assert steered.send(Order(line="walk to the table"))
+            await until(lambda: executive.told)
+            assert steered.send(STOP)
+            await until(lambda: STOP in executive.told)
+            assert len(executive.told) == 2
 
     asyncio.run(pressed())
