@@ -104,7 +104,7 @@ def carry_out(
             summary = _work_off(
                 prepared, shown, handle, attend=lambda session: steered(session, handle, out)
             )
-        say_how_it_ended(summary, as_json=options.as_json)
+            say_how_it_ended(summary, as_json=options.as_json)  # before what is still written
         speech.finish()
     return summary.exit_status
 

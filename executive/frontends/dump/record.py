@@ -14,16 +14,19 @@ from typing import BinaryIO
 
 import robot
 from executive.frontends.dump.export import check_installed
+from executive.frontends.ending import PATIENCE_S, Ending
 from executive.frontends.new_files import records_of, refuse_inputs, refuse_taken
 from executive.frontends.output import Screen, say
 from executive.journal import journal, past_runs
 from robot.bus.lifeline import Stop
+from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.ordinary_files import make_below, open_to_append
 
 MODULE = "executive.frontends.dump.record"
 NAME = "recorded"
+POLL_S = 0.02
 FINISH_S = 120.0
 """What a recording may take to catch up with a fast run, and to write its index."""
 
@@ -117,15 +120,22 @@ def _started(folder: Path, path: Path) -> subprocess.Popen[bytes]:
 
 
 def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
-    """Let it write what is left, and the index."""
+    """Let it write what is left, and the index; who does not want to wait leaves it to it."""
     if process.stdin is not None:
         process.stdin.close()
-    try:
-        with Screen(err=True).status(f"finishing {path.name}"):
-            failed = process.wait(FINISH_S)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        failed = process.wait()
+    clock = WallClock()
+    begun_s = clock.now_s()
+    with Ending(clock) as ending, Screen(err=True).status(f"finishing {path.name}"):
+        while (failed := process.poll()) is None:
+            waited_s = clock.now_s() - begun_s
+            if waited_s > FINISH_S:
+                process.kill()
+            elif (
+                ending.asked and waited_s > PATIENCE_S
+            ):  # before, it is the wish that ended the run
+                say(f"The recording is finished in the background: {path}", err=True)
+                return
+            clock.sleep_until(clock.now_s() + POLL_S)
     if failed:
         say(f"The recording is not whole: {path.parent / 'logs' / 'record.log'} says why", err=True)
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import io
+import os
+import signal
 import subprocess
 import sys
+import threading
 
 import msgspec
 import pytest
@@ -15,6 +18,7 @@ from executive.frontends.dump.recording import Recording, follow
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from robot.errors import ConfigError
+from tests.fakes.waiting import HANG_S
 
 CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
 EVENTS = [
@@ -122,6 +126,27 @@ def test_a_run_that_is_over_before_its_recorder_is_up_is_recorded_whole(folder):
         grow(folder, motion.FILE, b"".join(MOVES))
     data = (folder / "recorded.mcap").read_bytes()
     assert sum(topic == "/base_pose" for topic, _, _ in messages(data)) == len(MOVES)
+
+
+def test_the_wish_that_ended_a_run_comes_again_and_its_recording_is_waited_for(folder, capsys):
+    """The launcher passes on, a moment later, the Ctrl-C that the executive has heard."""
+    code = "import os,signal,sys; sys.stdin.read(); os.kill(os.getppid(), signal.SIGTERM)"
+    process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE)
+    record._finish(process, folder / "recorded.mcap")
+    assert process.poll() == 0
+    assert "background" not in capsys.readouterr().err
+
+
+def test_who_does_not_want_to_wait_for_a_recording_leaves_it_behind(folder, capsys, monkeypatch):
+    monkeypatch.setattr(record, "PATIENCE_S", 0.0)
+    process = subprocess.Popen(["sleep", str(HANG_S)], stdin=subprocess.PIPE)
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+    try:
+        record._finish(process, folder / "recorded.mcap")
+        assert process.poll() is None
+    finally:
+        process.kill()
+    assert f"finished in the background: {folder}" in capsys.readouterr().err.replace("\n", "")
 
 
 def test_a_file_that_is_there_is_never_written_over(folder):
