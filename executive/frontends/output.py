@@ -22,6 +22,7 @@ from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 from rich.text import Text
 
+from executive.frontends.streams import Lasting
 from robot.printable import printable, printable_data, printable_json
 
 PIPE_WIDTH = 160
@@ -67,6 +68,9 @@ def write_json(value: object) -> None:
 
 def write_data(data: bytes) -> None:
     """Write the bytes of a file whose maker has seen to it that a terminal can be shown them."""
+    if isinstance(sys.stdout, Lasting):
+        sys.stdout.write_data(data)
+        return
     sys.stdout.flush()
     sys.stdout.buffer.write(data)
     sys.stdout.flush()

@@ -38,6 +38,15 @@ class Lasting(io.TextIOWrapper):
             self._lost(error)
             return len(text)
 
+    def write_data(self, data: bytes) -> None:
+        """Write bytes after the text so far, or as much as can be."""
+        self.flush()
+        try:
+            self.buffer.write(data)
+            self.buffer.flush()
+        except OSError as error:
+            self._lost(error)
+
     def flush(self) -> None:
         """Pass on what was written."""
         try:

@@ -116,6 +116,18 @@ def as_parquet(table: Table) -> bytes:
         for column, value in zip(columns, row, strict=True):
             column.append(value)
     file = io.BytesIO()
-    made = pyarrow.table(dict(zip(table.columns, columns, strict=True)))
+    made = pyarrow.table(
+        {name: _typed(column) for name, column in zip(table.columns, columns, strict=True)}
+    )
     pyarrow.parquet.write_table(made, file)
     return file.getvalue()
+
+
+def _typed(column: list[Any]) -> Any:
+    """A column as pyarrow takes it; one of several types, as a journal may not be, is text."""
+    import pyarrow
+
+    try:
+        return pyarrow.array(column)
+    except (pyarrow.ArrowException, OverflowError, ValueError, TypeError):
+        return pyarrow.array([None if value is None else str(value) for value in column])

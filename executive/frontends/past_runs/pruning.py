@@ -8,7 +8,7 @@ import stat
 import sys
 import time
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import islice
 from pathlib import Path
 
@@ -81,16 +81,23 @@ def removed(folder: Path) -> bool:
     with _held(folder) as free:
         if not free:
             return False
-        shutil.rmtree(folder, ignore_errors=True)
+        with suppress(RecursionError):  # nested as no run is
+            shutil.rmtree(folder, ignore_errors=True)
     return not os.path.lexists(folder)
 
 
 def size_bytes(folder: Path) -> int:
     """How much room a run takes."""
-    total = 0
-    for path in islice(folder.rglob("*"), MOST_FILES):
+    total, left, folders = 0, MOST_FILES, [folder]
+    while folders and left > 0:
         try:
-            total += path.lstat().st_size
+            with os.scandir(folders.pop()) as entries:
+                for entry in islice(entries, left):
+                    left -= 1
+                    found = entry.stat(follow_symlinks=False)
+                    total += found.st_size
+                    if stat.S_ISDIR(found.st_mode):
+                        folders.append(Path(entry.path))
         except OSError:
             continue
     return total

@@ -16,6 +16,7 @@ from robot.fusion.slam import building, map_file, picture, recording
 from robot.fusion.slam.recording import Recording
 from robot.fusion.slam.relocalising import Relocaliser
 from robot.ordinary_files import write_ordinary
+from robot.printable import printable_line
 from robot.se3 import Array
 
 SAID_EVERY_S = 5.0
@@ -86,7 +87,8 @@ def show(path: Path, *, snapshot: Path | None, as_json: bool) -> int:
     say(f"{width_m:.1f} x {depth_m:.1f} m in cells of {100 * cell_m:g} cm, {free_m2:.0f} m² free")
     say(f"{len(saved.trajectory)} sweeps along {length_m:.1f} m, {len(saved.keys)} key frames")
     for name, (x, y, heading) in saved.places.items():
-        say(f"{name}: x {x:.2f} m, y {y:.2f} m, heading {np.degrees(heading):.0f} degrees")
+        at = f"x {x:.2f} m, y {y:.2f} m, heading {np.degrees(heading):.0f} degrees"
+        say(f"{printable_line(name)}: {at}")
     if snapshot is not None:
         say(f"Done: {snapshot}")
     return ExitStatus.DONE

@@ -73,14 +73,14 @@ class Raster:
         """Draw points (n, 2) [m]."""
         self.cell_m = cell_m
         self.reach_m = reach_m
-        middle = np.median(points, axis=0)
-        near = points[np.all(np.abs(points - middle) < 0.5 * largest_m, axis=1)]
+        near = _together(points, 0.5 * largest_m)
+        spread = near if len(near) else np.zeros((1, 2))
         # Whatever point of a scan, wherever it is moved to within reach, has a cell: those that are
         # farther out than the empty margin of the map are taken to stand at its edge.
         self._reach = int(np.ceil(reach_m / cell_m)) + 1
         margin = 2 * self._reach + 2**levels + 1
-        low = np.floor(near.min(axis=0) / cell_m).astype(np.int64) - margin
-        high = np.floor(near.max(axis=0) / cell_m).astype(np.int64) + margin + 1
+        low = np.floor(spread.min(axis=0) / cell_m).astype(np.int64) - margin
+        high = np.floor(spread.max(axis=0) / cell_m).astype(np.int64) + margin + 1
         self._low = low
         self._size = high - low
         grid = np.zeros((int(self._size[0]), int(self._size[1])), dtype=np.uint8)
@@ -198,6 +198,17 @@ class Raster:
                 self._descend(flat, children, level - 1, reach, best)
             begin += width
             width = min(2 * width, BATCH)
+
+
+def _together(points: Array, within_m: float) -> Array:
+    """The points around their middle; where that is between two heaps, the nearer heap."""
+    if not len(points):
+        return points
+    middle = np.median(points, axis=0)
+    off = np.abs(points - middle).max(axis=1)
+    if off.min() >= within_m:
+        middle = points[np.argmin(off)]
+    return points[np.all(np.abs(points - middle) < within_m, axis=1)]
 
 
 @dataclass

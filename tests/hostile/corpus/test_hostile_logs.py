@@ -151,6 +151,8 @@ ENDING: dict[str, tuple[tuple[str, ...], Make]] = {
     "people-far": (PEOPLE, log(SCANS, scan_ranges_mm=np.full((50, 180), 1e300))),
     "people-many": (PEOPLE, log(SCANS, scan_t=np.arange(500), scan_angle=np.array([0, 6e-4]),
                                 scan_ranges_mm=Zeros(500, 9_990))),
+    "build-far": (BUILD, log(SWEEPS, odom=np.arange(90).reshape(30, 3) * 1e6)),
+    "show-lines": (SHOW, log(MAP, place_names=np.array(["desk\nDone: all is well"]))),
     "show-narrow": (SHOW, log(MAP, grid=np.zeros((25_000, 1), np.uint8))),
     "legged-still": (ESTIMATE, log(LEGGED, t=np.zeros(N))),
     "legged-slow": (ESTIMATE, log(LEGGED, t=np.where(np.arange(N) < 99, 1e-300, 2e-300))),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import itertools
 import os
 
@@ -9,6 +10,7 @@ import msgspec
 import pytest
 
 from executive.frontends.dump.command import Asked, dump
+from executive.frontends.dump.tables import Table, as_parquet
 from executive.frontends.dump.writer import Together, along, attach, parse_formats, parse_on
 from executive.frontends.progress import Silent
 from executive.journal.journal import Journal
@@ -212,3 +214,11 @@ def test_options_of_the_command_line(tmp_path, capsys):
         together.update()
         (tmp_path / "d").rmdir()
     assert "warning" in capsys.readouterr().err
+
+
+def test_a_column_of_several_types_is_written_as_text():
+    pyarrow = pytest.importorskip("pyarrow.parquet", reason="the extra `dev` is not installed")
+    rows = [(True, 1), ("x", 2), (None, 2**70)]
+    table = Table(name="t", columns=("a", "b"), rows=rows)
+    read = pyarrow.read_table(io.BytesIO(as_parquet(table))).to_pydict()
+    assert read == {"a": ["True", "x", None], "b": ["1", "2", str(2**70)]}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,25 @@ def test_the_young_stay_and_so_do_the_newest():
     assert names() == ["run-3", "run-2", "run-1", "run-0"]
     assert prune(older_than_days=1.5) == ExitStatus.DONE
     assert names() == ["run-1", "run-0"]
+
+
+def test_a_run_that_is_nested_as_none_is_keeps_no_other_one(capsys, monkeypatch):
+    """Deeper than a path may be long, and than Python calls itself."""
+    deep = run("deep", days_ago=9)
+    run("b", days_ago=2)
+    top = Path.cwd()
+    monkeypatch.chdir(deep)
+    for _ in range(2500):
+        Path("d").mkdir()
+        os.chdir("d")
+    os.chdir(top)
+    try:
+        assert prune(keep=0, dry_run=True) == ExitStatus.DONE
+        assert prune(keep=0) == ExitStatus.FAILED
+        assert deep.is_dir() and "b" not in names()
+        assert "deep cannot be removed" in capsys.readouterr().err
+    finally:  # pytest could not, either
+        subprocess.run(["rm", "-r", str(deep)], check=True)
 
 
 def test_nothing_goes_unless_it_is_said_which_and_by_whom(monkeypatch):

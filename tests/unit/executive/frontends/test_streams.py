@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from executive.frontends import streams
+from executive.frontends import output, streams
 
 TALK = """
 import sys
@@ -86,6 +86,16 @@ def test_what_a_disk_did_not_take_is_missed_and_what_nobody_reads_is_not(monkeyp
     streams.beside_work()
     assert streams.lost() == (told, False)
     out.detach()
+
+
+def test_a_file_that_nobody_reads_to_its_end_is_no_loss_and_a_full_disk_is_one(monkeypatch):
+    for number, why in ((errno.EPIPE, ""), (errno.ENOSPC, "No space left")):
+        out = streams.Lasting(io.BufferedWriter(Broken(number)), encoding="utf-8")
+        monkeypatch.setattr(sys, "stdout", out)
+        output.write_data(b"x" * 100_000)
+        told, _ = streams.lost()
+        assert why in told if why else not told
+        out.detach()
 
 
 def test_a_stream_that_somebody_put_there_stays(capsys):

@@ -117,3 +117,13 @@ def test_a_person_in_front_of_a_wall_is_left_out():
 def test_beams_without_a_return_are_no_points():
     ranges = np.array([1.0, np.nan, np.inf, 0.0, -1.0, 30.0, 81.83, 1.1, 1.2, 1.3])
     assert len(scan_of(ranges, 0.0, 0.01, range_max_m=30.0).points) == 4
+
+
+def test_points_in_two_heaps_far_apart_are_a_map_of_one_of_them_and_none_of_nothing():
+    heaps = np.array([[0.0, 0.0], [1.0, 0.0], [1e6, 0.0], [1e6 + 1.0, 0.0]])
+    here = np.array([0.0, 0.0, 0.0])
+    for points, least in ((heaps, 0.9), (np.zeros((0, 2)), 0.0)):
+        raster = Raster(points, levels=2, reach_m=1.0)
+        found = raster.search(heaps[:2], here, reach_m=0.5, reach_rad=0.1, step_rad=0.05, least=0.5)
+        assert (found.score if found is not None else 0.0) >= least
+        assert found is not None or not len(points)
