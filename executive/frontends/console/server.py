@@ -41,6 +41,8 @@ PERIOD_S = 0.05
 """Between two messages to a page: as often as the robot thinks."""
 TELL_S = 0.2
 """Between two looks at what happened."""
+LOOK_SHARE = 0.1
+"""Of the time, what looking back for one page may take: others wait for it."""
 BATCH = 1000
 """Moments of a message, of the many of a run that has gone on for a while."""
 MOST_PAGES = 16
@@ -271,6 +273,7 @@ class Viewer:
     def __init__(self, console: PageServer, connection: ServerConnection) -> None:
         """Nothing yet."""
         self.looks_at_s: float | None = None
+        self._looks_again_s = 0.0
         self._console = console
         self._connection = connection
         self._show: Show | None = None
@@ -304,10 +307,12 @@ class Viewer:
                     await self._connection.send(message, text=True)
                 for word in self._said(show.steering):
                     await self._connection.send(word, text=True)
-                if self.looks_at_s is not None:
+                if self.looks_at_s is not None and begun_s >= self._looks_again_s:
                     at_s, self.looks_at_s = self.looks_at_s, None
-                    then = {"t_s": at_s, **told(show.following.run, at_s)}
-                    await self._connection.send(_json({"then": then}), text=True)
+                    then = _json({"then": {"t_s": at_s, **told(show.following.run, at_s)}})
+                    took_s = loop.time() - begun_s
+                    self._looks_again_s = begun_s + took_s / LOOK_SHARE
+                    await self._connection.send(then, text=True)
                 more = self._scene and self._moments < len(show.following.moments)
             if not more:
                 await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))
