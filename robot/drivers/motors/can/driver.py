@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from typing import Self
 
@@ -14,12 +13,13 @@ from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.alarms import Alarms, Level
 from robot.drivers.motors.can.claim import Claim
-from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.limiter import Limiter, Measured
-from robot.drivers.motors.can.mit11 import ENABLED, Target
+from robot.drivers.motors.can.mit11 import ENABLED
+from robot.drivers.motors.can.packed import packed
 from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
@@ -29,7 +29,7 @@ from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
-LOOKS = 4
+LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
 
 
@@ -67,8 +67,8 @@ class CanMotors(Closing):
         self.late = 0
         self._clock, self._opens = clock, ports
         self._motors = list(joints.joints.values())
-        self._turns = _turns(joints)
         self._gearing, self.limiter = Gearing(joints), Limiter(joints)
+        self._refreshes = _refreshes(joints)
         self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
         self.queues = {bus: TransmitQueue(bus) for bus in joints.buses}
         self._ports: Ports | None = None
@@ -101,8 +101,12 @@ class CanMotors(Closing):
             else one.expected
             for name, one in self.joints.joints.items()
         ]  # fmt: skip
-        self._most: Array = np.array(self.ranges).T
-        self.reception = Reception(self.joints, self.ranges)
+        most = np.array(self.ranges).T
+        gains = np.array([(one.family.kp_max, one.family.kd_max) for one in self._motors]).T
+        self._high: Array = np.stack((most[0], most[1], *gains, most[2]))
+        self._low: Array = self._high * [[-1.0], [-1.0], [0.0], [0.0], [-1.0]]
+        self._coding = Coding(self.joints, self.ranges)
+        self.reception = Reception(self.joints, self.ranges, self._coding)
         self._watch = watching.Watch(self.joints, self.alarms)
         self._tick_s = self._clock.now_s() + self.joints.period_s
         for _ in range(watching.SILENT_PERIODS):
@@ -158,12 +162,9 @@ class CanMotors(Closing):
         while True:
             look_s = self._clock.now_s() + self.joints.period_s / LOOKS
             self._clock.sleep_until(min(until_s, look_s))
-            for heard in ports.receive(0.0):
-                now_s = self._clock.now_s()
-                if heard.frame is None:
-                    self._watch.bus_off(heard.bus)
-                else:
-                    self.reception.take(heard.bus, heard.frame, now_s)
+            if came := ports.receive_packed():
+                for bus in self.reception.take(came, self._clock.now_s()):
+                    self._watch.bus_off(bus)
             if any(queue.waiting for queue in self.queues.values()):
                 self._flush(ports)
             if self._clock.now_s() >= until_s:
@@ -182,7 +183,8 @@ class CanMotors(Closing):
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
         status = self._motors[0].family.status
-        let_go = any(status(code).code == watching.LOST for code in set(heard.status))
+        odd = set(heard.status.tolist()) - {ENABLED}
+        let_go = any(status(code).code == watching.LOST for code in odd)
         return MotorState(
             stamp_s=now_s,
             q=q,
@@ -196,10 +198,8 @@ class CanMotors(Closing):
 
     def _ask(self) -> None:
         """Ask every motor for feedback: nobody commanded since the last reading."""
-        for one in self._motors:
-            asking: Asking | None = one.family.asking
-            if asking is not None:
-                self.queues[one.bus].put(one.id, asking.refresh(one.id))
+        for bus, frames in self._refreshes.items():
+            self.queues[bus].put(frames)
         self._flush(self._opened())
 
     # --- write -----------------------------------------------------------------------------------
@@ -220,7 +220,7 @@ class CanMotors(Closing):
         if not self._is_armed:
             arming.arm(ports, self._clock, self.joints, self.ranges)
             self._is_armed = True
-            self.reception.status = [ENABLED] * len(self._motors)
+            self.reception.status[:] = ENABLED
             self._tick_s = self._clock.now_s() + self.joints.period_s
         q, qd, _ = self.reception.at_joints(self._gearing)
         measured = Measured(q, qd, self.reception.temperature_c)
@@ -244,32 +244,21 @@ class CanMotors(Closing):
         return MotorCommand(command.stamp_s, held.q_des, held.qd_des, held.tau_ff, held.kp, held.kd)
 
     def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
-        gearing, most = self._gearing, self._most
-        columns = (
-            np.clip(gearing.motor_q(command.q_des), -most[0], most[0]),
-            np.clip(gearing.motor_qd(command.qd_des), -most[1], most[1]),
-            command.kp / gearing.stiffness,
-            command.kd / gearing.stiffness,
-            np.clip(gearing.motor_tau(command.tau_ff), -most[2], most[2]),
-        )
-        for queue in self.queues.values():
-            queue.forget()
-        rows = list(zip(*(column.tolist() for column in columns), strict=True))
-        frames: list[bytes] = [b""] * len(rows)
-        now_s = self._clock.now_s()
-        for index in self._turns:  # the first of every bus, then the second: all are busy at once
-            one = self._motors[index]
-            frame = one.family.command(one.id, self.ranges[index], Target(*rows[index]))
-            frames[index] = frame.data
-            queue = self.queues[one.bus]
-            queue.put(one.id, frame)
-            queue.flush(ports, now_s)
+        gearing = self._gearing
+        targets = np.stack(
+            (
+                gearing.motor_q(command.q_des), gearing.motor_qd(command.qd_des),
+                command.kp / gearing.stiffness, command.kd / gearing.stiffness,
+                gearing.motor_tau(command.tau_ff),
+            )
+        )  # fmt: skip
+        np.clip(targets, self._low, self._high, out=targets)
+        frames, said = self._coding.commands(targets)
+        for bus, packed_frames in frames.items():
+            self.queues[bus].put(packed_frames)
+        self._flush(ports)
         self._asked = True
-        said = [
-            one.family.target(data, ranges)
-            for one, data, ranges in zip(self._motors, frames, self.ranges, strict=True)
-        ]
-        q, qd, kp, kd, tau = np.array(said).T
+        q, qd, kp, kd, tau = said
         return MotorCommand(
             command.stamp_s, gearing.joint_q(q), gearing.joint_qd(qd), gearing.joint_tau(tau),
             kp * gearing.stiffness, kd * gearing.stiffness,
@@ -286,11 +275,13 @@ class CanMotors(Closing):
         return self._ports
 
 
-def _turns(joints: JointMap) -> list[int]:
-    """Indices of joints: the first of every bus, then the second of every bus, and so on."""
-    on_bus: Counter[str] = Counter()
-    ranks: list[int] = []
-    for one in joints.joints.values():
-        ranks.append(on_bus[one.bus])
-        on_bus[one.bus] += 1
-    return sorted(range(len(ranks)), key=ranks.__getitem__)
+def _refreshes(joints: JointMap) -> dict[str, bytes]:
+    """Packed questions for feedback, by bus, to all motors that can be asked."""
+    return {
+        bus: b"".join(
+            packed(asking.refresh(one.id))
+            for one in joints.on(bus).values()
+            if (asking := one.family.asking) is not None
+        )
+        for bus in joints.buses
+    }

@@ -74,9 +74,9 @@ class Watch:
             late
             or self.speeds.wrong.any()
             or bool(np.fmax.reduce(heard.temperature_c - self._hot_c) > -WARM_K)
-            or any(heard.jumps)
-            or any(heard.doubles)
-            or any(code != ENABLED for code in heard.status)
+            or heard.jumps.any()
+            or heard.doubles.any()
+            or (heard.status != ENABLED).any()
         )
         if odd or self._troubled:
             for index, name in enumerate(self._names):
@@ -88,7 +88,7 @@ class Watch:
         one = self._motors[index]
         alarms = [
             *self._silence(index, name, one, heard, is_armed=is_armed),
-            *self._status(heard.status[index], name, one, is_armed=is_armed),
+            *self._status(int(heard.status[index]), name, one, is_armed=is_armed),
             *self._heat(float(heard.temperature_c[index]), name, one),
         ]
         if self.speeds.wrong[index]:
