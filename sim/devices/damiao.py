@@ -9,11 +9,9 @@ import struct
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
-from sim.devices.shaft import Shaft
+from sim.devices.shaft import LET_GO, Order, Shaft
 from sim.devices.wire import CanFrame, Wire
 
-STEP_S = 0.0005
-"""Of the firmware's loop here; a real one runs at 20 kHz."""
 AMBIENT_C = 25.0
 ANSWERS_AFTER_S = 40e-6
 WATCHDOG_UNIT_S = 50e-6
@@ -45,17 +43,6 @@ class Trouble:
     short: bool = False
     speed_scale: float = 1.0
     status: int | None = None
-
-
-@dataclass
-class Ordered:
-    """The command in force."""
-
-    q_rad: float = 0.0
-    qd_rad_s: float = 0.0
-    kp: float = 0.0
-    kd: float = 0.0
-    tau_nm: float = 0.0
 
 
 @dataclass
@@ -94,7 +81,7 @@ class Damiao:
             15: 0, 20: 10.0, 21: self.position_rad, 22: self.velocity_rad_s, 23: self.torque_nm,
             29: 32.0, 35: 4, 36: 0,
         }  # fmt: skip
-        self._ordered = Ordered()
+        self._ordered = LET_GO
         self._heard_s = self._lived_s = self.wire.now_s
         self._node = self.wire.attach(self.hear)
 
@@ -143,14 +130,14 @@ class Damiao:
     def _obey(self, data: bytes) -> None:
         if data[:7] == b"\xff\xff\xff\xff\xff\xff\xff" and data[7] >= 0xFB:
             if data[7] == 0xFC and self.status == 0 and int(self.registers[10]) == 1:
-                self.status, self._ordered = 1, Ordered()
+                self.status, self._ordered = 1, LET_GO
             elif (data[7] == 0xFD and self.status == 1) or (data[7] == 0xFB and self.status > 1):
                 self.status = 0
             return
         if self.status != 1 or int(self.registers[10]) != 1:
             return
         b = data
-        self._ordered = Ordered(
+        self._ordered = Order(
             q_rad=_real(b[0] << 8 | b[1], -self.registers[21], self.registers[21], 16),
             qd_rad_s=_real(b[2] << 4 | b[3] >> 4, -self.registers[22], self.registers[22], 12),
             kp=_real((b[3] & 0xF) << 8 | b[4], 0.0, KP_LIMIT, 12),
@@ -207,15 +194,15 @@ class Damiao:
 
     def live(self, until_s: float) -> None:
         """Let time go by up to a moment, in whole steps."""
-        span_s = STEP_S
+        span_s = self.shaft.step_s
         while self._lived_s + span_s <= until_s:
             self._lived_s += span_s
             self._watch()
-            self.tau_nm = self._torque() if self.status == 1 else 0.0
+            order = self._ordered if self.status == 1 else LET_GO
+            self.tau_nm = self.shaft.turn(order, self.registers[23], span_s)
             load = abs(self.tau_nm) / self.registers[23]
             cooling = 0.02 * (self.winding_c - AMBIENT_C)
             self.winding_c += span_s * (self.heat_k_s * load * load - cooling)
-            self.shaft.turn(self.tau_nm, span_s)
 
     def _watch(self) -> None:
         """Fall into a fault; also a disabled motor tells of heat and volts."""
@@ -233,12 +220,6 @@ class Damiao:
             found = 0xD
         if found is not None:
             self.status = found
-
-    def _torque(self) -> float:
-        o, most = self._ordered, self.registers[23]
-        shaft = self.shaft
-        wanted = o.kp * (o.q_rad - shaft.q_rad) + o.kd * (o.qd_rad_s - shaft.qd_rad_s) + o.tau_nm
-        return max(-most, min(most, wanted))
 
 
 def _real(steps: int, low: float, high: float, bits: int) -> float:
