@@ -14,6 +14,7 @@ from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.alarms import Alarms, Level
 from robot.drivers.motors.can.claim import Claim
 from robot.drivers.motors.can.coding import Coding
+from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
@@ -40,10 +41,19 @@ def make(wiring: Wiring) -> MotorBus:
         ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
         DriverError: the user does not let robots open one of its buses.
     """
-    found = joint_map.load(wiring.robot.path().with_name(joint_map.FILE))
-    joints = joint_map.of_robot(found, wiring.robot.motor_names)
+    joints = joint_map.beside(wiring.robot)
+    if wiring.emulated is not None:
+        plant = wiring.simulated_plant()
+        joints, time = buses_in(joints, wiring.emulated), PlantClock(plant)
+        return CanMotors(joints, time, ports=lambda: EmulatedBuses(joints, plant, time), tell=print)
     check_buses(joints.buses)
-    return CanMotors(joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock))
+    return CanMotors(
+        joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock), tell=print
+    )
+
+
+def _nobody(_line: str) -> None:
+    """Hear nothing."""
 
 
 class CanMotors(Closing):
@@ -60,11 +70,27 @@ class CanMotors(Closing):
 
     capabilities = MIT_MODE
 
-    def __init__(self, joints: JointMap, clock: Clock, *, ports: Callable[[], Ports]) -> None:
-        """Know the motors; nothing is opened."""
+    def __init__(
+        self,
+        joints: JointMap,
+        clock: Clock,
+        *,
+        ports: Callable[[], Ports],
+        tell: Callable[[str], None] = _nobody,
+    ) -> None:
+        """Know the motors; nothing is opened.
+
+        Args:
+            joints: the map.
+            clock: of its periods.
+            ports: opens its buses.
+            tell: hears a line of every alarm, and at the end how well replies came.
+        """
         self.joints = joints
         self.alarms = Alarms()
         self.late = 0
+        self._tell, self._told = tell, frozenset[str]()
+        self._periods = self._lost_before = 0
         self._clock, self._opens = clock, ports
         self._motors = list(joints.joints.values())
         self._gearing, self.limiter = Gearing(joints), Limiter(joints)
@@ -82,36 +108,51 @@ class CanMotors(Closing):
     def __enter__(self) -> Self:
         """Open the buses, and ask every motor who it is; nothing is enabled.
 
+        While another program commands them nobody is asked: these questions would take the place of
+        its commands. They are then asked before the motors are enabled from here.
+
         Raises:
             DriverError: if a bus cannot be opened, or a motor is not what the map says: with
                 everything that disagrees.
         """
         ports = self._opens()
         ports.__enter__()
+        self.ranges = [one.expected for one in self._motors]
+        self._is_known = False
         try:
-            answers = interview(ports, self._clock, self.joints)
-            if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
-                raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
+            if self._claim.is_free():
+                self._interview(ports)
         except DriverError:
             ports.close()
             raise
-        self._ports = ports
+        self._ports, self._asks = ports, self._is_known
+        self._understand()
+        self._watch = watching.Watch(self.joints, self.alarms)
+        self._tick_s = self._clock.now_s() + self.joints.period_s
+        for _ in range(watching.SILENT_PERIODS):
+            self.read()
+        return self
+
+    def _interview(self, ports: Ports) -> None:
+        """Ask every motor who it is. Raises DriverError with everything that disagrees."""
+        answers = interview(ports, self._clock, self.joints)
+        if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
+            raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
         self.ranges = [
             found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
             else one.expected
             for name, one in self.joints.joints.items()
         ]  # fmt: skip
+        self._is_known = True
+
+    def _understand(self) -> None:
+        """Read and write frames by the ranges that the motors have."""
         most = np.array(self.ranges).T
         gains = np.array([(one.family.kp_max, one.family.kd_max) for one in self._motors]).T
         self._high: Array = np.stack((most[0], most[1], *gains, most[2]))
         self._low: Array = self._high * [[-1.0], [-1.0], [0.0], [0.0], [-1.0]]
         self._coding = Coding(self.joints, self.ranges)
         self.reception = Reception(self.joints, self.ranges, self._coding)
-        self._watch = watching.Watch(self.joints, self.alarms)
-        self._tick_s = self._clock.now_s() + self.joints.period_s
-        for _ in range(watching.SILENT_PERIODS):
-            self.read()
-        return self
 
     def close(self) -> None:
         """Leave the motors damping for themselves, if they are commanded from here, and close."""
@@ -125,11 +166,27 @@ class CanMotors(Closing):
             self._is_armed = False
             self._claim.release()
             ports.close()
+            if self._periods:
+                self._tell(self._summary())
+
+    def _summary(self) -> str:
+        """How well replies came since the motors were enabled."""
+        joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
+        share = lost / (self._periods * joints)
+        return (
+            f"CAN: {joints} joints, {self._periods} periods at {self.joints.rate_hz} Hz, {lost} "
+            f"replies late ({share:.3%}), {self.late} periods late"
+        )
 
     def claim(self) -> bool:
         """Become the one that commands these buses; False while another one does."""
-        self._opened()
-        return self._claim.take()
+        ports = self._opened()
+        if self._claim.is_held:
+            return True
+        if taken := self._claim.take():
+            while ports.receive_packed():  # what nobody read meanwhile is of the past
+                pass
+        return taken
 
     @property
     def speeds(self) -> SpeedCheck:
@@ -174,7 +231,7 @@ class CanMotors(Closing):
         state = self._state()
         if not commands:  # two replies: another program commands, and all hear what it is told
             alone = self.reception.most_replies < 2 if self._asks else self.reception.misses.any()
-            self._asks = bool(alone)
+            self._asks = bool(alone) and self._claim.is_free()
         return state
 
     def _state(self) -> MotorState:
@@ -182,6 +239,9 @@ class CanMotors(Closing):
         heard.end_period()
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
+        self._periods += self._is_armed
+        if self.alarms.on or self._told:
+            self._tell_alarms(now_s)
         status = self._motors[0].family.status
         odd = set(heard.status.tolist()) - {ENABLED}
         let_go = any(status(code).code == watching.LOST for code in odd)
@@ -195,6 +255,13 @@ class CanMotors(Closing):
             watchdog=not self._is_armed or let_go,
             command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
         )
+
+    def _tell_alarms(self, now_s: float) -> None:
+        """Say what is new."""
+        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self.alarms.on}
+        for key in on.keys() - self._told:
+            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
+        self._told = frozenset(on)
 
     def _ask(self) -> None:
         """Ask every motor for feedback: nobody commanded since the last reading."""
@@ -218,8 +285,12 @@ class CanMotors(Closing):
         if not self.claim():
             raise DriverError("another controller commands the motors")
         if not self._is_armed:
+            if not self._is_known:
+                self._interview(ports)
+                self._understand()
             arming.arm(ports, self._clock, self.joints, self.ranges)
             self._is_armed = True
+            self._lost_before, self._periods = self.reception.lost, 0
             self.reception.status[:] = ENABLED
             self._tick_s = self._clock.now_s() + self.joints.period_s
         q, qd, _ = self.reception.at_joints(self._gearing)

@@ -6,6 +6,7 @@ import errno
 import select
 import socket
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple, Protocol, Self
 
 import can
@@ -38,6 +39,11 @@ def check_buses(buses: Mapping[str, Bus]) -> None:
     """
     for bus in buses.values():
         users_own.check_device(bus.device)
+
+
+def socket_path(folder: Path, number: int) -> Path:
+    """Where a simulation listens for its bus of that number, counted from 0."""
+    return folder / f"can{number}"
 
 
 class Ports(Closing, Protocol):
