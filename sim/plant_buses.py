@@ -8,9 +8,9 @@ from pathlib import Path
 from robot.clock import Clock, SimulatedClock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample
+from robot.drivers.motors.can import emulated
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.ports import socket_path
-from robot.errors import ConfigError, Problem
 from sim.devices.damiao import Damiao
 from sim.devices.joint_shafts import JointShafts
 from sim.devices.server import CanServer
@@ -59,7 +59,7 @@ class PlantBuses(Closing):
             ConfigError: a motor is not emulated, or the rate fits no physics.
             OSError: a socket cannot be bound.
         """
-        check(joints)
+        emulated.check(joints)
         self.took = [0] * (BINS + 1)
         self._tell = tell
         self.period_ms = round(1000 * joints.period_s)
@@ -137,21 +137,3 @@ class PlantBuses(Closing):
         """Close the sockets, and say how it went."""
         self._server.close()
         self._tell(self._summary())
-
-
-def check(joints: JointMap) -> None:
-    """Whether such motors can be emulated in a plant.
-
-    Raises:
-        ConfigError: with all that cannot.
-    """
-    problems = [
-        Problem(f"{name}: a {joint.model} is not emulated", joints.file, suggestion="Damiao's are")
-        for name, joint in joints.joints.items()
-        if joint.family.asking is None
-    ]
-    if abs(1000.0 * joints.period_s - round(1000.0 * joints.period_s)) > 1e-6:
-        text = f"{joints.rate_hz} Hz are no whole milliseconds, the steps of the physics"
-        problems.append(Problem(text, joints.file, suggestion="500, 250 or 200"))
-    if problems:
-        raise ConfigError(problems)
