@@ -81,9 +81,10 @@ class Damiao:
             15: 0, 20: 10.0, 21: self.position_rad, 22: self.velocity_rad_s, 23: self.torque_nm,
             29: 32.0, 35: 4, 36: 0,
         }  # fmt: skip
-        self._ordered = LET_GO
+        self._ordered, self._last = LET_GO, b""
         self._heard_s = self._lived_s = self.wire.now_s
         self._node = self.wire.attach(self.hear)
+        self._node.wants = frozenset((self.motor_id, 0x7FF))
 
     def suffer(self, flaw: Flaw) -> None:
         """Have something wrong; what `twin` means is up to who builds the bus."""
@@ -122,27 +123,30 @@ class Damiao:
                 self.live(now_s)
                 self._of_registers(frame.data, now_s)
         else:
-            self.live(now_s)
+            if self._lived_s + self.shaft.step_s <= now_s:
+                self.live(now_s)
             self._heard_s = now_s
             self._obey(frame.data)
             self._answer(self._feedback(), now_s)
 
     def _obey(self, data: bytes) -> None:
+        registers = self.registers
         if data[:7] == b"\xff\xff\xff\xff\xff\xff\xff" and data[7] >= 0xFB:
-            if data[7] == 0xFC and self.status == 0 and int(self.registers[10]) == 1:
-                self.status, self._ordered = 1, LET_GO
+            if data[7] == 0xFC and self.status == 0 and int(registers[10]) == 1:
+                self.status, self._ordered, self._last = 1, LET_GO, b""
             elif (data[7] == 0xFD and self.status == 1) or (data[7] == 0xFB and self.status > 1):
                 self.status = 0
             return
-        if self.status != 1 or int(self.registers[10]) != 1:
+        if self.status != 1 or registers[10] != 1 or data == self._last:
             return
-        b = data
+        b, p, v, t = data, registers[21], registers[22], registers[23]
+        self._last = data
         self._ordered = Order(
-            q_rad=_real(b[0] << 8 | b[1], -self.registers[21], self.registers[21], 16),
-            qd_rad_s=_real(b[2] << 4 | b[3] >> 4, -self.registers[22], self.registers[22], 12),
-            kp=_real((b[3] & 0xF) << 8 | b[4], 0.0, KP_LIMIT, 12),
-            kd=_real(b[5] << 4 | b[6] >> 4, 0.0, KD_LIMIT, 12),
-            tau_nm=_real((b[6] & 0xF) << 8 | b[7], -self.registers[23], self.registers[23], 12),
+            q_rad=(b[0] << 8 | b[1]) * (p + p) / 65535 - p,
+            qd_rad_s=(b[2] << 4 | b[3] >> 4) * (v + v) / 4095 - v,
+            kp=((b[3] & 0xF) << 8 | b[4]) * KP_LIMIT / 4095,
+            kd=(b[5] << 4 | b[6] >> 4) * KD_LIMIT / 4095,
+            tau_nm=((b[6] & 0xF) << 8 | b[7]) * (t + t) / 4095 - t,
         )
 
     def _of_registers(self, data: bytes, now_s: float) -> None:
@@ -157,6 +161,8 @@ class Damiao:
                 (value,) = struct.unpack("<I" if whole else "<f", data[4:])
                 if number != 9 or 9 in self.registers:
                     self.registers[number] = value
+                    self._last = b""
+                    self._node.wants = frozenset((int(self.registers[8]), 0x7FF))
             value = self._register(number)
             whole = number in (7, 8, 9, 10, 13, 14, 15, 16, 35, 36)
             packed = struct.pack("<I", int(value)) if whole else struct.pack("<f", value)
@@ -220,10 +226,6 @@ class Damiao:
             found = 0xD
         if found is not None:
             self.status = found
-
-
-def _real(steps: int, low: float, high: float, bits: int) -> float:
-    return steps * (high - low) / ((1 << bits) - 1) + low
 
 
 def _steps(value: float, most: float, bits: int) -> int:

@@ -33,6 +33,9 @@ from robot.se3 import Array
 LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
 
+SAME_S = 1e-6
+"""Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
+
 
 def make(wiring: Wiring) -> MotorBus:
     """The motors that `can.yaml` beside the description names.
@@ -224,15 +227,28 @@ class CanMotors(Closing):
                     self._watch.bus_off(bus)
             if any(queue.waiting for queue in self.queues.values()):
                 self._flush(ports)
-            if self._clock.now_s() >= until_s:
+            if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
                 break
-        self._tick_s = until_s + self.joints.period_s
+        begun_s = ended_s if ended_s - until_s < SAME_S else until_s
+        self._tick_s = begun_s + self.joints.period_s
         self._asked = False
         state = self._state()
-        if not commands:  # two replies: another program commands, and all hear what it is told
-            alone = self.reception.most_replies < 2 if self._asks else self.reception.misses.any()
-            self._asks = bool(alone) and self._claim.is_free()
+        if not commands:
+            self._asks = self._is_alone()
         return state
+
+    def _is_alone(self) -> bool:
+        """Whether motors tell nothing unless they are asked from here.
+
+        Where another program commands all hear what it is told; asked as well, there are two
+        replies, and the bus gets too full.
+        """
+        heard = self.reception
+        if self._asks:
+            return heard.most_replies < 2
+        if int(heard.misses.min()) >= watching.SILENT_PERIODS:
+            return True
+        return bool(heard.misses.any()) and self._claim.is_free()
 
     def _state(self) -> MotorState:
         now_s, heard = self._clock.now_s(), self.reception

@@ -16,8 +16,8 @@ from robot.errors import ConfigError, Problem
 INTERFACE = "humanoid"
 """Of python-can (`sim.devices.python_can`)."""
 POLL_S = 0.0001
-HAIR_S = 1e-6
-"""A time is over a little after it came: sums of periods are not exact."""
+SAME_S = 1e-6
+"""Sums of periods are not exact."""
 
 
 def check(joints: JointMap) -> None:
@@ -58,11 +58,11 @@ class PlantClock:
 
     def now_s(self) -> float:
         """When its newest period began. Raises DriverError if it went away."""
-        return self._plant.sample.motors.stamp_s + HAIR_S
+        return self._plant.sample.motors.stamp_s
 
     def sleep_until(self, time_s: float) -> None:
         """Wait. Raises DriverError if it went away."""
-        while self.now_s() < time_s:
+        while self.now_s() < time_s - SAME_S:
             self._wall.sleep_until(self._wall.now_s() + POLL_S)
 
 
