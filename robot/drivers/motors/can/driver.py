@@ -33,6 +33,8 @@ from robot.se3 import Array
 LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
 
+STALE_CALLS = 16
+"""More than an interface's receive buffer holds."""
 SAME_S = 1e-6
 """Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
 
@@ -187,8 +189,9 @@ class CanMotors(Closing):
         if self._claim.is_held:
             return True
         if taken := self._claim.take():
-            while ports.receive_packed():  # what nobody read meanwhile is of the past
-                pass
+            for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
+                if not ports.receive_packed():
+                    break
         return taken
 
     @property
@@ -256,7 +259,7 @@ class CanMotors(Closing):
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
         self._periods += self._is_armed
-        if self.alarms.on or self._told:
+        if self._is_armed and (self.alarms.on or self._told):
             self._tell_alarms(now_s)
         status = self._motors[0].family.status
         odd = set(heard.status.tolist()) - {ENABLED}

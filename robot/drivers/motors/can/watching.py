@@ -99,7 +99,7 @@ class Watch:
             text = f"its position jumped, {heard.jumps[index]} times in a row"
             cure = "look at its encoder and its power"
             alarms.append(Alarm("encoder_jump", name, Level.SIT, text, cure, is_latched=True))
-        if heard.doubles[index] >= DOUBLE_PERIODS:
+        if is_armed and heard.doubles[index] >= DOUBLE_PERIODS:  # else others may have commanded
             text = f"more than one motor answers as {one.answers_as} on {one.bus}"
             alarms.append(Alarm("duplicate_id", name, Level.HOLD, text, "give each its own id"))
         for alarm in alarms:
