@@ -33,6 +33,7 @@ class PlantBuses(Closing):
     keeps no watchdog over these motors: each has its own.
 
     Attributes:
+        motors: in the map's order.
         took: in how many periods all commands were there after so many tenths of a millisecond of
             wall time, the last one for whatever took longer; counted while motors are enabled.
     """
@@ -70,17 +71,17 @@ class PlantBuses(Closing):
             name: Wire(bitrate_hz=bus.bitrate_hz, now_s=plant.time_s)
             for name, bus in joints.buses.items()
         }
-        self._motors: list[Damiao] = []
+        self.motors: list[Damiao] = []
         for name, joint in joints.joints.items():
             sold = joint.expected
             motor = Damiao(
                 wires[joint.bus], self._body.shafts[name], joint.id, joint.answers_as,
                 sold.position_rad, sold.velocity_rad_s, sold.torque_nm, heat_k_s=0.0,
             )  # fmt: skip
-            self._motors.append(motor)
+            self.motors.append(motor)
         paths = [socket_path(folder, index) for index in range(len(wires))]
         self._server = CanServer(
-            list(zip(paths, wires.values(), strict=True)), self._motors, self._time
+            list(zip(paths, wires.values(), strict=True)), self.motors, self._time
         )
 
     def period(self, sample: BodySample, *, patience_s: float) -> bool:
@@ -91,9 +92,7 @@ class PlantBuses(Closing):
             patience_s: wall time for which commands are waited for, where motors expect them.
         """
         plant, body = self._plant, self._body
-        for motor, winding_c in zip(
-            self._motors, sample.motors.temperature_c.tolist(), strict=True
-        ):
+        for motor, winding_c in zip(self.motors, sample.motors.temperature_c.tolist(), strict=True):
             motor.winding_c = winding_c
         self._hear(patience_s)
         for part in range(0, self.period_ms, SLICE_MS):
@@ -109,7 +108,7 @@ class PlantBuses(Closing):
 
     def _hear(self, patience_s: float) -> None:
         """Take what was sent; from motors that are enabled on, all of it is waited for."""
-        wanted = sum(motor.status == ENABLED for motor in self._motors)
+        wanted = sum(motor.status == ENABLED for motor in self.motors)
         begun_s, now_s = self._clock.now_s(), self._plant.time_s
         came = self._server.listen(0.0)
         passed_s = 0.0

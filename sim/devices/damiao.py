@@ -14,6 +14,8 @@ from sim.devices.wire import CanFrame, Wire
 
 AMBIENT_C = 25.0
 ANSWERS_AFTER_S = 40e-6
+SAME_S = 1e-9
+"""Sums of steps are not exact."""
 WATCHDOG_UNIT_S = 50e-6
 DRIVER_TRIPS_C = 120.0
 KP_LIMIT, KD_LIMIT = 500.0, 5.0
@@ -123,7 +125,7 @@ class Damiao:
                 self.live(now_s)
                 self._of_registers(frame.data, now_s)
         else:
-            if self._lived_s + self.shaft.step_s <= now_s:
+            if self._lived_s + self.shaft.step_s <= now_s + SAME_S:
                 self.live(now_s)
             self._heard_s = now_s
             self._obey(frame.data)
@@ -201,7 +203,7 @@ class Damiao:
     def live(self, until_s: float) -> None:
         """Let time go by up to a moment, in whole steps."""
         span_s = self.shaft.step_s
-        while self._lived_s + span_s <= until_s:
+        while self._lived_s + span_s <= until_s + SAME_S:
             self._lived_s += span_s
             self._watch()
             order = self._ordered if self.status == 1 else LET_GO

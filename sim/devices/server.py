@@ -21,7 +21,7 @@ SHORTEST_WAIT_S = 0.0001
 """A frame is told so much late at most: to wake up for each of six buses' would take a core."""
 DEAF_FRAMES = 100
 """What a program that does not read misses: so many are not even tried, as that takes time."""
-LIVE_EVERY_S = 0.001
+LIVE_EVERY_S = 0.000999
 """Devices live up to every frame that they hear; in between now and then, too."""
 
 
