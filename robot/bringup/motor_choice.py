@@ -19,8 +19,8 @@ def checked(robot: RobotDescription, driver: str) -> str:
     """
     known = list(MOTORS.drivers)
     if driver not in known:
-        cure = nearest(driver, known) or f"one of {', '.join(known)}"
-        raise ConfigError([Problem(f"motors have no driver {driver!r}", suggestion=cure)])
+        text = f"motors have no driver {driver!r}"
+        raise ConfigError([Problem(text, suggestion=nearest(driver, known))])
     if driver != CAN:
         return ""
     file = robot.path().with_name(joint_map.FILE)
