@@ -48,7 +48,7 @@ def test_a_robot_without_a_joint_map_is_refused(robot, tmp_path):
 
 def test_buses_that_cannot_carry_the_rate_are_refused_with_how_many_can(mapped):
     crowded = mapped("bus: left_hand, model: DM6006, id: 1,", "bus: trunk, model: DM6006, id: 6,")
-    with pytest.raises(ConfigError, match="6 joints at 500 Hz fill it to 81%.*2 buses are needed"):
+    with pytest.raises(ConfigError, match=r"6 joints at 500 Hz fill it to 81%.*2 buses are needed"):
         motor_choice.checked(crowded, "can")
 
 
